@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <new>
 
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/out_of_memory.h"
 #include "io/compressed.h"
 #include "io/file_bytes.h"
 #include "io/output_file.h"
@@ -49,9 +49,8 @@ CadAnswer answer_for(const std::string& path, std::span<const std::string> argum
         return answer;
     } catch (const Error& error) {
         return failed(error.code(), error.what());
-    } catch (const std::bad_alloc&) {
-        return failed(ErrorCode::memory, path + ": Out of memory.");
     } catch (const std::exception& error) {
+        if (is_out_of_memory(error)) return failed(ErrorCode::memory, path + ": Out of memory.");
         return failed(ErrorCode::internal, path + ": " + error.what());
     }
 }

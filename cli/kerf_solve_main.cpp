@@ -4,7 +4,6 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
-#include <new>
 #include <optional>
 
 #include <fmt/format.h>
@@ -18,6 +17,7 @@
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "core/error.h"
+#include "core/out_of_memory.h"
 #include "core/version.h"
 #include "help/number_option.h"
 #include "help/program_help.h"
@@ -235,9 +235,9 @@ int run_solver(int argc, char** argv) {
     } catch (const Error& e) {
         if (ranks.communicator->rank() == 0) tell(fmt::format("kerf: {}\n", e.what()));
         return end_events(static_cast<int>(e.code()), e.what());
-    } catch (const std::bad_alloc&) {
-        return end_all(ErrorCode::memory, "Out of memory. Use more ranks, more hosts, a coarser mesh or order 1.");
     } catch (const std::exception& e) {
+        if (is_out_of_memory(e))
+            return end_all(ErrorCode::memory, "Out of memory. Use more ranks, more hosts, a coarser mesh or order 1.");
         return end_all(ErrorCode::internal, fmt::format("internal error: {}", e.what()));
     }
 }
@@ -254,5 +254,9 @@ int main(int argc, char** argv) {
     } catch (const kerf::Error& e) {
         if (kerf::is_first_rank()) kerf::tell(fmt::format("kerf: {}\n", e.what()));
         return static_cast<int>(e.code());
+    } catch (const std::exception& e) {
+        if (!kerf::is_out_of_memory(e)) throw;
+        kerf::tell("kerf: Out of memory.\n");
+        return static_cast<int>(kerf::ErrorCode::memory);
     }
 }

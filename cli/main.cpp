@@ -11,6 +11,7 @@
 #include "cli/ranks.h"
 #include "cli/terminal.h"
 #include "core/error.h"
+#include "core/out_of_memory.h"
 #include "core/version.h"
 #include "help/program_help.h"
 #include "io/standard_streams.h"
@@ -65,10 +66,11 @@ int main(int argc, char** argv) {
     } catch (const kerf::Error& e) {
         if (kerf::is_first_rank()) kerf::tell_error(e.what());  // all ranks meet it
         return static_cast<int>(e.code());
-    } catch (const std::bad_alloc&) {
-        kerf::tell_error("Out of memory.");
-        return static_cast<int>(kerf::ErrorCode::memory);
     } catch (const std::exception& e) {
+        if (kerf::is_out_of_memory(e)) {
+            kerf::tell_error("Out of memory.");
+            return static_cast<int>(kerf::ErrorCode::memory);
+        }
         kerf::tell_error(fmt::format("internal error: {}", e.what()));
         return static_cast<int>(kerf::ErrorCode::internal);
     }

@@ -13,6 +13,7 @@
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "core/out_of_memory.h"
 #include "core/stopwatch.h"
 #include "parallel/process_memory.h"
 #include "work/part_job.h"
@@ -81,7 +82,8 @@ int main(int argc, char** argv) {
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();
-    } catch (const std::bad_alloc&) {
+    } catch (const std::exception& e) {
+        if (!is_out_of_memory(e)) throw;
         result = out_of_memory();
     }
     result.peak_rss_bytes = own_peak_rss_bytes();

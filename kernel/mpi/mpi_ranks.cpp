@@ -42,6 +42,24 @@ void initialise_mpi() {
                 "with threads, or run kerf without mpirun.");
 }
 
+// Calls pass(data, size) for pieces of the bytes, because MPI counts are 32-bit.
+template <class Array, class Pass>
+void for_pieces(Array& bytes, const Pass& pass) {
+    constexpr std::size_t most = std::size_t{1} << 30;
+    for (std::size_t first = 0; first < bytes.size(); first += most)
+        pass(bytes.data() + first, static_cast<int>(std::min(most, bytes.size() - first)));
+}
+
+template <class Allocate>
+bool has_room_for(const Allocate& allocate) {
+    try {
+        allocate();
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 void check_mpi(int result, const char* call) {
@@ -109,25 +127,79 @@ void MpiRanks::leave(const StageStatus& why) {
 std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
     begin_collective(contribution.size());
     std::vector<Bytes> all;
-    std::int32_t has_room = 1;
-    try {
+    require_room(has_room_for([&] {
         for (const std::uint64_t size : sizes_) all.emplace_back(size);
         all[static_cast<std::size_t>(rank_)] = contribution;
-    } catch (const std::bad_alloc&) {
-        has_room = 0;
-        all.clear();
-    }
-    if (!all_reduce(has_room, Reduction::smallest)) throw std::bad_alloc();
-    for (std::size_t r = 0; r < all.size(); ++r) broadcast(all[r], static_cast<int>(r));
+    }));
+    for (std::size_t r = 0; r < all.size(); ++r) broadcast_bytes(all[r], static_cast<int>(r));
     return all;
 }
 
-// In pieces, because MPI counts are 32-bit.
-void MpiRanks::broadcast(std::span<char> bytes, int root) const {
-    constexpr std::size_t piece = std::size_t{1} << 30;
-    for (; !bytes.empty(); bytes = bytes.subspan(std::min(piece, bytes.size())))
-        check_mpi(MPI_Bcast(bytes.data(), static_cast<int>(std::min(piece, bytes.size())), MPI_BYTE, root, comm_),
-                  "MPI_Bcast");
+// Out of memory on all ranks, if it is on one.
+void MpiRanks::require_room(bool has_room) const {
+    if (!all_reduce(std::int32_t{has_room}, Reduction::smallest)) throw std::bad_alloc();
+}
+
+void MpiRanks::broadcast_bytes(std::span<char> bytes, int root) const {
+    for_pieces(bytes,
+               [&](char* piece, int size) { check_mpi(MPI_Bcast(piece, size, MPI_BYTE, root, comm_), "MPI_Bcast"); });
+}
+
+Bytes MpiRanks::broadcast(Bytes of_root, int root) {
+    begin_collective(of_root.size());
+    require_room(has_room_for([&] {
+        if (rank_ != root) of_root = Bytes(sizes_[static_cast<std::size_t>(root)]);
+    }));
+    broadcast_bytes(of_root, root);
+    return of_root;
+}
+
+std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
+    begin_collective(0);
+    std::vector<std::uint64_t> out, in(to_rank.size());
+    for (const Bytes& bytes : to_rank) out.push_back(bytes.size());
+    check_mpi(MPI_Alltoall(out.data(), 1, MPI_UINT64_T, in.data(), 1, MPI_UINT64_T, comm_), "MPI_Alltoall");
+    std::vector<Bytes> got(to_rank.size());
+    require_room(has_room_for([&] {
+        for (std::size_t r = 0; r < got.size(); ++r) got[r].resize(static_cast<int>(r) == rank_ ? 0 : in[r]);
+    }));
+    got[static_cast<std::size_t>(rank_)] = std::move(to_rank[static_cast<std::size_t>(rank_)]);
+    std::vector<MPI_Request> requests;
+    for (int r = 0; r < size_; ++r) {
+        if (r == rank_) continue;
+        for_pieces(got[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+            check_mpi(MPI_Irecv(piece, size, MPI_BYTE, r, exchange_tag, comm_, &requests.emplace_back()), "MPI_Irecv");
+        });
+        for_pieces(to_rank[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+            check_mpi(MPI_Isend(piece, size, MPI_BYTE, r, exchange_tag, comm_, &requests.emplace_back()), "MPI_Isend");
+        });
+    }
+    check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+    return got;
+}
+
+void MpiRanks::sum(std::span<std::uint64_t> words) {
+    begin_collective(words.size());
+    check_mpi(MPI_Allreduce(MPI_IN_PLACE, words.data(), static_cast<int>(words.size()), MPI_UINT64_T, MPI_SUM, comm_),
+              "MPI_Allreduce");
+}
+
+void MpiRanks::send(int rank, const Bytes& message) {
+    std::uint64_t size = message.size();
+    check_mpi(MPI_Send(&size, 1, MPI_UINT64_T, rank, send_tag, comm_), "MPI_Send");
+    for_pieces(message, [&](const char* piece, int piece_size) {
+        check_mpi(MPI_Send(piece, piece_size, MPI_BYTE, rank, send_tag, comm_), "MPI_Send");
+    });
+}
+
+Bytes MpiRanks::receive(int rank) {
+    std::uint64_t size = 0;
+    check_mpi(MPI_Recv(&size, 1, MPI_UINT64_T, rank, send_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
+    Bytes message(size);
+    for_pieces(message, [&](char* piece, int piece_size) {
+        check_mpi(MPI_Recv(piece, piece_size, MPI_BYTE, rank, send_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
+    });
+    return message;
 }
 
 void MpiRanks::post(int rank, const Bytes& message) {

@@ -56,6 +56,11 @@ class MpiRanks : public Communicator {
     int rank() const override { return rank_; }
     int size() const override { return size_; }
     std::vector<Bytes> all_gather(const Bytes& contribution) override;
+    Bytes broadcast(Bytes of_root, int root) override;
+    std::vector<Bytes> exchange(std::vector<Bytes> to_rank) override;
+    void sum(std::span<std::uint64_t> words) override;
+    void send(int rank, const Bytes& message) override;
+    Bytes receive(int rank) override;
     void post(int rank, const Bytes& message) override;
     std::optional<Bytes> poll() override;
     void drop_messages() override;
@@ -100,10 +105,11 @@ class MpiRanks : public Communicator {
     MPI_Comm handle() const { return comm_; }
 
  private:
-    static constexpr int post_tag = 0, exchange_tag = 1;
+    static constexpr int post_tag = 0, exchange_tag = 1, send_tag = 2;
     static MPI_Op operation_of(Reduction reduction);
     Bytes receive(const MPI_Status& announced) const;
-    void broadcast(std::span<char> bytes, int root) const;
+    void broadcast_bytes(std::span<char> bytes, int root) const;
+    void require_room(bool has_room) const;
     void begin_collective(std::uint64_t own_size);
     struct LastWords;
     void end_together(LastWords& words);

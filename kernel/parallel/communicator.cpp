@@ -1,7 +1,7 @@
 #include "parallel/communicator.h"
+#include "core/out_of_memory.h"
 
 #include <algorithm>
-#include <new>
 
 namespace kerf {
 
@@ -10,9 +10,9 @@ StageStatus status_of_exception() {
         throw;
     } catch (const Error& e) {
         return {static_cast<int>(e.code()), e.what(), e.elements()};
-    } catch (const std::bad_alloc&) {
-        return {static_cast<int>(ErrorCode::memory), "Out of memory. Use more parts, fewer workers or more hosts."};
     } catch (const std::exception& e) {
+        if (is_out_of_memory(e))
+            return {static_cast<int>(ErrorCode::memory), "Out of memory. Use more parts, fewer workers or more hosts."};
         return {static_cast<int>(ErrorCode::internal), e.what()};
     }
 }

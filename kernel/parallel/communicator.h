@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -41,6 +43,18 @@ class Communicator {
     virtual int size() const = 0;
     /// Collective: the contributions of all ranks in the order of ranks, on every rank.
     virtual std::vector<Bytes> all_gather(const Bytes& contribution) = 0;
+    /// Collective: what the rank `root` gives, on every rank; what others give does not matter.
+    virtual Bytes broadcast(Bytes of_root, int root) = 0;
+    /// Collective: to_rank[r] goes to rank r. Returns what each rank has for this one, by rank. Memory and messages of
+    /// a rank follow what it sends and gets, but for eight bytes a rank.
+    virtual std::vector<Bytes> exchange(std::vector<Bytes> to_rank) = 0;
+    /// Collective: each of these words, of which every rank gives as many, becomes its sum over the ranks, modulo 2^64.
+    virtual void sum(std::span<std::uint64_t> words) = 0;
+
+    /// Sends another rank a message of any size, and may wait for receive() to be called there. No collective.
+    virtual void send(int rank, const Bytes& message) = 0;
+    /// Waits for the next message that the other rank sends to this one.
+    virtual Bytes receive(int rank) = 0;
 
     /// Sends a message of a few kilobytes to another rank and does not wait for it to arrive.
     virtual void post(int rank, const Bytes& message) = 0;
@@ -60,6 +74,11 @@ class SingleRank : public Communicator {
     int rank() const override { return 0; }
     int size() const override { return 1; }
     std::vector<Bytes> all_gather(const Bytes& contribution) override { return {contribution}; }
+    Bytes broadcast(Bytes of_root, int) override { return of_root; }
+    std::vector<Bytes> exchange(std::vector<Bytes> to_rank) override { return to_rank; }
+    void sum(std::span<std::uint64_t>) override {}
+    void send(int, const Bytes&) override {}  // there is no other rank
+    Bytes receive(int) override { return {}; }
     void post(int, const Bytes&) override {}  // there is no other rank
     std::optional<Bytes> poll() override { return {}; }
     void drop_messages() override {}

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/host_name.h"
+#include "core/threads.h"
 #include "export/patch_types.h"
 #include "io/program_finder.h"
 #include "io/run_manifest.h"
@@ -95,6 +96,7 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
         RunOptions options = request;
         if (input.is_ready) options.input = input.path;
         options = resolved(std::move(options), cores_of_rank);
+        set_thread_limit(options.workers);  // they have nothing to do yet
         const bool meshes = options.volume && !options.dry_run;
         if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
         if (meshes && !options.transient) plan.worker_hash = describe_file("", options.worker_program).hash;

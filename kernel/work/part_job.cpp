@@ -4,6 +4,7 @@
 
 #include "core/elements.h"
 #include "core/error.h"
+#include "core/out_of_memory.h"
 #include "core/record.h"
 #include "core/stopwatch.h"
 #include "io/checked_file.h"
@@ -149,7 +150,8 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
     } catch (const Error& e) {
         result.code = static_cast<int>(e.code());
         result.message = e.what();
-    } catch (const std::bad_alloc&) {
+    } catch (const std::exception& e) {
+        if (!is_out_of_memory(e)) throw;
         return out_of_memory();
     }
     return result;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/out_of_memory.h"
 #include "io/program_finder.h"
 #include "io/standard_streams.h"
 #include "viewer/app/interruption.h"
@@ -59,10 +60,11 @@ int main(int argc, char** argv) {
     } catch (const kerf::Error& error) {
         kerf::tell(fmt::format("kerf: {}\n", error.what()));
         return static_cast<int>(error.code());
-    } catch (const std::bad_alloc&) {
-        kerf::tell("kerf: out of memory.\n");
-        return static_cast<int>(kerf::ErrorCode::memory);
     } catch (const std::exception& error) {
+        if (kerf::is_out_of_memory(error)) {
+            kerf::tell("kerf: out of memory.\n");
+            return static_cast<int>(kerf::ErrorCode::memory);
+        }
         kerf::tell(fmt::format("kerf: internal error: {}\n", error.what()));
         return static_cast<int>(kerf::ErrorCode::internal);
     }

@@ -1,8 +1,8 @@
 #include "viewer/model/loader.h"
+#include "core/out_of_memory.h"
 
 #include <chrono>
 #include <exception>
-#include <new>
 #include <utility>
 
 namespace kerf::view {
@@ -49,10 +49,8 @@ Loader::Result Loader::perform(Task task) {
     std::string message;
     try {
         return {task.scope, task.work()};
-    } catch (const std::bad_alloc&) {
-        message = "There is not enough memory.";
     } catch (const std::exception& error) {
-        message = error.what();
+        message = is_out_of_memory(error) ? "There is not enough memory." : error.what();
     }
     return {task.scope, [fail = std::move(task.on_failure), message] {
                 if (fail) fail(message);

@@ -1,0 +1,141 @@
+// Loops of one process on several threads, with the same result for any number of them.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace kerf {
+
+namespace detail {
+
+// How many threads may be started beside those that run.
+inline std::atomic<int>& spare_threads() {
+    static std::atomic<int> spare(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1);
+    return spare;
+}
+
+// Takes up to `wanted` threads out of those that are spare, and gives them back.
+class ThreadLease {
+ public:
+    explicit ThreadLease(int wanted) {
+        int spare = spare_threads();
+        while (!spare_threads().compare_exchange_weak(spare, spare - taken_of(spare, wanted))) {
+        }
+        count_ = taken_of(spare, wanted);
+    }
+    ~ThreadLease() { spare_threads() += count_; }
+    ThreadLease(const ThreadLease&) = delete;
+    ThreadLease& operator=(const ThreadLease&) = delete;
+    int count() const { return count_; }
+
+ private:
+    static int taken_of(int spare, int wanted) { return std::clamp(wanted, 0, std::max(0, spare)); }
+    int count_ = 0;
+};
+
+// Numbers that threads take, and the exception of the lowest of them.
+class SharedRanges {
+ public:
+    explicit SharedRanges(std::size_t count) : count_(count) {}
+
+    template <class Work>
+    void work(const Work& work) {
+        for (std::size_t i = next_++; i < count_; i = next_++) {
+            try {
+                work(i);
+            } catch (...) {
+                const std::lock_guard lock(mutex_);
+                if (i < failed_) {
+                    failed_ = i;
+                    exception_ = std::current_exception();
+                }
+                next_ = count_;  // those below have been taken
+            }
+        }
+    }
+    void rethrow() const {
+        if (exception_) std::rethrow_exception(exception_);
+    }
+
+ private:
+    std::size_t count_, failed_ = ~std::size_t{0};
+    std::atomic<std::size_t> next_ = 0;
+    std::mutex mutex_;
+    std::exception_ptr exception_;
+};
+
+}  // namespace detail
+
+/// Lets this process work with so many threads at a time, the one that calls a loop among them. All processors of the
+/// process until this is called. Not while a loop runs.
+inline void set_thread_limit(int threads) { detail::spare_threads() = std::max(1, threads) - 1; }
+
+/// Calls work(i) for each i below `count`, on as many threads as are free, the caller's among them; none of them beside
+/// it where no other is free, or can be had. What work(i) writes must belong to i alone. Of several exceptions that of
+/// the lowest i is thrown; work for higher ones may be left out then. Starting a thread takes some 20 us: an i should
+/// be worth that.
+template <class Work>
+void for_each_on_threads(std::size_t count, const Work& work) {
+    if (count == 0) return;
+    detail::SharedRanges ranges(count);
+    {
+        const detail::ThreadLease lease(static_cast<int>(std::min<std::size_t>(count - 1, 1024)));
+        std::vector<std::jthread> others;
+        try {
+            for (int i = 0; i < lease.count(); ++i) others.emplace_back([&] { ranges.work(work); });
+        } catch (const std::system_error&) {
+            // The system has no more threads for us: those that there are do the work.
+        }
+        ranges.work(work);
+    }
+    ranges.rethrow();
+}
+
+/// A part of [0, count).
+struct IndexRange {
+    std::size_t first = 0, last = 0;
+};
+
+/// Calls work(range) for each of the ranges of `grain` numbers of which [0, count) consists (the last one may be
+/// shorter): they depend on these two numbers alone. Otherwise as above.
+template <class Work>
+void for_ranges_on_threads(std::size_t count, std::size_t grain, const Work& work) {
+    for_each_on_threads((count + grain - 1) / grain, [&](std::size_t i) {
+        work(IndexRange{i * grain, std::min(count, (i + 1) * grain)});
+    });
+}
+
+/// What of_range(range) returns for each of these ranges, in their order: a sum of it does not depend on threads.
+template <class OfRange>
+auto values_of_ranges(std::size_t count, std::size_t grain, const OfRange& of_range) {
+    std::vector<decltype(of_range(IndexRange{}))> values((count + grain - 1) / grain);
+    for_ranges_on_threads(count, grain,
+                          [&](const IndexRange& range) { values[range.first / grain] = of_range(range); });
+    return values;
+}
+
+/// Sorts by an order in which no two items are equal, or look the same where they are. O(n log n), stable nowhere;
+/// memory for a copy of half the items.
+template <class T, class Less = std::less<T>>
+void sort_on_threads(std::vector<T>& items, const Less& less = Less()) {
+    constexpr std::size_t least_of_range = std::size_t{1} << 16;
+    std::size_t grain = std::max(least_of_range, (items.size() + 15) / 16);
+    const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+    for_ranges_on_threads(items.size(), grain,
+                          [&](const IndexRange& range) { std::sort(at(range.first), at(range.last), less); });
+    for (; grain < items.size(); grain *= 2)
+        for_ranges_on_threads(items.size(), 2 * grain, [&](const IndexRange& range) {
+            if (range.last - range.first > grain)
+                std::inplace_merge(at(range.first), at(range.first + grain), at(range.last), less);
+        });
+}
+
+}  // namespace kerf
