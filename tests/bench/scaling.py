@@ -2,11 +2,9 @@
 """Kerf on 1, 2, 4, ... processes against TetGen's own program on the whole surface.
 
 Every size is meshed with four parts for each process. Where the machine has the cores, the time is that of the complete
-command (reading, cutting, meshing, verifying, writing). Beyond, it is projected from a run on all cores there are, and
-labelled so: what every rank does by itself is taken as it was measured (reading, the cuts on the way to its own parts on
-one core, bringing the interfaces together, the report), the parts are shared out as the queue does it, longest first
-by the work model, with the seconds that each took, and the numbering of the files is shared by the ranks. TetGen reads
-the surface as .smesh and writes nothing. Efficiency is the speed-up over TetGen by the number of processes.
+command (reading, cutting, meshing, verifying, writing). Beyond, it is projected, and labelled so, from the same run on
+one core and on two, by the model of cluster_model.py: one host with a core and a worker for each rank. TetGen reads the
+surface as .smesh and writes nothing. Efficiency is the speed-up over TetGen by the number of processes.
 
 The cube study compares two estimates of the method with what is measured: the share of interface nodes,
 3 n^(-1/3) (N^(1/3) - 1), and the gain over linear speed-up of the mesher alone, N (log n / log(n/N) - 1), for n nodes
@@ -14,7 +12,6 @@ in N parts.
 """
 
 import argparse
-import heapq
 import json
 import math
 import os
@@ -23,9 +20,11 @@ import subprocess
 import sys
 import tempfile
 
+from cluster_model import Machine, costs_of_runs, replay
 from speed_up import ASSETS, TetGen, read_binary_stl, timed, write_smesh
 
 PARTS_PER_PROCESS = 4
+MACHINE = Machine()
 
 
 def run_kerf(args, command, folder, surface, parts, workers, max_volume):
@@ -38,62 +37,6 @@ def run_kerf(args, command, folder, surface, parts, workers, max_volume):
     return seconds, json.loads((folder / "report.json").read_text())
 
 
-def leaf_ranges(tree):
-    """First leaf and number of leaves of every node, leaves counted in the order of the tree."""
-    nodes = {node["id"]: node for node in tree}
-    ranges = {}
-
-    def visit(node, first):
-        ranges[node] = (first, nodes[node]["leaves"])
-        for child in nodes[node]["children"]:
-            visit(child, first)
-            first += nodes[child]["leaves"]
-
-    visit(1, 0)
-    return ranges
-
-
-def slowest_descent(report, ranks):
-    """Seconds of the cuts that lead to the leaves of one rank, for the rank where they take longest."""
-    ranges = leaf_ranges(report["tree"])
-    parts = ranges[1][1]
-    longest = 0
-    for rank in range(ranks):
-        begin, end = parts * rank // ranks, parts * (rank + 1) // ranks
-        seconds = 0
-        for node in report["tree"]:
-            first, leaves = ranges[node["id"]]
-            if "cut" in node and first < end and first + leaves > begin:
-                seconds += node["cut"]["seconds"]
-        longest = max(longest, seconds)
-    return longest
-
-
-def makespan(parts, workers):
-    """Seconds until the last worker is free when each takes the next part of the list, longest first."""
-    free_at = [0.0] * workers
-    for part in sorted(parts, key=lambda part: -part["load"]):
-        heapq.heapreplace(free_at, free_at[0] + part["seconds"])
-    return max(free_at)
-
-
-def projected(report, on_one_core, processes):
-    """Terms of the time on so many ranks of one worker each."""
-    totals = report["totals"]
-    cuts = sum(node["cut"]["seconds"] for node in on_one_core["tree"] if "cut" in node)
-    outside_of_cuts = on_one_core["totals"]["decompose_seconds"] / cuts
-    stages = ("read", "decompose", "prepare", "mesh", "write", "hash")
-    return {
-        "read": totals["read_seconds"],
-        "decompose": slowest_descent(on_one_core, processes) * outside_of_cuts,
-        "prepare": totals["prepare_seconds"],
-        "mesh": makespan(report["parts"], processes),
-        "write": totals["write_seconds"] / processes,
-        "hash": totals["hash_seconds"] / processes,
-        "report": totals["wall_seconds"] - sum(totals[stage + "_seconds"] for stage in stages),
-    }
-
-
 def measure_size(args, scratch, smesh, max_volume):
     whole = TetGen(smesh, max_volume)
     print(whole.name, file=sys.stderr)
@@ -101,14 +44,16 @@ def measure_size(args, scratch, smesh, max_volume):
     rows = []
     for processes in args.processes:
         folder, parts = scratch / "run", PARTS_PER_PROCESS * processes
-        workers = min(processes, args.cores)
+        is_measured = processes <= args.cores
+        workers = processes if is_measured else 2
         seconds, report = run_kerf(args, "mesh", folder, args.surface, parts, workers, max_volume)
         row = {"processes": processes, "parts": len(report["parts"]), "tets": report["totals"]["tets"]}
-        row |= {"measured": processes <= args.cores, "peak_rss_bytes": report["totals"]["peak_rss_bytes"]}
-        if not row["measured"]:
-            _, cuts = run_kerf(args, "decompose", folder, args.surface, parts, 1, max_volume)
-            row["terms"] = projected(report, cuts, processes)
-            row["measured_on_all_cores"] = seconds
+        row |= {"measured": is_measured, "peak_rss_bytes": report["totals"]["peak_rss_bytes"]}
+        if not is_measured:
+            _, alone = run_kerf(args, "mesh", folder, args.surface, parts, 1, max_volume)
+            costs = costs_of_runs(alone, report)
+            row["terms"] = replay(costs, MACHINE, alone["input"]["faces"], row["tets"], processes, PARTS_PER_PROCESS)
+            row["measured_on_two_cores"] = seconds
             seconds = sum(row["terms"].values())
         row |= {"seconds": seconds, "speed_up": tetgen["seconds"] / seconds}
         row["efficiency"] = row["speed_up"] / processes
