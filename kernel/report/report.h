@@ -164,7 +164,8 @@ struct RunReport {
     std::optional<CurveReport> curve = {};  ///< of order 2, unless its edges are to be straight
 };
 
-/// report.json as text, two spaces of indentation, sealed (io/run_manifest.h). Numbers that are not finite become null.
+/// report.json as text_with_rows(), sealed (io/run_manifest.h): a line for each node of the tree, part and file, some
+/// 2.6 kB a part in all. Numbers that are not finite become null.
 std::string to_json(const RunReport& report);
 
 /// What was done to a surface beside steps by name and the welding of equal vertices, in one line; empty: nothing.

@@ -1,4 +1,5 @@
-// A report as JSON. Seconds and bytes are the only values that differ between two runs of the same options.
+// A report as JSON. Seconds and bytes are the only values that differ between two runs of the same options. Of what
+// each node and part has, what only describes is told to six digits: thousands of parts have a report that can be read.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
+#include "io/json_rows.h"
 #include "io/path_text.h"
 #include "quality/quality_json.h"
 #include "report/cut_json.h"
@@ -21,13 +23,19 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-Json rows(const Eigen::Matrix3d& m) {
+Json in_six_digits(const Vec3& v) { return {to_six_digits(v.x()), to_six_digits(v.y()), to_six_digits(v.z())}; }
+
+Json rows_in_six_digits(const Eigen::Matrix3d& m) {
     Json json = Json::array();
-    for (int i = 0; i < 3; ++i) json.push_back(to_json(Vec3(m.row(i).transpose())));
+    for (int i = 0; i < 3; ++i) json.push_back(in_six_digits(m.row(i).transpose()));
     return json;
 }
 
-Json columns(const Eigen::Matrix3d& m) { return rows(m.transpose()); }
+Json columns(const Eigen::Matrix3d& m) {
+    Json json = Json::array();
+    for (int i = 0; i < 3; ++i) json.push_back(to_json(Vec3(m.col(i))));
+    return json;
+}
 
 Json input_json(const Input& input) {
     Json json = {{"path", path_text(std::filesystem::absolute(input.path).lexically_normal().string())},
@@ -119,8 +127,8 @@ Json node_json(const TreeNode& node) {
                  {"faces", node.facets},
                  {"volume", node.mass.volume},
                  {"centroid", to_json(node.mass.centroid)},
-                 {"inertia", rows(node.mass.inertia)},
-                 {"eigenvalues", to_json(node.mass.eigenvalues)},
+                 {"inertia", rows_in_six_digits(node.mass.inertia)},
+                 {"eigenvalues", in_six_digits(node.mass.eigenvalues)},
                  {"axes", columns(node.mass.axes)}};
     if (node.regions > 1) json["regions"] = node.regions;
     if (node.cut_tried) json["cut"] = json_of_cut(node);
@@ -136,12 +144,12 @@ Json improvement_json(const Improvement& done, const ImprovedAngles& angles, dou
             {"new_vertices", done.new_vertices},
             {"bad_cells_before", done.bad_cells_before},
             {"bad_cells_after", done.bad_cells_after},
-            {"min_dihedral_deg_before", angles.min_before_deg},
-            {"min_dihedral_deg_after", angles.min_after_deg},
-            {"p1_dihedral_deg_before", angles.p1_before_deg},
-            {"p1_dihedral_deg_after", angles.p1_after_deg},
-            {"seconds", seconds},
-            {"p1_dihedral_deg_per_second", seconds > 0 ? gain / seconds : 0}};
+            {"min_dihedral_deg_before", to_six_digits(angles.min_before_deg)},
+            {"min_dihedral_deg_after", to_six_digits(angles.min_after_deg)},
+            {"p1_dihedral_deg_before", to_six_digits(angles.p1_before_deg)},
+            {"p1_dihedral_deg_after", to_six_digits(angles.p1_after_deg)},
+            {"seconds", to_six_digits(seconds)},
+            {"p1_dihedral_deg_per_second", seconds > 0 ? to_six_digits(gain / seconds) : 0}};
 }
 
 Json part_json(const PartReport& part, const std::string& wanted_mesher) {
@@ -155,16 +163,16 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
                  {"surface_vertices", part.surface_vertices},
                  {"surface_faces", part.surface_facets},
                  {"surface_volume", part.surface_volume},
-                 {"load", part.load},
+                 {"load", to_six_digits(part.load)},
                  {"interface_area", part.interface_area},
                  {"neighbours", part.neighbours},
                  {"mesher", part.result.mesher.empty() ? wanted_mesher : part.result.mesher},
                  {"attempts", part.attempts},
-                 {"seconds", part.seconds},
-                 {"load_seconds", part.result.load_seconds},
-                 {"mesh_seconds", part.result.mesh_seconds},
-                 {"verify_seconds", part.result.verify_seconds},
-                 {"store_seconds", part.result.store_seconds},
+                 {"seconds", to_six_digits(part.seconds)},
+                 {"load_seconds", to_six_digits(part.result.load_seconds)},
+                 {"mesh_seconds", to_six_digits(part.result.mesh_seconds)},
+                 {"verify_seconds", to_six_digits(part.result.verify_seconds)},
+                 {"store_seconds", to_six_digits(part.result.store_seconds)},
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
     if (!part.fallback.empty()) json["remedy"] = part.fallback;
@@ -314,7 +322,7 @@ std::string to_json(const RunReport& report) {
                  {"files", array_of(report.files, file_json)},
                  {"exit_code", report.exit_code}};
     if (report.curve) json["curve"] = curve_json(*report.curve, report.seconds.curve);
-    return sealed(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    return sealed(text_with_rows(json));
 }
 
 }  // namespace kerf

@@ -17,6 +17,7 @@
 #include "core/version.h"
 #include "io/durable_file.h"
 #include "io/file_bytes.h"
+#include "io/json_rows.h"
 #include "io/output_file.h"
 #include "part/joined_parts.h"
 #include "part/parts_of_order.h"
@@ -109,7 +110,7 @@ class Target {
         list_["files"] = Json::array();
         for (const RunFile& file : all)
             list_["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}});
-        write_durable_file(list_file_, sealed(list_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
+        write_durable_file(list_file_, sealed(text_with_rows(list_)));
     }
     void place(const std::string& file) const {
         const fs::path to = fs::path(folder_) / file;

@@ -179,7 +179,7 @@ class MpiStraightCuts : public testing::Test {
                                                          std::to_string(parts), "--surface", "split"});
             ASSERT_EQ(result.exit_code, 0) << result.log;
             const std::string report = test::bytes_of_file(folder_.file("out/report.json"));
-            EXPECT_NE(report.find("\"rung\": \"straight\""), std::string::npos);
+            EXPECT_NE(report.find("\"rung\":\"straight\""), std::string::npos);
             auto files = test::contents(folder_.file("out/parts"));
             EXPECT_GE(files.size(), static_cast<std::size_t>(parts));
             files.merge(test::contents(folder_.file("out")));  // what joins them
