@@ -1,6 +1,7 @@
 #include "part/part.h"
 
 #include <algorithm>
+#include <bit>
 
 #include <fmt/format.h>
 
@@ -45,14 +46,13 @@ std::vector<NodeId> owners_of_vertices(const Part& part) {
     return owner;
 }
 
-PartIndex MeshOutline::index_of(NodeId id) const {
-    const auto found =
-        std::find_if(parts.begin(), parts.end(), [id](const PartExtent& extent) { return extent.id == id; });
-    if (found == parts.end()) throw Error(ErrorCode::internal, fmt::format("The mesh has no part {}.", id));
-    return PartIndex(found - parts.begin());
-}
-
 namespace {
+
+// Ascending in the order of the tree among nodes of which none lies below another: the way from the root, a bit a step.
+std::uint32_t way_from_root(NodeId id) {
+    const auto bits = static_cast<std::uint32_t>(id);
+    return id > 0 ? bits << std::countl_zero(bits) : 0;
+}
 
 std::int64_t sum_before(PartIndex index, const Array<PartIndex, PartExtent>& parts, std::int64_t PartExtent::*count) {
     std::int64_t sum = 0;
@@ -61,6 +61,15 @@ std::int64_t sum_before(PartIndex index, const Array<PartIndex, PartExtent>& par
 }
 
 }  // namespace
+
+PartIndex MeshOutline::index_of(NodeId id) const {
+    const auto found = std::lower_bound(
+        parts.begin(), parts.end(), way_from_root(id),
+        [](const PartExtent& extent, std::uint32_t wanted) { return way_from_root(extent.id) < wanted; });
+    if (found == parts.end() || found->id != id)
+        throw Error(ErrorCode::internal, fmt::format("The mesh has no part {}.", id));
+    return PartIndex(found - parts.begin());
+}
 
 std::int64_t MeshOutline::first_tet(PartIndex index) const { return sum_before(index, parts, &PartExtent::tets); }
 

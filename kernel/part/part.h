@@ -169,7 +169,7 @@ struct MeshOutline {
     std::int64_t edge_nodes = 0;          ///< distinct ones
 
     std::int64_t nodes() const { return vertices + edge_nodes; }
-    /// Throws Error(internal) for a part that is none. O(K).
+    /// Throws Error(internal) for a part that is none. O(log K).
     PartIndex index_of(NodeId id) const;
     std::int64_t tets() const;
     /// Tetrahedra of all parts before this one: the first of its own in a numbering of all.
