@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "export/ghosts.h"
 
 namespace kerf {
 
@@ -106,6 +107,12 @@ std::vector<RunFile> ExportFiles::list() const {
     std::vector<RunFile> files = files_;
     sort_files(files);
     return files;
+}
+
+GhostFinder& ExportFiles::ghosts() {
+    const std::lock_guard lock(mutex_);
+    if (!ghosts_) ghosts_ = std::make_shared<GhostFinder>();
+    return *ghosts_;
 }
 
 }  // namespace kerf

@@ -27,6 +27,7 @@ struct FormatOptions {
 };
 
 class ExportFiles;
+class GhostFinder;
 
 /// A new file that is written from its beginning to its end, through a buffer of its own. Throws Error(io).
 class ExportFile {
@@ -96,12 +97,16 @@ class ExportFiles {
     /// What was written, ascending by path, each file once.
     std::vector<RunFile> list() const;
 
+    /// What all parts of one export ask for the cells around them (export/ghosts.h).
+    GhostFinder& ghosts();
+
  private:
     std::string folder_, place_;
     std::set<std::string> own_;
     FormatOptions options_;
     mutable std::mutex mutex_;
     std::vector<RunFile> files_;
+    std::shared_ptr<GhostFinder> ghosts_;  // once it is asked for
 };
 
 }  // namespace kerf

@@ -1,7 +1,10 @@
 // The cells of other parts around a part.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "export/whole_mesh.h"
@@ -27,7 +30,36 @@ struct Ghosts {
     std::vector<GhostNode> nodes;  ///< ascending by id
 };
 
-/// Throws Error(io). Cost: loads every part that shares a vertex with this one, one at a time.
-Ghosts ghosts_of(const PartSource& parts, const Part& part);
+struct GhostLayer;
+
+/// Finds the ghosts of parts of one source, one after the other. What may be a ghost of any part, the cells at vertices
+/// that parts share, is kept of every part that was asked for, since all its neighbours ask for the same: 20 bytes a
+/// cell and 32 a node, up to a limit; what was not asked for the longest goes first.
+class GhostFinder {
+ public:
+    explicit GhostFinder(std::size_t most_bytes = std::size_t{256} << 20);
+    ~GhostFinder();
+
+    /// From any thread. Throws Error(io). Cost: loads the parts that share a vertex with this one, one at a time, those
+    /// of which nothing is kept; parts in the order of the tree have most neighbours in common.
+    Ghosts ghosts_of(const PartSource& parts, const Part& part);
+
+ private:
+    struct Slot {
+        std::shared_ptr<const GhostLayer> layer;
+        bool is_loading = false;
+        std::int64_t last_use = 0;
+    };
+
+    std::shared_ptr<const GhostLayer> layer_of(const PartSource& parts, PartIndex index);
+    void forget_others(const Slot& kept);
+
+    const std::size_t most_bytes_;
+    std::mutex mutex_;
+    std::condition_variable loaded_;
+    Array<PartIndex, Slot> slots_;
+    std::size_t bytes_ = 0;
+    std::int64_t uses_ = 0;
+};
 
 }  // namespace kerf

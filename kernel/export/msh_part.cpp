@@ -12,14 +12,14 @@ namespace {
 
 class PartFile {
  public:
-    PartFile(const PartSource& parts, PartIndex index, const Part& part)
+    PartFile(const PartSource& parts, PartIndex index, const Part& part, GhostFinder& ghosts)
         : outline_(parts.outline()),
           index_(index),
           part_(part),
           tags_(parts),
           pieces_(patch_pieces(part)),
           materials_(material_pieces(parts, index, part, pieces_.inside)),
-          ghosts_(ghosts_of(parts, part)),
+          ghosts_(ghosts.ghosts_of(parts, part)),
           ghost_volume_(tags_.ghosts_of_part(index)) {}
 
     void write(Writer writer) const {
@@ -129,7 +129,7 @@ std::string file_name(std::size_t parts, PartIndex index) {
 
 void write_part(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) {
     require_tags_fit(parts.outline());
-    const PartFile content(parts, index, part);
+    const PartFile content(parts, index, part, files.ghosts());
     content.write(
         Writer(files.create(file_name(parts.outline().parts.size(), index)), "4.1", files.options().msh_ascii));
 }
