@@ -36,13 +36,25 @@ std::vector<bool> EdgeNodeCheck::edges_of_others(const Part& part) const {
     return found;
 }
 
+void EdgeNodeCheck::add(const EdgeNodeCheck& of_others) {
+    shared_.insert(shared_.end(), of_others.shared_.begin(), of_others.shared_.end());
+    for (const Range& ids : of_others.own_) add_own(ids);
+    count_ += of_others.count_;
+    curved_ += of_others.curved_;
+    invalid_cells_ += of_others.invalid_cells_;
+}
+
 void EdgeNodeCheck::add_own(std::int64_t id, bool is_curved) {
     ++count_;
     curved_ += is_curved;
-    if (!own_.empty() && own_.back()[1] == id)
-        ++own_.back()[1];
+    add_own(Range{id, id + 1});
+}
+
+void EdgeNodeCheck::add_own(const Range& ids) {
+    if (!own_.empty() && own_.back()[1] == ids[0])
+        own_.back()[1] = ids[1];
     else
-        own_.push_back({id, id + 1});
+        own_.push_back(ids);
 }
 
 std::int64_t EdgeNodeCheck::count_invalid(const Part& part, const std::vector<bool>& is_curved) {

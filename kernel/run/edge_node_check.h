@@ -17,6 +17,8 @@ class EdgeNodeCheck {
  public:
     /// Of a part with everything.
     void add(const Part& part);
+    /// What another check was shown, as if it had been shown behind what this one was.
+    void add(const EdgeNodeCheck& of_others);
     /// When all were shown; `vertices`: of the mesh. Adds what is broken to the laws.
     void finish(std::int64_t vertices, RunVerification& laws);
 
@@ -35,6 +37,7 @@ class EdgeNodeCheck {
 
     std::vector<bool> edges_of_others(const Part& part) const;
     void add_own(std::int64_t id, bool is_curved);
+    void add_own(const Range& ids);
     static std::int64_t count_invalid(const Part& part, const std::vector<bool>& is_curved);
 
     std::vector<Node> shared_;  // on interfaces and contacts, where other parts may have them, too

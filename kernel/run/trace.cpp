@@ -177,7 +177,9 @@ void TraceRecorder::write(const std::string& path, Communicator& ranks, const De
     std::vector<Cut> given;
     for (const TreeNode& node : own.nodes)
         if (node.cut_tried && range.meets(node.first_leaf, 1)) given.push_back(*trace_.find(node.id));
-    const std::vector<Bytes> all = ranks.all_gather(to_bytes(given));
+    std::vector<Bytes> to_rank(static_cast<std::size_t>(ranks.size()));
+    to_rank.front() = to_bytes(given);
+    const std::vector<Bytes> all = ranks.exchange(std::move(to_rank));
     if (!trace_.region_names.empty())
         trace_.region_roots = roots_of_regions(ranks, own.nodes, trace_.region_names.size());
     in_agreement(ranks, [&] {

@@ -5,28 +5,32 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
 #include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/threads.h"
 #include "core/version.h"
 #include "io/file_bytes.h"
 #include "io/folder_files.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
-#include "mesh/quality.h"
 #include "part/run_parts.h"
 #include "part/vtu_reader.h"
 #include "part/vtu_writer.h"
-#include "prepare/oriented_triangle.h"
 #include "prepare/remeshing.h"
 #include "prepare/surface_nodes.h"
 #include "run/edge_node_check.h"
 #include "run/input_pieces.h"
+#include "run/part_files_check.h"
 #include "run/reported_options.h"
 #include "work/mesh_hash.h"
 
@@ -34,40 +38,12 @@ namespace kerf {
 
 namespace {
 
-struct PlacedVertex {
-    std::int64_t id;
-    Vec3 point;
-};
-
-struct InterfaceFacet {
-    NamedTriangle vertices;  // oriented as in the part with the smaller number
-    std::int32_t part, neighbour;
-};
-
 std::string read_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
         throw Error(ErrorCode::io, fmt::format("{} is not a finished run: it holds no report.json.", folder));
     return read_file(path);
-}
-
-// The keys say only what the file has: the facet of the input, or that there is none.
-SurfaceArrays surface_of(const Part& part) {
-    constexpr NodeId some_cut = 1;
-    SurfaceArrays surface;
-    surface.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + part.mesh.boundary_vertex_count);
-    surface.facets = part.facets;
-    surface.patch = part.patch;
-    for (const std::int32_t facet : part.facet)
-        surface.facet_key.push_back(facet >= 0 ? make_key(0, facet) : make_key(some_cut, 0));
-    return surface;
-}
-
-bool is_vtu(const std::string& path) { return path.ends_with(".vtu"); }
-
-bool has_repeated_vertex(const Tetrahedron& t) {
-    return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
 }
 
 class FolderVerifier {
@@ -82,11 +58,7 @@ class FolderVerifier {
 
     FolderVerification run() {
         check_files();
-        for (const auto& part : report_.at("parts")) {
-            if (options_.is_cancelled && options_.is_cancelled())
-                throw Error(ErrorCode::cancelled, "The verification was cancelled.");
-            check_part(part);
-        }
+        check_parts();
         check_pvtu();
         check_shared_vertices();
         check_interfaces();
@@ -100,13 +72,11 @@ class FolderVerifier {
  private:
     void differs(std::string what) { result_.differences.push_back(std::move(what)); }
     void check_files();
-    void check_part(const nlohmann::json& of_report);
-    void check_boundary_arrays(const Part& part, const std::string& path);
-    void check_what_follows(const Part& part, const std::string& path, const std::string& surface_path);
+    void check_parts();
+    void take(PartFindings found);
+    void end_if_cancelled() const;
     void check_pvtu();
     void check_totals();
-    void keep_boundary(const Part& part);
-    void keep_interior(const Part& part, bool is_numbered);
     void check_shared_vertices();
     void check_interfaces();
     void check_numbering();
@@ -130,92 +100,86 @@ class FolderVerifier {
     std::vector<InterfaceFacet> interfaces_;
     std::vector<std::string> patch_names_, region_names_;  // of the first part
     std::vector<PartHash> hashes_;                         // in the order of the report
-    std::unique_ptr<const RunParts> stored_;               // of order 2 without VTU: who knows the nodes on edges
+    std::map<std::string, std::string> file_hashes_;       // by path: as the files are now
     EdgeNodeCheck edge_nodes_;
 };
 
 // The files are those of the list, each with its hash.
 void FolderVerifier::check_files() {
     if (!is_sealed(report_text_)) differs("report.json is not as the run has written it");
-    std::vector<std::string> present = list_files(folder_), listed = {"report.json"};
-    for (const auto& of_report : report_.at("files")) {
-        const RunFile file{of_report.at("path"), of_report.at("bytes"), of_report.at("hash")};
-        listed.push_back(file.path);
-        if (!std::binary_search(present.begin(), present.end(), file.path)) {
+    const std::vector<std::string> present = list_files(folder_);
+    std::vector<RunFile> listed;
+    for (const auto& file : report_.at("files")) listed.push_back({file.at("path"), file.at("bytes"), file.at("hash")});
+    std::vector<std::optional<RunFile>> found(listed.size());
+    for_each_on_threads(listed.size(), [&](std::size_t i) {
+        if (std::binary_search(present.begin(), present.end(), listed[i].path))
+            found[i] = describe_file(folder_, listed[i].path);
+    });
+    std::vector<std::string> known = {"report.json"};
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        const RunFile& file = listed[i];
+        known.push_back(file.path);
+        if (!found[i])
             differs(file.path + " is missing");
-            continue;
-        }
-        const RunFile now = describe_file(folder_, file.path);
-        if (now.bytes != file.bytes || now.hash != file.hash) differs(file.path + " is not as the run has written it");
+        else if (found[i]->bytes != file.bytes || found[i]->hash != file.hash)
+            differs(file.path + " is not as the run has written it");
+        if (found[i]) file_hashes_[file.path] = found[i]->hash;
     }
-    std::sort(listed.begin(), listed.end());
+    std::sort(known.begin(), known.end());
     for (const std::string& file : present)
-        if (!std::binary_search(listed.begin(), listed.end(), file) && !file.ends_with('/') &&
+        if (!std::binary_search(known.begin(), known.end(), file) && !file.ends_with('/') &&
             !(file.starts_with("work/") && is_named_like_run_file(file)))  // a kill may have left it
             differs(file + " is no file of the run");
 }
 
-void FolderVerifier::check_part(const nlohmann::json& of_report) {
-    const auto leaf = of_report.at("id").get<std::int32_t>();
-    const std::string path = path_of_part(folder_, leaf), name = path.substr(folder_.size() + 1);
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored))
-        throw Error(ErrorCode::io, fmt::format("{} is missing: the part was not meshed. Run kerf mesh again.", path));
-    Part part = load_part(folder_, leaf, 0);
-    if (order_ == 2 && !is_vtu(name)) {
-        if (!stored_) stored_ = std::make_unique<const RunParts>(folder_);
-        part.edge_nodes = stored_->load(stored_->outline().index_of(leaf)).edge_nodes;
-    }
-    SurfaceArrays surface = surface_of(part);
-    const MeshLaws laws = verify_mesh(part.mesh, surface);
-    result_.laws.inverted_tets += laws.inverted_tets;
-    result_.laws.input_faces_missing += laws.missing_facets;
-    result_.laws.extra_boundary_faces += laws.extra_boundary_faces + laws.mismatched_neighbours;
-    result_.laws.tets_zero_parts += part.mesh.tets.empty();
-    result_.tets += static_cast<std::int64_t>(part.mesh.tets.size());
+void FolderVerifier::end_if_cancelled() const {
+    if (options_.is_cancelled && options_.is_cancelled())
+        throw Error(ErrorCode::cancelled, "The verification was cancelled.");
+}
+
+// Each part by itself, on threads; what is found is taken in the order of the report, as soon as that can be.
+void FolderVerifier::check_parts() {
+    const nlohmann::json& parts = report_.at("parts");
+    const auto is_stored = [&](const auto& part) { return path_of_part(folder_, part.at("id")).ends_with(".part"); };
+    std::unique_ptr<const RunParts> stored;  // of order 2 without VTU: who knows the nodes on edges
+    if (order_ == 2 && std::any_of(parts.begin(), parts.end(), is_stored)) stored = std::make_unique<RunParts>(folder_);
+    const PartFilesCheck check(folder_, order_, is_of_this_version_, file_hashes_, stored.get());
+    const auto caller = std::this_thread::get_id();  // the only one that may ask who waits
+    std::mutex mutex;
+    std::vector<std::optional<PartFindings>> found(parts.size());
+    std::size_t next = 0;
+    for_each_on_threads(parts.size(), [&](std::size_t i) {
+        if (std::this_thread::get_id() == caller) end_if_cancelled();
+        PartFindings of_part = check(parts[i]);
+        const std::lock_guard lock(mutex);
+        found[i] = std::move(of_part);
+        for (; next < found.size() && found[next]; ++next) {
+            take(std::move(*found[next]));
+            found[next].reset();
+        }
+    });
+}
+
+void FolderVerifier::take(PartFindings found) {
+    for (std::string& difference : found.differences) differs(std::move(difference));
+    for (const RunLaw& law : run_laws) result_.laws.*law.count += found.laws.*law.count;
     ++result_.parts;
-    volume_ += laws.volume;
-    if (part.id != leaf) differs(fmt::format("{} says that it is part {}", name, part.id));
-    if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
-        differs(fmt::format("report.json has other numbers of part {}", leaf));
-    if (part.order() != order_) differs(fmt::format("{} is of order {}", name, part.order()));
-    if (part.order() == 2) edge_nodes_.add(part);
-    check_boundary_arrays(part, name);
+    result_.tets += found.tets;
+    volume_ += found.volume;
     if (hashes_.empty()) {
-        patch_names_ = part.patch_names;
-        region_names_ = part.region_names;
+        patch_names_ = found.patch_names;
+        region_names_ = found.region_names;
     }
-    if (part.patch_names != patch_names_) differs(name + " has other names of patches than the parts before it");
-    if (part.region_names != region_names_) differs(name + " has other names of regions than the parts before it");
-    if (part.regions.size() > 1) differs(name + " has cells of several regions");
-    hashes_.push_back({leaf, hash_part(part)});
-    if (is_of_this_version_) check_what_follows(part, name, "parts/" + part_surface_file_name(leaf));
-    keep_boundary(part);
-    keep_interior(part, is_vtu(name));
-}
-
-void FolderVerifier::check_boundary_arrays(const Part& part, const std::string& path) {
-    const auto patches = static_cast<std::int32_t>(part.patch_names.size());
-    for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        const bool is_between = part.is_interface(f), has_facet = part.is_of_input(f);
-        const bool may_be_both = !part.region_names.empty();  // a wall
-        const bool is_something = is_between != has_facet || (is_between && may_be_both);
-        if (is_something && (!has_facet || (part.patch[f] >= 0 && part.patch[f] < patches))) continue;
-        differs(fmt::format("{} has a boundary triangle without a patch or facet of the input", path));
-        return;
-    }
-}
-
-// The arrays that follow from the mesh, and all headers: the bytes are those that the mesh would be written as.
-void FolderVerifier::check_what_follows(const Part& part, const std::string& path, const std::string& surface_path) {
-    const bool is_valid = std::none_of(part.mesh.tets.begin(), part.mesh.tets.end(), has_repeated_vertex);
-    if (is_vtu(path) && is_valid &&
-        describe_file(folder_, path).hash != hash_text(hash_of_part(part, read_layout(folder_ + "/" + path))))
-        differs(path + " has arrays that do not follow from its mesh");
-    std::error_code ignored;
-    if (!std::filesystem::exists(folder_ + "/" + surface_path, ignored)) return;  // the list of files says so
-    if (describe_file(folder_, surface_path).hash != hash_text(hash_of_part_surface(part)))
-        differs(surface_path + " is not the surface of its part");
+    if (found.patch_names != patch_names_) differs(found.file + " has other names of patches than the parts before it");
+    if (found.region_names != region_names_)
+        differs(found.file + " has other names of regions than the parts before it");
+    hashes_.push_back(found.hash);
+    boundary_.insert(boundary_.end(), found.boundary.begin(), found.boundary.end());
+    pieces_.insert(pieces_.end(), found.pieces.begin(), found.pieces.end());
+    interfaces_.insert(interfaces_.end(), found.interfaces.begin(), found.interfaces.end());
+    interiors_.insert(interiors_.end(), found.interior.begin(), found.interior.end());
+    unnumbered_interior_ += found.unnumbered_interior;
+    edge_nodes_.add(found.edge_nodes);
 }
 
 void FolderVerifier::check_pvtu() {
@@ -240,30 +204,6 @@ void FolderVerifier::check_totals() {
         differs("report.json is that of a run that has failed");
 }
 
-void FolderVerifier::keep_boundary(const Part& part) {
-    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
-    for (std::size_t v = 0; v < boundary; ++v) boundary_.push_back({part.global_id[v], part.mesh.vertices[v]});
-    for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        const Triangle& t = part.facets[f];
-        const NamedTriangle g = rotated_to_smallest({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]});
-        if (part.is_of_input(f) || !part.is_interface(f))
-            pieces_.push_back({part.facet[f], part.region_of(0).value(), part.patch[f], g});
-        if (part.is_interface(f))
-            interfaces_.push_back({part.id < part.neighbour[f] ? g : reversed(g), part.id, part.neighbour[f]});
-    }
-}
-
-void FolderVerifier::keep_interior(const Part& part, bool is_numbered) {
-    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
-    const auto count = static_cast<std::int64_t>(part.global_id.size() - boundary);
-    if (!is_numbered) unnumbered_interior_ += count;
-    if (!is_numbered || count == 0) return;
-    const std::int64_t first = part.global_id[boundary];
-    for (std::int64_t i = 0; i < count; ++i)
-        result_.laws.misnumbered += part.global_id[boundary + static_cast<std::size_t>(i)] != first + i;
-    interiors_.push_back({first, first + count});
-}
-
 // The same number means the same coordinates, bit for bit.
 void FolderVerifier::check_shared_vertices() {
     std::stable_sort(boundary_.begin(), boundary_.end(),
@@ -280,8 +220,8 @@ void FolderVerifier::check_shared_vertices() {
 
 // Every interface triangle lies on two parts in opposite orientation, and each names the other.
 void FolderVerifier::check_interfaces() {
-    std::sort(interfaces_.begin(), interfaces_.end(), [](const InterfaceFacet& a, const InterfaceFacet& b) {
-        return std::tie(a.vertices, a.part) < std::tie(b.vertices, b.part);
+    sort_on_threads(interfaces_, [](const InterfaceFacet& a, const InterfaceFacet& b) {
+        return std::tie(a.vertices, a.part, a.neighbour) < std::tie(b.vertices, b.part, b.neighbour);
     });
     for (std::size_t i = 0, j = 0; i < interfaces_.size(); i = j) {
         while (j < interfaces_.size() && interfaces_[j].vertices == interfaces_[i].vertices) ++j;

@@ -13,7 +13,8 @@ struct VerifyOptions {
     std::string input;                        ///< where the surface is now; empty: where the run has read it
     bool without_input = false;               ///< the laws of the mesh are enough
     const Input* surface = nullptr;           ///< in place of a file: what make_input() or read_input() has made
-    std::function<bool()> is_cancelled = {};  ///< asked between parts: true ends it with Error(cancelled)
+    std::function<bool()> is_cancelled = {};  ///< asked between parts, by the caller's thread alone: true ends it with
+                                              ///< Error(cancelled)
 };
 
 /// What kerf verify found.
@@ -31,12 +32,13 @@ struct FolderVerification {
     int exit_code() const;
 };
 
-/// Reads report.json, the input and every file of a run folder, one part at a time, and checks every law again: each
-/// part by verify_mesh(), the interfaces by the global numbers, the facets, patches and their names of the input one by
-/// one, of order 2 the nodes on edges by EdgeNodeCheck. Every file must have the hash that the report has for it, and
-/// the report its own; what follows from the mesh (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh)
-/// is computed again and compared. Memory follows the surface, not the mesh. Throws Error(io) for a folder that is no
-/// finished run, a missing or unreadable part.
+/// Reads report.json, the input and every file of a run folder, a part a thread at a time (core/threads.h), with the
+/// same result for any number of threads, and checks every law again: each part by verify_mesh(), the interfaces by the
+/// global numbers, the facets, patches and their names of the input one by one, of order 2 the nodes on edges by
+/// EdgeNodeCheck. Every file must have the hash that the report has for it, and the report its own; what follows from
+/// the mesh (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh) is computed again and compared.
+/// Memory follows the surface, not the mesh. Throws Error(io) for a folder that is no finished run, a missing or
+/// unreadable part.
 FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options = {});
 
 /// Lines for people: counts, a line for each law that does not hold, the verdict.
