@@ -42,13 +42,20 @@ void initialise_mpi() {
                 "with threads, or run kerf without mpirun.");
 }
 
-// Calls pass(data, size) for pieces of the bytes, because MPI counts are 32-bit.
+// MPI counts are 32-bit.
+constexpr std::size_t most_of_piece = std::size_t{1} << 30;
+
+// Calls pass(data, size) for pieces of the items.
 template <class Array, class Pass>
-void for_pieces(Array& bytes, const Pass& pass) {
-    constexpr std::size_t most = std::size_t{1} << 30;
-    for (std::size_t first = 0; first < bytes.size(); first += most)
-        pass(bytes.data() + first, static_cast<int>(std::min(most, bytes.size() - first)));
+void for_pieces(Array& items, const Pass& pass) {
+    for (std::size_t first = 0; first < items.size(); first += most_of_piece)
+        pass(items.data() + first, static_cast<int>(std::min(most_of_piece, items.size() - first)));
 }
+
+std::size_t count_pieces(std::uint64_t bytes) { return (bytes + most_of_piece - 1) / most_of_piece; }
+
+// Up to so many bytes are gathered by one call, with a copy of them all.
+constexpr std::uint64_t most_of_one_call = std::uint64_t{1} << 24;
 
 template <class Allocate>
 bool has_room_for(const Allocate& allocate) {
@@ -84,7 +91,8 @@ MpiRanks::MpiRanks(MPI_Comm comm) {
     check_mpi(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
     check_mpi(MPI_Comm_size(comm_, &size_), "MPI_Comm_size");
     sent_to_.assign(static_cast<std::size_t>(size_), 0);
-    sizes_.resize(sent_to_.size());
+    for (auto* of_ranks : {&sizes_, &sent_, &expected_}) of_ranks->resize(sent_to_.size());
+    leaving_.assign(sent_to_.size(), MPI_REQUEST_NULL);
 }
 
 MpiRanks::~MpiRanks() { MPI_Comm_free(&comm_); }
@@ -108,6 +116,10 @@ void MpiRanks::end_together(LastWords& words) {
     is_over_ = true;
     const auto speaker = std::find(sizes_.begin(), sizes_.end(), has_left) - sizes_.begin();
     check_mpi(MPI_Bcast(&words, sizeof words, MPI_BYTE, static_cast<int>(speaker), comm_), "MPI_Bcast");
+    for (int r = 0; r < size_; ++r)
+        if (r != rank_ && sizes_[static_cast<std::size_t>(r)] == has_left)
+            check_mpi(MPI_Recv(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
+    check_mpi(MPI_Waitall(size_, leaving_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
     try {
         take_messages();
     } catch (const std::bad_alloc&) {
@@ -115,23 +127,45 @@ void MpiRanks::end_together(LastWords& words) {
     }
 }
 
+// A rank that waits for another one, not in a collective, learns of it by a message.
 void MpiRanks::leave(const StageStatus& why) {
     if (is_over_) return;
     LastWords words{why.code, {}};
     why.message.copy(words.message.data(), words.message.size() - 1);
+    for (int r = 0; r < size_; ++r)
+        if (r != rank_)
+            check_mpi(MPI_Isend(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, &leaving_[static_cast<std::size_t>(r)]),
+                      "MPI_Isend");
     check_mpi(MPI_Allgather(&has_left, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
     end_together(words);
 }
 
-// One broadcast per rank, once all of them have room for everything.
 std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
     begin_collective(contribution.size());
+    std::uint64_t total = 0;
+    for (const std::uint64_t size : sizes_) total += size;
+    const bool is_one_call = total <= most_of_one_call;
     std::vector<Bytes> all;
+    Bytes together;
+    std::vector<int> sizes, starts;
     require_room(has_room_for([&] {
-        for (const std::uint64_t size : sizes_) all.emplace_back(size);
+        for (const std::uint64_t size : sizes_) {
+            starts.push_back(starts.empty() ? 0 : starts.back() + sizes.back());
+            sizes.push_back(is_one_call ? static_cast<int>(size) : 0);
+            all.emplace_back(size);
+        }
+        if (is_one_call) together.resize(total);
         all[static_cast<std::size_t>(rank_)] = contribution;
     }));
-    for (std::size_t r = 0; r < all.size(); ++r) broadcast_bytes(all[r], static_cast<int>(r));
+    if (is_one_call)
+        check_mpi(MPI_Allgatherv(contribution.data(), static_cast<int>(contribution.size()), MPI_BYTE, together.data(),
+                                 sizes.data(), starts.data(), MPI_BYTE, comm_),
+                  "MPI_Allgatherv");
+    for (std::size_t r = 0; r < all.size(); ++r)
+        if (is_one_call)
+            std::copy_n(together.begin() + starts[r], sizes[r], all[r].begin());
+        else
+            broadcast_bytes(all[r], static_cast<int>(r));
     return all;
 }
 
@@ -156,17 +190,22 @@ Bytes MpiRanks::broadcast(Bytes of_root, int root) {
 
 std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
     begin_collective(0);
-    std::vector<std::uint64_t> out, in(to_rank.size());
-    for (const Bytes& bytes : to_rank) out.push_back(bytes.size());
-    check_mpi(MPI_Alltoall(out.data(), 1, MPI_UINT64_T, in.data(), 1, MPI_UINT64_T, comm_), "MPI_Alltoall");
-    std::vector<Bytes> got(to_rank.size());
-    require_room(has_room_for([&] {
-        for (std::size_t r = 0; r < got.size(); ++r) got[r].resize(static_cast<int>(r) == rank_ ? 0 : in[r]);
-    }));
-    got[static_cast<std::size_t>(rank_)] = std::move(to_rank[static_cast<std::size_t>(rank_)]);
+    const auto own = static_cast<std::size_t>(rank_);
+    for (std::size_t r = 0; r < sent_.size(); ++r) sent_[r] = r == own ? 0 : to_rank[r].size();
+    check_mpi(MPI_Alltoall(sent_.data(), 1, MPI_UINT64_T, expected_.data(), 1, MPI_UINT64_T, comm_), "MPI_Alltoall");
+    std::vector<Bytes> got;
     std::vector<MPI_Request> requests;
-    for (int r = 0; r < size_; ++r) {
-        if (r == rank_) continue;
+    require_room(has_room_for([&] {
+        std::size_t pieces = 0;
+        for (std::size_t r = 0; r < sent_.size(); ++r) {
+            got.emplace_back(expected_[r]);
+            pieces += count_pieces(sent_[r]) + count_pieces(expected_[r]);
+        }
+        requests.reserve(pieces);
+    }));
+    got[own] = std::move(to_rank[own]);
+    for (int step = 1; step < size_; ++step) {  // each rank begins with another one
+        const int r = (rank_ + step) % size_;
         for_pieces(got[static_cast<std::size_t>(r)], [&](char* piece, int size) {
             check_mpi(MPI_Irecv(piece, size, MPI_BYTE, r, exchange_tag, comm_, &requests.emplace_back()), "MPI_Irecv");
         });
@@ -179,26 +218,50 @@ std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
 }
 
 void MpiRanks::sum(std::span<std::uint64_t> words) {
-    begin_collective(words.size());
-    check_mpi(MPI_Allreduce(MPI_IN_PLACE, words.data(), static_cast<int>(words.size()), MPI_UINT64_T, MPI_SUM, comm_),
-              "MPI_Allreduce");
+    begin_collective(0);
+    for_pieces(words, [&](std::uint64_t* piece, int count) {
+        check_mpi(MPI_Allreduce(MPI_IN_PLACE, piece, count, MPI_UINT64_T, MPI_SUM, comm_), "MPI_Allreduce");
+    });
+}
+
+// Returns true when the message has left or arrived, false when a rank has left.
+bool MpiRanks::is_done(MPI_Request& request) const {
+    for (int is_over = 0, has_rank_left = 0;;) {
+        check_mpi(MPI_Test(&request, &is_over, MPI_STATUS_IGNORE), "MPI_Test");
+        if (is_over) return true;
+        check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm_, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
+        if (has_rank_left) return false;
+    }
+}
+
+void MpiRanks::send_piece(const char* data, int size, int rank) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    check_mpi(MPI_Isend(data, size, MPI_BYTE, rank, send_tag, comm_, &request), "MPI_Isend");
+    if (is_done(request)) return;
+    check_mpi(MPI_Request_free(&request), "MPI_Request_free");
+    begin_collective(0);  // throws, when nobody receives any more
+}
+
+void MpiRanks::receive_piece(char* data, int size, int rank) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    check_mpi(MPI_Irecv(data, size, MPI_BYTE, rank, send_tag, comm_, &request), "MPI_Irecv");
+    if (is_done(request)) return;
+    check_mpi(MPI_Cancel(&request), "MPI_Cancel");
+    check_mpi(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
+    begin_collective(0);  // throws
 }
 
 void MpiRanks::send(int rank, const Bytes& message) {
-    std::uint64_t size = message.size();
-    check_mpi(MPI_Send(&size, 1, MPI_UINT64_T, rank, send_tag, comm_), "MPI_Send");
-    for_pieces(message, [&](const char* piece, int piece_size) {
-        check_mpi(MPI_Send(piece, piece_size, MPI_BYTE, rank, send_tag, comm_), "MPI_Send");
-    });
+    const std::uint64_t size = message.size();
+    send_piece(reinterpret_cast<const char*>(&size), sizeof size, rank);
+    for_pieces(message, [&](const char* piece, int piece_size) { send_piece(piece, piece_size, rank); });
 }
 
 Bytes MpiRanks::receive(int rank) {
     std::uint64_t size = 0;
-    check_mpi(MPI_Recv(&size, 1, MPI_UINT64_T, rank, send_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
+    receive_piece(reinterpret_cast<char*>(&size), sizeof size, rank);
     Bytes message(size);
-    for_pieces(message, [&](char* piece, int piece_size) {
-        check_mpi(MPI_Recv(piece, piece_size, MPI_BYTE, rank, send_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
-    });
+    for_pieces(message, [&](char* piece, int piece_size) { receive_piece(piece, piece_size, rank); });
     return message;
 }
 

@@ -105,7 +105,7 @@ class MpiRanks : public Communicator {
     MPI_Comm handle() const { return comm_; }
 
  private:
-    static constexpr int post_tag = 0, exchange_tag = 1, send_tag = 2;
+    static constexpr int post_tag = 0, exchange_tag = 1, send_tag = 2, leave_tag = 3;
     static MPI_Op operation_of(Reduction reduction);
     Bytes receive(const MPI_Status& announced) const;
     void broadcast_bytes(std::span<char> bytes, int root) const;
@@ -114,6 +114,9 @@ class MpiRanks : public Communicator {
     struct LastWords;
     void end_together(LastWords& words);
     void take_messages();
+    bool is_done(MPI_Request& request) const;
+    void send_piece(const char* data, int size, int rank);
+    void receive_piece(char* data, int size, int rank);
 
     // A message on its way, which MPI reads until it has left.
     struct Posted {
@@ -125,8 +128,10 @@ class MpiRanks : public Communicator {
     std::list<Posted> posted_;
     std::vector<int> sent_to_;  // messages to each rank since drop_messages()
     int received_ = 0;
-    std::vector<std::uint64_t> sizes_;  // of what the ranks bring to a collective
-    bool is_over_ = false;              // a rank has left
+    std::vector<std::uint64_t> sizes_;            // of what the ranks bring to a collective
+    std::vector<std::uint64_t> sent_, expected_;  // bytes to and from each rank in an exchange
+    std::vector<MPI_Request> leaving_;            // to each rank, that this one leaves
+    bool is_over_ = false;                        // a rank has left
 };
 
 }  // namespace kerf

@@ -2,6 +2,7 @@
 #include "core/out_of_memory.h"
 
 #include <algorithm>
+#include <array>
 
 namespace kerf {
 
@@ -18,13 +19,15 @@ StageStatus status_of_exception() {
 }
 
 void throw_first_error(Communicator& ranks, const StageStatus& own) {
-    constexpr int cancelled = static_cast<int>(ErrorCode::cancelled);
-    const std::vector<StageStatus> all = all_gather(ranks, own);
-    const auto failed = [](const StageStatus& status) { return status.code != 0 && status.code != cancelled; };
-    auto first = std::find_if(all.begin(), all.end(), failed);
-    if (first == all.end())
-        first = std::find_if(all.begin(), all.end(), [](const StageStatus& status) { return status.code != 0; });
-    if (first != all.end()) throw first->error();
+    const bool was_stopped = own.code == static_cast<int>(ErrorCode::cancelled);
+    const bool has_failed = own.code != 0 && !was_stopped;
+    std::array<std::uint64_t, 2> counts = {has_failed, was_stopped};
+    ranks.sum(counts);
+    if (counts[0] + counts[1] == 0) return;
+    const std::vector<char> may_speak = all_gather(ranks, static_cast<char>(counts[0] > 0 ? has_failed : was_stopped));
+    const auto speaker = static_cast<int>(std::find(may_speak.begin(), may_speak.end(), 1) - may_speak.begin());
+    const Bytes words = ranks.broadcast(ranks.rank() == speaker ? to_bytes(own) : Bytes(), speaker);
+    throw from_bytes<StageStatus>(words).error();
 }
 
 }  // namespace kerf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <exception>
 #include <iterator>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/bytes.h"
@@ -51,7 +53,8 @@ class Communicator {
     /// Collective: each of these words, of which every rank gives as many, becomes its sum over the ranks, modulo 2^64.
     virtual void sum(std::span<std::uint64_t> words) = 0;
 
-    /// Sends another rank a message of any size, and may wait for receive() to be called there. No collective.
+    /// Sends another rank a message of any size, and may wait for receive() to be called there. No collective; but if a
+    /// rank leaves meanwhile, its error is thrown here, as in receive().
     virtual void send(int rank, const Bytes& message) = 0;
     /// Waits for the next message that the other rank sends to this one.
     virtual Bytes receive(int rank) = 0;
@@ -102,8 +105,40 @@ std::vector<T> gather_items(Communicator& ranks, const std::vector<T>& own) {
     return all;
 }
 
+/// Collective: items[r] go to rank r. Returns what each rank has for this one, by rank.
+template <class T>
+std::vector<std::vector<T>> exchange_items(Communicator& ranks, std::vector<std::vector<T>> items) {
+    if (ranks.size() == 1) return items;
+    std::vector<Bytes> to_rank;
+    for (std::vector<T>& of_rank : items)
+        to_rank.push_back(of_rank.empty() ? Bytes() : to_bytes(std::exchange(of_rank, {})));
+    std::vector<Bytes> got = ranks.exchange(std::move(to_rank));
+    for (std::size_t r = 0; r < items.size(); ++r)
+        if (const Bytes bytes = std::exchange(got[r], {}); !bytes.empty()) items[r] = from_bytes<std::vector<T>>(bytes);
+    return items;
+}
+
+/// Collective: the items of every rank in one list, in the order of ranks, on the rank `root`; nothing on the others.
+template <class T>
+std::vector<T> gather_items_to(Communicator& ranks, int root, std::vector<T> own) {
+    std::vector<std::vector<T>> items(static_cast<std::size_t>(ranks.size()));
+    items[static_cast<std::size_t>(root)] = std::move(own);
+    std::vector<T> all;
+    for (std::vector<T>& of_rank : exchange_items(ranks, std::move(items)))
+        std::move(of_rank.begin(), of_rank.end(), std::back_inserter(all));
+    return all;
+}
+
+/// Collective: the sum of one number of each rank.
+template <std::integral Number>
+Number sum_of(Communicator& ranks, Number own) {
+    std::uint64_t word = static_cast<std::uint64_t>(own);
+    ranks.sum(std::span(&word, 1));
+    return static_cast<Number>(word);
+}
+
 /// Throws the error of the first rank that has one, on every rank. That a rank was stopped counts only where there is
-/// no other error: it may be the consequence.
+/// no other error: it may be the consequence. Where there is none, it costs a sum of two numbers.
 void throw_first_error(Communicator& ranks, const StageStatus& own);
 
 /// Runs a stage on every rank and returns its value; if it fails on any rank, the error of the first such rank is

@@ -1,8 +1,13 @@
 // What ranks do with each other, on a communicator of a program that has initialised MPI itself. It runs under mpirun,
 // every test on all ranks together.
+#include <fstream>
+
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "mpi/mpi_ranks.h"
+#include "support/collective_laws.h"
 
 namespace kerf {
 namespace {
@@ -50,6 +55,72 @@ TEST(MpiRanks, AreThoseOfTheCommunicatorThatIsGiven) {
     MPI_Comm_free(&half);
     EXPECT_EQ(all.all_reduce(1, Reduction::sum), all.size()) << "the others go on";
 }
+
+TEST(MpiRanks, KeepThePromisesOfCollectives) {
+    MpiRanks ranks;
+    for (const std::size_t largest : {1, 9, 40'001, 300'007}) test::expect_collectives(ranks, largest);
+    test::expect_sums(ranks);
+    test::expect_exchanged_items(ranks);
+}
+
+// From one rank, more than one call gathers.
+TEST(MpiRanks, GatherMoreThanAtOnce) {
+    MpiRanks ranks;
+    constexpr std::size_t large = (std::size_t{16} << 20) + 1;
+    const std::vector<Bytes> all = ranks.all_gather(Bytes(ranks.rank() == 0 ? large : 3, 'a'));
+    EXPECT_EQ(all.front(), Bytes(large, 'a'));
+    if (ranks.size() > 1) EXPECT_EQ(all.back(), Bytes(3, 'a'));
+}
+
+TEST(MpiRanks, EndWhenOneOfThemLeaves) {
+    MpiRanks all;
+    if (all.size() == 1) return;
+    for (const test::Waiting& waiting : test::ways_to_wait()) {
+        MpiRanks ranks;
+        test::expect_that_leaving_ends_all(ranks, waiting);
+    }
+    EXPECT_EQ(all.all_reduce(1, Reduction::sum), all.size()) << "these are other ones";
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose maps are larger than any limit
+// So much of the address space beyond what is in use may be used as long as this lives.
+class MemoryLimit {
+ public:
+    explicit MemoryLimit(std::uint64_t bytes) {
+        getrlimit(RLIMIT_AS, &before_);
+        std::uint64_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlimit limit{pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes, before_.rlim_max};
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
+    MemoryLimit(const MemoryLimit&) = delete;
+    MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+    rlimit before_{};
+};
+
+// One that has no room for what the others have: an error on all of them, which are in step afterwards.
+TEST(MpiRanks, AreAllOutOfMemoryIfOneIs) {
+    constexpr std::size_t room = std::size_t{16} << 20, large = std::size_t{48} << 20;
+    MpiRanks ranks;
+    if (ranks.size() == 1) return;
+    const bool is_last = ranks.rank() == ranks.size() - 1;
+    const auto expect_no_room = [&](const char* call, const auto& collective) {
+        std::optional<MemoryLimit> limit;
+        if (is_last) limit.emplace(room);
+        EXPECT_THROW(collective(), std::bad_alloc) << call;
+    };
+    const Bytes message(ranks.rank() == 0 ? large : 1);
+    std::vector<Bytes> to_rank(static_cast<std::size_t>(ranks.size()));
+    if (ranks.rank() == 0) to_rank.back() = message;
+    expect_no_room("all_gather", [&] { ranks.all_gather(message); });
+    expect_no_room("broadcast", [&] { ranks.broadcast(message, 0); });
+    expect_no_room("exchange", [&] { ranks.exchange(to_rank); });
+    test::expect_collectives(ranks, 1000);
+}
+#endif
 
 // The program's own message must not be taken for one of ours, nor the other way round.
 TEST(MpiRanks, LeaveTheMessagesOfTheProgramAlone) {

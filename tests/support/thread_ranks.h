@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
@@ -17,44 +18,83 @@
 
 namespace kerf::test {
 
-// Where the contributions of all ranks meet.
+// Where the contributions of all ranks meet, and their messages wait.
 class MeetingPoint {
  public:
-    explicit MeetingPoint(int size) : size_(size), given_(size) {}
-    std::vector<Bytes> meet(int rank, const Bytes& contribution) {
+    explicit MeetingPoint(int size) : size_(size), given_(size), leaving_(size), posted_(size) {}
+
+    // Of a rank that leaves: with the reason. For all others that is an Error.
+    std::vector<Bytes> meet(int rank, const Bytes& contribution, const StageStatus* why = nullptr) {
         std::unique_lock lock(mutex_);
         given_[rank] = contribution;
+        if (why) leaving_[rank] = StageStatus{why->code, why->message};
         const int round = round_;
         if (++arrived_ == size_) {
             result_ = given_;
+            has_ended_ = is_anybody_leaving();
             arrived_ = 0;
             ++round_;
-            all_here_.notify_all();
         }
-        all_here_.wait(lock, [&] { return round_ != round; });
+        change_.notify_all();
+        change_.wait(lock, [&] { return round_ != round; });
+        if (has_ended_ && !why)
+            throw std::find_if(leaving_.begin(), leaving_.end(), [](auto& w) { return w.has_value(); })
+                ->value()
+                .error();
         return result_;
     }
     void send(int from, int to, const Bytes& message) {
         const std::lock_guard lock(mutex_);
         sent_[{from, to}].push_back(message);
-        all_here_.notify_all();
+        change_.notify_all();
     }
     Bytes receive(int from, int to) {
         std::unique_lock lock(mutex_);
         std::deque<Bytes>& queue = sent_[{from, to}];
-        all_here_.wait(lock, [&] { return !queue.empty(); });
-        Bytes message = std::move(queue.front());
-        queue.pop_front();
-        return message;
+        change_.wait(lock, [&] { return !queue.empty() || is_anybody_leaving(); });
+        if (queue.empty()) {
+            lock.unlock();
+            meet(to, {});  // throws
+        }
+        return take_first(queue);
+    }
+    void post(int to, const Bytes& message) {
+        const std::lock_guard lock(mutex_);
+        posted_[to].push_back(message);
+    }
+    std::optional<Bytes> poll(int rank) {
+        const std::lock_guard lock(mutex_);
+        if (posted_[rank].empty()) return {};
+        return take_first(posted_[rank]);
+    }
+    void drop_messages(int rank) {
+        meet(rank, {});
+        {
+            const std::lock_guard lock(mutex_);
+            posted_[rank].clear();
+        }
+        meet(rank, {});  // nobody posts before all are here
     }
     int size() const { return size_; }
 
  private:
+    static Bytes take_first(std::deque<Bytes>& queue) {
+        Bytes first = std::move(queue.front());
+        queue.pop_front();
+        return first;
+    }
+    bool is_anybody_leaving() const {
+        return std::any_of(leaving_.begin(), leaving_.end(), [](const auto& why) { return why.has_value(); });
+    }
+
     int size_, arrived_ = 0, round_ = 0;
+    bool has_ended_ = false;
     std::vector<Bytes> given_, result_;
+    std::vector<std::optional<StageStatus>> leaving_;
     std::map<std::pair<int, int>, std::deque<Bytes>> sent_;
+    std::vector<std::deque<Bytes>> posted_;
     std::mutex mutex_;
-    std::condition_variable all_here_;
+    std::condition_variable change_;
 };
 
 class ThreadRank : public Communicator {
@@ -62,34 +102,51 @@ class ThreadRank : public Communicator {
     ThreadRank(MeetingPoint& meeting, int rank) : meeting_(meeting), rank_(rank) {}
     int rank() const override { return rank_; }
     int size() const override { return meeting_.size(); }
-    std::vector<Bytes> all_gather(const Bytes& contribution) override { return meeting_.meet(rank_, contribution); }
-    Bytes broadcast(Bytes of_root, int root) override {
-        return meeting_.meet(rank_, of_root)[static_cast<std::size_t>(root)];
+    std::vector<Bytes> all_gather(const Bytes& contribution) override {
+        return or_over([&] { return meeting_.meet(rank_, contribution); });
     }
+    Bytes broadcast(Bytes of_root, int root) override { return all_gather(of_root)[static_cast<std::size_t>(root)]; }
     std::vector<Bytes> exchange(std::vector<Bytes> to_rank) override {
         std::vector<Bytes> got;
-        for (const Bytes& of_rank : meeting_.meet(rank_, to_bytes(to_rank)))
+        for (const Bytes& of_rank : all_gather(to_bytes(to_rank)))
             got.push_back(from_bytes<std::vector<Bytes>>(of_rank)[static_cast<std::size_t>(rank_)]);
         return got;
     }
     void sum(std::span<std::uint64_t> words) override {
         const std::vector<std::uint64_t> own(words.begin(), words.end());
         std::fill(words.begin(), words.end(), 0);
-        for (const Bytes& of_rank : meeting_.meet(rank_, to_bytes(own))) {
+        for (const Bytes& of_rank : all_gather(to_bytes(own))) {
             const auto added = from_bytes<std::vector<std::uint64_t>>(of_rank);
             for (std::size_t i = 0; i < words.size(); ++i) words[i] += added[i];
         }
     }
     void send(int rank, const Bytes& message) override { meeting_.send(rank_, rank, message); }
-    Bytes receive(int rank) override { return meeting_.receive(rank, rank_); }
-    void post(int, const Bytes&) override { FAIL() << "no stage under test posts messages"; }
-    std::optional<Bytes> poll() override { return {}; }
-    void drop_messages() override {}
-    void leave(const StageStatus&) override { FAIL() << "no stage under test ends on one rank alone"; }
+    Bytes receive(int rank) override {
+        return or_over([&] { return meeting_.receive(rank, rank_); });
+    }
+    void post(int rank, const Bytes& message) override { meeting_.post(rank, message); }
+    std::optional<Bytes> poll() override { return meeting_.poll(rank_); }
+    void drop_messages() override {
+        if (!is_over_) or_over([&] { meeting_.drop_messages(rank_); });
+    }
+    void leave(const StageStatus& why) override {
+        if (!std::exchange(is_over_, true)) meeting_.meet(rank_, {}, &why);
+    }
 
  private:
+    template <class Meet>
+    std::invoke_result_t<Meet> or_over(Meet meet) {
+        try {
+            return meet();
+        } catch (const Error&) {
+            is_over_ = true;
+            throw;
+        }
+    }
+
     MeetingPoint& meeting_;
     int rank_;
+    bool is_over_ = false;  // a rank has left
 };
 
 /// Calls body(communicator) on so many ranks, and returns when all have ended.

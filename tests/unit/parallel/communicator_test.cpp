@@ -1,8 +1,13 @@
 // What ranks gather, and how they agree on errors.
 #include "parallel/communicator.h"
 
+#include <algorithm>
+#include <bit>
+
 #include <gtest/gtest.h>
 
+#include "support/collective_laws.h"
+#include "support/counting_ranks.h"
 #include "support/thread_ranks.h"
 
 namespace kerf {
@@ -91,6 +96,47 @@ TEST(Gathering, ListsTheItemsOfAllRanksInTheirOrder) {
         const std::vector<int> own(static_cast<std::size_t>(ranks.rank()), ranks.rank());
         EXPECT_EQ(gather_items(ranks, own), (std::vector<int>{1, 2, 2}));
     });
+}
+
+TEST(Collectives, KeepTheirPromises) {
+    for (const int size : {1, 2, 3, 8})
+        test::run_ranks(size, [](Communicator& ranks) {
+            for (const std::size_t largest : {1, 9, 40'001}) test::expect_collectives(ranks, largest);
+            test::expect_sums(ranks);
+            test::expect_exchanged_items(ranks);
+        });
+    SingleRank alone;
+    test::expect_collectives(alone, 10);
+    test::expect_sums(alone);
+    test::expect_exchanged_items(alone);
+}
+
+TEST(Collectives, EndWhenARankLeaves) {
+    for (const int size : {2, 5})
+        for (const test::Waiting& waiting : test::ways_to_wait())
+            test::run_ranks(size, [&](Communicator& ranks) { test::expect_that_leaving_ends_all(ranks, waiting); });
+}
+
+// The busiest rank of so many, in a stage.
+template <class Stage>
+test::Traffic busiest_of(int size, Stage stage) {
+    std::vector<test::Traffic> traffic(size);
+    test::run_ranks(size, [&](Communicator& ranks) {
+        test::CountingRanks counting(ranks);
+        stage(counting);
+        traffic[ranks.rank()] = counting.traffic();
+    });
+    return *std::max_element(traffic.begin(), traffic.end(),
+                             [](const auto& a, const auto& b) { return a.bytes() < b.bytes(); });
+}
+
+TEST(InAgreement, CostsASumOfTwoNumbersWhereAllIsWell) {
+    for (const int size : {1, 2, 4, 8, 64}) {
+        const test::Traffic traffic = busiest_of(size, [](Communicator& ranks) { in_agreement(ranks, [] {}); });
+        const std::int64_t depth = std::bit_width(static_cast<unsigned>(size - 1));
+        EXPECT_LE(traffic.bytes(), 2 * 16 * depth);
+        EXPECT_LE(traffic.messages, depth);
+    }
 }
 
 }  // namespace
