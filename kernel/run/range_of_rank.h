@@ -2,15 +2,13 @@
 #pragma once
 
 #include "decompose/decomposition.h"
-#include "parallel/communicator.h"
+#include "parallel/shares.h"
 
 namespace kerf {
 
-/// The share of this rank in `count` things: ranges of all ranks follow each other and differ by one at most in size.
+/// The share of this rank in `count` things, as first_of_rank() has it.
 inline LeafRange range_of_rank(std::int32_t count, const Communicator& ranks) {
-    const auto begin = [&](int rank) {
-        return static_cast<std::int32_t>(static_cast<std::int64_t>(count) * rank / ranks.size());
-    };
+    const auto begin = [&](int rank) { return static_cast<std::int32_t>(first_of_rank(count, rank, ranks)); };
     return {begin(ranks.rank()), begin(ranks.rank() + 1)};
 }
 

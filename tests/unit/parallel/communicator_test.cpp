@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "parallel/shares.h"
 #include "support/collective_laws.h"
 #include "support/counting_ranks.h"
 #include "support/thread_ranks.h"
@@ -115,6 +116,21 @@ TEST(Collectives, EndWhenARankLeaves) {
     for (const int size : {2, 5})
         for (const test::Waiting& waiting : test::ways_to_wait())
             test::run_ranks(size, [&](Communicator& ranks) { test::expect_that_leaving_ends_all(ranks, waiting); });
+}
+
+TEST(Shares, AreRangesThatFollowEachOther) {
+    for (const int size : {1, 2, 3, 7, 8})
+        test::run_ranks(size, [](Communicator& ranks) {
+            for (const std::int64_t count : {1, 2, 7, 8, 9, 1000}) {
+                EXPECT_EQ(first_of_rank(count, 0, ranks), 0);
+                EXPECT_EQ(first_of_rank(count, ranks.size(), ranks), count);
+                for (int r = 0; r < ranks.size(); ++r) {
+                    const std::int64_t first = first_of_rank(count, r, ranks), end = first_of_rank(count, r + 1, ranks);
+                    EXPECT_TRUE(end - first == count / ranks.size() || end - first == count / ranks.size() + 1);
+                    for (std::int64_t i = first; i < end; ++i) EXPECT_EQ(rank_in_range(count, i, ranks), r);
+                }
+            }
+        });
 }
 
 // The busiest rank of so many, in a stage.
