@@ -68,29 +68,21 @@ std::vector<SharedEdges::Incidence> SharedEdges::incidences_of(const Part& part)
 }
 
 SharedEdges::SharedEdges(std::vector<Incidence> told, const std::vector<NodeId>& ids)
-    : incidences_(std::move(told)), ids_(ids.begin(), ids.end()) {
+    : incidences_(std::move(told)), ids_(ids.begin(), ids.end()), index_(ids) {
     std::sort(incidences_.begin(), incidences_.end());
     incidences_.erase(std::unique(incidences_.begin(), incidences_.end()), incidences_.end());
-    for (const PartIndex index : ids_.ids()) places_.push_back({ids_[index], index});
-    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
-}
-
-PartIndex SharedEdges::index_of(NodeId id) const {
-    return std::lower_bound(places_.begin(), places_.end(), id,
-                            [](const Place& place, NodeId wanted) { return place.id < wanted; })
-        ->index;
 }
 
 std::vector<SharedEdgeGroup> SharedEdges::groups_of(const Part& part) const {
     std::map<std::vector<PartIndex>, std::vector<UndirectedEdge>> edges_of;  // by the parts that hold them
     std::vector<PartIndex> holders;
     for_each_edge(interface_edges(part), [&](auto begin, auto end) {
-        holders.assign(1, index_of(part.id));
+        holders.assign(1, index_.of(part.id));
         for (auto met = begin; met != end; ++met)
-            if (met->neighbour != any_part) holders.push_back(index_of(met->neighbour));
+            if (met->neighbour != any_part) holders.push_back(index_.of(met->neighbour));
         auto told = std::lower_bound(incidences_.begin(), incidences_.end(), begin->edge,
                                      [](const Incidence& held, const auto& wanted) { return held.edge < wanted; });
-        for (; told != incidences_.end() && told->edge == begin->edge; ++told) holders.push_back(index_of(told->part));
+        for (; told != incidences_.end() && told->edge == begin->edge; ++told) holders.push_back(index_.of(told->part));
         std::sort(holders.begin(), holders.end());
         holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
         if (holders.size() < 2) return;  // nothing touches the part here

@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "part/part.h"
+#include "part/part_indices.h"
 
 namespace kerf {
 
 /// The edges on interfaces, each with the parts that hold it. Two parts may have both ends of an edge in common and not
 /// the edge. Around an edge that several parts hold each of them meets the next one in an interface, so that a part
 /// knows its neighbours there, but not theirs: only edges that some part shares with two others, or more, have to be
-/// told, and those at which bodies touch (Part::contact_edges), by all that have them.
+/// told, and those at which bodies touch (Part::contact_edges), by all that have them. Of an edge that is told, each
+/// part that holds it is named.
 class SharedEdges {
  public:
     /// An edge and a part that holds it; may be named more than once.
@@ -32,22 +34,17 @@ class SharedEdges {
     static std::vector<Incidence> incidences_of(const Part& part);
 
     SharedEdges() = default;
-    /// `told`: what all parts tell. `ids`: those of the parts. O(n log n).
+    /// `told`: what all parts tell, or at least that of the edges of which a part is named whose groups are asked for.
+    /// `ids`: those of all parts. O(n log n).
     SharedEdges(std::vector<Incidence> told, const std::vector<NodeId>& ids);
 
     /// The value of Part::shared_edges for this part. O(#F log #F).
     std::vector<SharedEdgeGroup> groups_of(const Part& part) const;
 
  private:
-    PartIndex index_of(NodeId id) const;
-
-    struct Place {
-        NodeId id;
-        PartIndex index;
-    };
     std::vector<Incidence> incidences_;  // ascending by edge, then part
     Array<PartIndex, NodeId> ids_;
-    std::vector<Place> places_;  // ascending by id
+    PartIndices index_;
 };
 
 }  // namespace kerf

@@ -27,7 +27,8 @@ class SharedVertices {
     };
 
     SharedVertices() = default;
-    /// `ids`: those of the parts. O(n log n).
+    /// `held`: of all parts, or at least of the vertices of which a part is named whose groups are asked for. `ids`:
+    /// those of all parts. O(n log n).
     SharedVertices(std::vector<Incidence> held, const std::vector<NodeId>& ids);
 
     /// The value of Part::shared for a part. `boundary_ids`: global numbers of its boundary vertices.

@@ -4,13 +4,18 @@
 #include <span>
 #include <vector>
 
+#include "core/ids.h"
 #include "decompose/decomposition.h"
 #include "parallel/communicator.h"
-#include "part/shared_vertices.h"
-#include "prepare/numbering.h"
 #include "prepare/oriented_triangle.h"
 
 namespace kerf {
+
+/// Whether the facet of a leaf has another leaf on its other side: it is one of an interface, or a wall of regions.
+/// `sides`: of the facets of the input, as Complex::all_sides().
+inline bool is_between_leaves(Key facet, std::span<const FacetSides> sides) {
+    return is_of_cut(facet) || (!sides.empty() && sides[static_cast<std::size_t>(key_index(facet))].is_wall());
+}
 
 /// One side of a facet between two leaves.
 struct InterfaceSide {
@@ -24,27 +29,22 @@ struct InterfaceSide {
     }
 };
 
-/// The facets of all leaves that have a leaf on either side, interfaces and walls of regions, sorted by facet key.
-class InterfaceTable {
+/// What lies on the other side of the facets between leaves. Both sides of a facet are told to one rank, which its key
+/// chooses, and that tells the ranks of the leaves what it has found: memory and messages of a rank follow the
+/// interfaces of its own leaves. O(n log n) for n facets of them.
+class InterfaceMatch {
  public:
-    /// Collective: gathers the sides that the leaves of this rank hold. `sides`: of the facets of the input, as
-    /// Complex::all_sides(), and for as long as this lives.
-    InterfaceTable(Communicator& ranks, const std::vector<Leaf>& leaves, std::span<const FacetSides> sides = {});
+    /// Collective. `leaves`: of this rank. `sides`: as above.
+    InterfaceMatch(Communicator& ranks, const std::vector<Leaf>& leaves, std::span<const FacetSides> sides = {});
 
-    /// For each facet of the leaf the leaf on the other side, -1 where there is none.
-    std::vector<NodeId> neighbours(const Leaf& leaf) const;
-    /// The vertices of all interfaces, and those of `contacts`, which all ranks have told. `leaves`: all of the run, in
-    /// the order of the tree.
-    SharedVertices shared_vertices(const VertexNumbering& numbering, const std::vector<NodeId>& leaves,
-                                   std::vector<SharedVertices::Incidence> contacts = {}) const;
-    /// Facets that do not appear exactly twice, on two leaves, with the same vertices in opposite order.
-    std::int64_t unmatched() const;
+    /// For each facet of the leaf with this place on this rank the leaf on the other side, -1 where there is none.
+    const std::vector<NodeId>& neighbours(std::size_t leaf) const { return neighbours_[leaf]; }
+    /// Facets of all ranks that do not appear exactly twice, on two leaves, with the same vertices in opposite order.
+    std::int64_t unmatched() const { return unmatched_; }
 
  private:
-    bool is_shared(Key facet) const;
-
-    std::span<const FacetSides> facet_sides_;
-    std::vector<InterfaceSide> sides_;
+    std::vector<std::vector<NodeId>> neighbours_;
+    std::int64_t unmatched_ = 0;
 };
 
 }  // namespace kerf

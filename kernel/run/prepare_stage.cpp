@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/mixed_bits.h"
 #include "geometry/box.h"
 #include "geometry/triangle.h"
 #include "part/shared_edges.h"
+#include "part/shared_vertices.h"
 #include "prepare/input_cover.h"
 #include "prepare/interface_match.h"
+#include "prepare/leaves_of_ranks.h"
 #include "prepare/numbering.h"
+#include "prepare/shared_incidences.h"
 #include "surface/mass_properties.h"
 #include "surface/touching.h"
 #include "volume/tet_forecast.h"
@@ -61,23 +65,42 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
     return part;
 }
 
-std::vector<NodeId> gather_leaves(Communicator& ranks, const std::vector<Leaf>& own) {
-    std::vector<NodeId> ids;
-    for (const Leaf& leaf : own) ids.push_back(leaf.id);
-    return gather_items(ranks, ids);
-}
-
-PartIndex index_of_leaf(const std::vector<NodeId>& leaves, NodeId leaf) {
-    return PartIndex(std::find(leaves.begin(), leaves.end(), leaf) - leaves.begin());
-}
-
-void find_shared_edges(Communicator& ranks, const std::vector<NodeId>& leaves, std::vector<OwnPart>& own) {
-    std::vector<SharedEdges::Incidence> incidences;
-    for (const OwnPart& part : own) {
-        const std::vector<SharedEdges::Incidence> by_part = SharedEdges::incidences_of(part_of_job(part.job));
-        incidences.insert(incidences.end(), by_part.begin(), by_part.end());
+// What the parts of this rank have in common with those of all ranks.
+SharedVertices find_shared_vertices(Communicator& ranks, const LeavesOfRanks& leaves, const VertexNumbering& numbering,
+                                    const Decomposition& own, std::span<const FacetSides> sides) {
+    std::vector<SharedVertices::Incidence> held;
+    std::vector<char> is_held;
+    for (const Leaf& leaf : own.leaves) {
+        const SurfaceArrays& surface = leaf.surface;
+        is_held.assign(surface.vertices.size(), 0);
+        for (std::size_t f = 0; f < surface.facets.size(); ++f)
+            if (is_between_leaves(surface.facet_key[f], sides))
+                for (const std::int32_t v : surface.facets[f]) is_held[v] = 1;
+        for (std::size_t v = 0; v < is_held.size(); ++v)
+            if (const Key key = surface.vertex_key[v]; is_held[v] || own.contacts.has(key))
+                held.push_back({numbering.global_id(key), leaves.index_of(leaf.id)});
     }
-    const SharedEdges shared(gather_items(ranks, incidences), leaves);
+    using Incidence = SharedVertices::Incidence;
+    return {incidences_of_rank(
+                ranks, leaves, std::move(held), [](const Incidence& i) { return static_cast<std::uint64_t>(i.vertex); },
+                [](const Incidence& a, const Incidence& b) { return a.vertex == b.vertex; }),
+            leaves.ids()};
+}
+
+void find_shared_edges(Communicator& ranks, const LeavesOfRanks& leaves, std::vector<OwnPart>& own) {
+    using Incidence = SharedEdges::Incidence;
+    std::vector<Incidence> told;
+    for (const OwnPart& part : own) {
+        const std::vector<Incidence> by_part = SharedEdges::incidences_of(part_of_job(part.job));
+        told.insert(told.end(), by_part.begin(), by_part.end());
+    }
+    const auto number = [](const Incidence& i) {
+        return mixed_bits(static_cast<std::uint64_t>(i.edge[0])) + static_cast<std::uint64_t>(i.edge[1]);
+    };
+    const SharedEdges shared(
+        incidences_of_rank(ranks, leaves, std::move(told), number,
+                           [](const Incidence& a, const Incidence& b) { return a.edge == b.edge; }),
+        leaves.ids());
     for (OwnPart& part : own) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
 }
 
@@ -107,45 +130,33 @@ SurfaceContacts contacts_of(const SurfaceArrays& surface, const Contacts& contac
     return own;
 }
 
-// Which leaves have the vertices of contacts.
-std::vector<SharedVertices::Incidence> gather_contacts(Communicator& ranks, const Decomposition& own,
-                                                       const VertexNumbering& numbering,
-                                                       const std::vector<NodeId>& leaves) {
-    std::vector<SharedVertices::Incidence> held;
-    if (own.contacts.empty()) return held;
-    for (const Leaf& leaf : own.leaves)
-        for (const Key key : leaf.surface.vertex_key)
-            if (own.contacts.has(key)) held.push_back({numbering.global_id(key), index_of_leaf(leaves, leaf.id)});
-    return gather_items(ranks, held);
-}
-
 }  // namespace
 
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
                             Decomposition own, const RunOptions& options) {
     PreparedParts prepared;
     const std::span<const FacetSides> sides = input.complex.all_sides();
-    const InterfaceTable table(ranks, own.leaves, sides);
-    prepared.unmatched_interface_facets = table.unmatched();
+    const InterfaceMatch match(ranks, own.leaves, sides);
+    prepared.unmatched_interface_facets = match.unmatched();
     prepared.missing_input_facets = count_missing_input_facets(ranks, input.facets, own, sides);
     const VertexNumbering numbering(input.vertices, nodes);
     prepared.surface_vertices = numbering.surface_vertices();
-    const std::vector<NodeId> leaves = gather_leaves(ranks, own.leaves);
+    const LeavesOfRanks leaves(ranks, own.leaves);
     // A part that touches itself has one vertex at a place from here on.
     if (!sides.empty())
         for (Leaf& leaf : own.leaves) leaf.surface = joined_by_key(std::move(leaf.surface));
-    const SharedVertices shared =
-        table.shared_vertices(numbering, leaves, gather_contacts(ranks, own, numbering, leaves));
+    const SharedVertices shared = find_shared_vertices(ranks, leaves, numbering, own, sides);
     const std::span<const std::string> regions = input.complex.region_names();
-    for (Leaf& leaf : own.leaves) {
+    for (std::size_t i = 0; i < own.leaves.size(); ++i) {
+        Leaf& leaf = own.leaves[i];
         PartJob job;
         job.part = leaf.id;
         job.boundary_id = numbering.global_ids(leaf.surface.vertex_key);
-        job.neighbour = table.neighbours(leaf);
+        job.neighbour = match.neighbours(i);
         SurfaceContacts contacts = contacts_of(leaf.surface, own.contacts);
         job.contact_vertices = std::move(contacts.vertices);
         job.contact_edges = std::move(contacts.edges);
-        job.shared = shared.groups_of(index_of_leaf(leaves, leaf.id), job.boundary_id);
+        job.shared = shared.groups_of(leaves.index_of(leaf.id), job.boundary_id);
         job.patch_names = input.patch_names;
         job.region_names.assign(regions.begin(), regions.end());
         job.region = leaf.region;

@@ -25,7 +25,8 @@ struct PreparedParts {
 };
 
 /// Brings both sides of all interfaces together: neighbours, global numbers, and what parts share. Collective. `nodes`:
-/// of the whole tree, ascending by number; `own`: of this rank. Memory of every rank: the interfaces of all.
+/// of the whole tree, ascending by number; `own`: of this rank. Memory and messages of a rank follow what its own parts
+/// have to do with others, but for 16 bytes a part of the run. The jobs are the same for any number of ranks.
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
                             Decomposition own, const RunOptions& options);
 

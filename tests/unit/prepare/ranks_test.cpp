@@ -6,11 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "parallel/shares.h"
 #include "prepare/gathered_nodes.h"
 #include "prepare/input_cover.h"
 #include "prepare/interface_match.h"
 #include "prepare/numbering.h"
 #include "support/assets.h"
+#include "support/counting_ranks.h"
 #include "support/decomposition_laws.h"
 #include "support/thread_ranks.h"
 #include "support/voxel_regions.h"
@@ -122,14 +124,15 @@ TEST(CutHash, TellsTheLastBitOfACut) {
     }
 }
 
-TEST(InterfaceTable, BothSidesNameEachOther) {
+TEST(InterfaceMatch, BothSidesNameEachOther) {
     const Decomposition five = five_parts();
     SingleRank alone;
-    const InterfaceTable table(alone, five.leaves);
-    EXPECT_EQ(table.unmatched(), 0);
+    const InterfaceMatch match(alone, five.leaves);
+    EXPECT_EQ(match.unmatched(), 0);
     std::map<Key, std::set<std::pair<NodeId, NodeId>>> sides;
-    for (const Leaf& leaf : five.leaves) {
-        const std::vector<NodeId> neighbours = table.neighbours(leaf);
+    for (std::size_t i = 0; i < five.leaves.size(); ++i) {
+        const Leaf& leaf = five.leaves[i];
+        const std::vector<NodeId>& neighbours = match.neighbours(i);
         for (std::size_t f = 0; f < neighbours.size(); ++f) {
             EXPECT_EQ(neighbours[f] == -1, key_node(leaf.surface.facet_key[f]) == 0);
             if (neighbours[f] >= 0) sides[leaf.surface.facet_key[f]].insert({leaf.id, neighbours[f]});
@@ -143,49 +146,105 @@ TEST(InterfaceTable, BothSidesNameEachOther) {
     }
 }
 
-TEST(InterfaceTable, IsTheSameForLeavesOnSeveralRanks) {
-    const Decomposition five = five_parts();
-    SingleRank alone;
-    const InterfaceTable whole(alone, five.leaves);
-    test::run_ranks(2, [&](Communicator& ranks) {
-        const auto middle = five.leaves.begin() + 2;
-        const std::vector<Leaf> own(ranks.rank() ? middle : five.leaves.begin(),
-                                    ranks.rank() ? five.leaves.end() : middle);
-        const InterfaceTable table(ranks, own);
-        EXPECT_EQ(table.unmatched(), 0);
-        for (const Leaf& leaf : own) EXPECT_EQ(table.neighbours(leaf), whole.neighbours(leaf));
-    });
+// Of all leaves those of a rank.
+std::vector<Leaf> leaves_of_rank(const std::vector<Leaf>& all, const Communicator& ranks) {
+    const auto first = [&](int rank) { return all.begin() + first_of_rank(std::ssize(all), rank, ranks); };
+    return {first(ranks.rank()), first(ranks.rank() + 1)};
 }
 
-TEST(InterfaceTable, CountsWhatDoesNotMatch) {
+TEST(InterfaceMatch, IsTheSameForLeavesOnSeveralRanks) {
+    const test::VoxelBody grains = test::voxel_body({5, 5, 5}, test::grains({5, 5, 5}, 4, 7));
+    const Decomposition of_regions = decompose(test::to_complex(grains), test::in_parts(11), {0, 11});
+    const Decomposition five = five_parts();
+    for (const auto& [all, sides] :
+         {std::pair(&five.leaves, std::vector<FacetSides>()), std::pair(&of_regions.leaves, grains.sides)}) {
+        SingleRank alone;
+        const InterfaceMatch whole(alone, *all, sides);
+        for (const int size : {1, 2, 4, 8})
+            test::run_ranks(size, [&, all = all, &sides = sides](Communicator& ranks) {
+                const std::vector<Leaf> own = leaves_of_rank(*all, ranks);
+                const InterfaceMatch match(ranks, own, sides);
+                EXPECT_EQ(match.unmatched(), 0);
+                const std::int64_t before = first_of_rank(std::ssize(*all), ranks.rank(), ranks);
+                for (std::size_t i = 0; i < own.size(); ++i)
+                    EXPECT_EQ(match.neighbours(i), whole.neighbours(static_cast<std::size_t>(before) + i));
+            });
+    }
+}
+
+TEST(InterfaceMatch, CountsWhatDoesNotMatch) {
     const auto unmatched_after = [](const auto& damage) {
         Decomposition five = five_parts();
         damage(five.leaves);
-        SingleRank alone;
-        return InterfaceTable(alone, five.leaves).unmatched();
+        std::set<std::int64_t> counts;
+        for (const int size : {1, 2, 3, 6}) {
+            std::vector<std::int64_t> of_ranks(size);
+            test::run_ranks(size, [&](Communicator& ranks) {
+                of_ranks[ranks.rank()] = InterfaceMatch(ranks, leaves_of_rank(five.leaves, ranks)).unmatched();
+            });
+            counts.insert(of_ranks.begin(), of_ranks.end());
+        }
+        EXPECT_EQ(counts.size(), 1u) << "on all ranks, however many";
+        return *counts.begin();
     };
     // The last facet of a leaf lies on the interface that was cut last.
     EXPECT_EQ(unmatched_after([](auto& leaves) {
                   std::swap(leaves[0].surface.facets.back()[0], leaves[0].surface.facets.back()[1]);
               }),
               1);
-    EXPECT_EQ(unmatched_after([](auto& leaves) { leaves[0].surface.facets.pop_back(); }), 1);
+    const auto without_last_facet = [](SurfaceArrays& surface) {
+        surface.facets.pop_back();
+        surface.facet_key.pop_back();
+    };
+    EXPECT_EQ(unmatched_after([&](auto& leaves) { without_last_facet(leaves[0].surface); }), 1);
     EXPECT_GT(unmatched_after([](auto& leaves) { leaves.pop_back(); }), 10);
 }
 
-// Half of the leaves on each of two ranks, after a damage to one of them.
-std::int64_t missing_after(const std::function<void(SurfaceArrays&)>& damage) {
-    std::int64_t missing = -1;
-    test::run_ranks(2, [&](Communicator& ranks) {
-        Decomposition own = five_parts();
-        damage(own.leaves[1].surface);
-        const std::int64_t facets = own.nodes.front().facets;
-        own.leaves.erase(ranks.rank() ? own.leaves.begin() : own.leaves.begin() + 2,
-                         ranks.rank() ? own.leaves.begin() + 2 : own.leaves.end());
-        const std::int64_t count = count_missing_input_facets(ranks, facets, own);
-        if (ranks.rank() == 1) missing = count;
+// Leaves dealt out to ranks: each is told and asked as much as its own have to do with others.
+TEST(InterfaceMatch, CostsARankLessWhereThereAreMore) {
+    const Decomposition whole = decompose(test::asset_surface("bearing_cap_14k"), test::in_parts(16), {0, 16});
+    std::map<int, test::Traffic> busiest;
+    for (const int size : {2, 4, 8}) {
+        std::vector<test::Traffic> traffic(size);
+        test::run_ranks(size, [&](Communicator& ranks) {
+            test::CountingRanks counting(ranks);
+            const InterfaceMatch match(counting, leaves_of_rank(whole.leaves, ranks));
+            traffic[ranks.rank()] = counting.traffic();
+        });
+        busiest[size] = *std::max_element(traffic.begin(), traffic.end(),
+                                          [](const auto& a, const auto& b) { return a.bytes() < b.bytes(); });
+        EXPECT_LE(busiest[size].messages, 2 * (size - 1) + 3 * 4) << size;
+    }
+    // Of a share 1 / P of all sides (P - 1) / P goes elsewhere: 7/16 of it from 2 ranks to 8, were all parts alike.
+    EXPECT_LT(busiest[8].bytes(), 0.6 * static_cast<double>(busiest[2].bytes()));
+    EXPECT_LT(busiest[8].bytes(), 0.75 * static_cast<double>(busiest[4].bytes()));
+}
+
+// On so many ranks; the same on all of them.
+std::int64_t missing_on_ranks(int size, const Decomposition& all, std::int64_t facets,
+                              const std::vector<FacetSides>& sides = {}) {
+    std::vector<std::int64_t> missing(size);
+    test::run_ranks(size, [&](Communicator& ranks) {
+        Decomposition own;
+        own.divided_facets = all.divided_facets;
+        own.leaves = leaves_of_rank(all.leaves, ranks);
+        missing[ranks.rank()] = count_missing_input_facets(ranks, facets, own, sides);
     });
+    EXPECT_EQ(missing, std::vector<std::int64_t>(size, missing.front())) << size << " ranks";
+    return missing.front();
+}
+
+// However many ranks there are.
+std::int64_t missing_facets(const Decomposition& all, std::int64_t facets, const std::vector<FacetSides>& sides = {}) {
+    const std::int64_t missing = missing_on_ranks(1, all, facets, sides);
+    for (const int size : {2, 3, 8}) EXPECT_EQ(missing_on_ranks(size, all, facets, sides), missing) << size << " ranks";
     return missing;
+}
+
+std::int64_t missing_after(const std::function<void(SurfaceArrays&)>& damage) {
+    Decomposition all = five_parts();
+    damage(all.leaves[1].surface);
+    return missing_facets(all, all.nodes.front().facets);
 }
 
 TEST(InputCover, CountsFacetsThatAreMissingOrNotThereOnce) {
@@ -211,6 +270,54 @@ TEST(InputCover, CountsFacetsThatAreMissingOrNotThereOnce) {
               }),
               2)
         << "as many as before";
+}
+
+// Facets that straight cuts divide, at each of which pieces of several parts meet.
+TEST(InputCover, CountsFacetsWithoutAllTheirPieces) {
+    DecomposeOptions options = test::in_parts(6);
+    options.cut.contour = ContourMethod::straight;
+    const Surface box = test::asset_surface("hollow_box");
+    const Decomposition whole = test::decompose_whole(box, options);
+    ASSERT_GT(whole.divided_facets.size(), 10u);
+    EXPECT_EQ(missing_facets(whole, box.facet_count()), 0);
+    std::int64_t expected = 0;
+    Decomposition damaged = whole;
+    for (const DividedFacet& facet : whole.divided_facets) {
+        if (facet.facet % 3 != 0) continue;
+        ++expected;
+        const auto is_its = [&](Key key) { return is_of_input(key) && key_index(key) == facet.facet; };
+        for (Leaf& leaf : damaged.leaves) {
+            SurfaceArrays& s = leaf.surface;
+            const auto piece = std::find_if(s.facet_key.begin(), s.facet_key.end(), is_its);
+            if (piece == s.facet_key.end()) continue;
+            s.facets.erase(s.facets.begin() + (piece - s.facet_key.begin()));
+            s.facet_key.erase(piece);
+            break;
+        }
+    }
+    EXPECT_GT(expected, 2);
+    EXPECT_EQ(missing_facets(damaged, box.facet_count()), expected);
+}
+
+// The sums of all ranks alone where all is there; of what is not, each facet of a leaf goes to one rank.
+TEST(InputCover, TellsTheOthersLittle) {
+    Decomposition all = decompose(test::asset_surface("bearing_cap_14k"), test::in_parts(16), {0, 16});
+    const std::int64_t facets = all.nodes.front().facets;
+    for (const bool is_whole : {true, false}) {
+        if (!is_whole) all.leaves.pop_back();
+        for (const int size : {2, 4, 8})
+            test::run_ranks(size, [&](Communicator& ranks) {
+                test::CountingRanks counting(ranks);
+                Decomposition own;
+                own.leaves = leaves_of_rank(all.leaves, ranks);
+                EXPECT_EQ(count_missing_input_facets(counting, facets, own) == 0, is_whole);
+                std::int64_t of_leaves = 0;
+                for (const Leaf& leaf : own.leaves) of_leaves += std::ssize(leaf.surface.facets);
+                const std::int64_t all_alike = 400 + 40 * size;
+                EXPECT_LE(counting.traffic().sent_bytes, all_alike + (is_whole ? 0 : 8 * of_leaves));
+                EXPECT_LE(counting.traffic().received_bytes, all_alike + (is_whole ? 0 : 8 * (facets / size + 1)));
+            });
+    }
 }
 
 TEST(VertexNumbering, IsDenseOverInputAndCuts) {
@@ -254,9 +361,8 @@ TEST(InputCover, CountsSidesOfRegions) {
         Decomposition damaged = whole;
         std::vector<FacetSides> sides = body.sides;
         damage(damaged, sides);
-        const std::int64_t facets = std::ssize(sides);
-        EXPECT_EQ(InterfaceTable(alone, whole.leaves, body.sides).unmatched(), 0);
-        return count_missing_input_facets(alone, facets, damaged, sides);
+        EXPECT_EQ(InterfaceMatch(alone, whole.leaves, body.sides).unmatched(), 0);
+        return missing_facets(damaged, std::ssize(sides), sides);
     };
     EXPECT_EQ(missing_after([](auto&, auto&) {}), 0);
     EXPECT_GT(missing_after([](Decomposition& d, auto&) { d.leaves[0].region = RegionIndex(1); }), 9);
