@@ -29,10 +29,8 @@ bool is_cut_alike(const TreeNode& a, const TreeNode& b) {
     return facts(a) == facts(b);
 }
 
-}  // namespace
-
-std::vector<TreeNode> gather_nodes(Communicator& ranks, const std::vector<TreeNode>& own, const std::string& host) {
-    const std::vector<NodesOfRank> gathered = all_gather(ranks, NodesOfRank{host, own});
+// Each node once, ascending by number.
+std::vector<TreeNode> merge_nodes(const std::vector<NodesOfRank>& gathered) {
     std::map<NodeId, FirstFound> found;
     std::map<NodeId, std::size_t> unlike;  // and the rank that has it otherwise
     for (std::size_t rank = 0; rank < gathered.size(); ++rank)
@@ -52,6 +50,15 @@ std::vector<TreeNode> gather_nodes(Communicator& ranks, const std::vector<TreeNo
     std::vector<TreeNode> all;
     for (const auto& [id, first] : found) all.push_back(*first.node);
     return all;
+}
+
+}  // namespace
+
+std::vector<TreeNode> gather_nodes(Communicator& ranks, const std::vector<TreeNode>& own, const std::string& host) {
+    constexpr int root = 0;
+    const std::vector<NodesOfRank> gathered = gather_items_to(ranks, root, std::vector{NodesOfRank{host, own}});
+    const std::vector<TreeNode> all = in_agreement(ranks, [&] { return merge_nodes(gathered); });
+    return from_bytes<std::vector<TreeNode>>(ranks.broadcast(to_bytes(all), root));
 }
 
 }  // namespace kerf

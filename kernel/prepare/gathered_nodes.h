@@ -9,7 +9,8 @@
 
 namespace kerf {
 
-/// Collective: the nodes of all ranks, each once, ascending by number. `host`: of this rank, for the message.
+/// Collective: the nodes of all ranks, each once, ascending by number. `host`: of this rank, for the message. One rank
+/// compares them; the others get each node once.
 ///
 /// Ranks that share a branch of the tree make its cuts each for itself, and parts of unlike cuts would not fit. So the
 /// hashes of the cuts are compared: if two ranks have the same node with different ones, as unlike mathematical

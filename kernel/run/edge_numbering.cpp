@@ -1,7 +1,8 @@
 #include "run/edge_numbering.h"
 
-#include <algorithm>
+#include <vector>
 
+#include "part/part_indices.h"
 #include "run/range_of_rank.h"
 
 namespace kerf {
@@ -24,10 +25,12 @@ EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, 
 void count_nodes(const SecondOrderParts& parts, RunReport& report) {
     report.mesh_nodes = parts.outline().nodes();
     report.curved_nodes = std::ssize(parts.curved().ids);
+    std::vector<NodeId> ids;
+    for (const PartReport& part : report.parts) ids.push_back(part.id);
+    const PartIndices index(ids);
     for (const PartExtent& extent : parts.outline().parts)
-        std::find_if(report.parts.begin(), report.parts.end(), [&](const PartReport& part) {
-            return part.id == extent.id;
-        })->mesh_nodes = extent.vertices + extent.edge_nodes;
+        report.parts[static_cast<std::size_t>(index.of(extent.id).value())].mesh_nodes =
+            extent.vertices + extent.edge_nodes;
 }
 
 }  // namespace kerf

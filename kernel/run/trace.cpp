@@ -177,16 +177,12 @@ void TraceRecorder::write(const std::string& path, Communicator& ranks, const De
     std::vector<Cut> given;
     for (const TreeNode& node : own.nodes)
         if (node.cut_tried && range.meets(node.first_leaf, 1)) given.push_back(*trace_.find(node.id));
-    std::vector<Bytes> to_rank(static_cast<std::size_t>(ranks.size()));
-    to_rank.front() = to_bytes(given);
-    const std::vector<Bytes> all = ranks.exchange(std::move(to_rank));
+    constexpr int root = 0;
+    trace_.cuts = gather_items_to(ranks, root, std::move(given));
     if (!trace_.region_names.empty())
         trace_.region_roots = roots_of_regions(ranks, own.nodes, trace_.region_names.size());
     in_agreement(ranks, [&] {
-        if (ranks.rank() != 0) return;
-        trace_.cuts.clear();
-        for (const Bytes& bytes : all)
-            for (Cut& cut : from_bytes<std::vector<Cut>>(bytes)) trace_.cuts.push_back(std::move(cut));
+        if (ranks.rank() != root) return;
         std::sort(trace_.cuts.begin(), trace_.cuts.end(), by_node);
         write_trace(path, trace_);
     });
