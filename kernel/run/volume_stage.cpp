@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include "core/host_name.h"
 #include "core/stopwatch.h"
 #include "io/checked_file.h"
 #include "run/forecast.h"
@@ -19,8 +19,9 @@ namespace kerf {
 namespace {
 
 constexpr int root = 0;
-// How long a rank sleeps before it looks for messages and signals. Those with workers wake when one ends.
-constexpr double busy_seconds = 0.02, idle_seconds = 0.005;
+// How long a rank sleeps before it looks for messages and signals. Those with workers wake when one ends. A worker is
+// idle between a wish and its answer.
+constexpr double seconds_between_looks = 0.02, seconds_between_answers = 0.002;
 
 void remove_file(const std::string& path) {
     std::error_code error;
@@ -28,6 +29,28 @@ void remove_file(const std::string& path) {
     if (error)
         throw Error(ErrorCode::io, fmt::format("Cannot remove {}: {}. Check the permissions of the output folder.",
                                                path, error.message()));
+}
+
+// The sum on every rank, of which none holds more than two at a time.
+template <class T>
+T add_up(Communicator& ranks, T own) {
+    const int size = ranks.size();
+    for (int step = 1; step < size; step *= 2) {
+        std::vector<Bytes> out(static_cast<std::size_t>(size));
+        if (ranks.rank() % (2 * step) == step) out[static_cast<std::size_t>(ranks.rank() - step)] = to_bytes(own);
+        for (const Bytes& bytes : ranks.exchange(std::move(out)))
+            if (!bytes.empty()) own.add(from_bytes<T>(bytes));
+    }
+    return from_bytes<T>(ranks.broadcast(to_bytes(own), root));
+}
+
+// Numbers for the hosts of the ranks.
+std::vector<std::int32_t> number_hosts(Communicator& ranks) {
+    std::map<std::string, std::int32_t> numbers;
+    std::vector<std::int32_t> of_rank;
+    for (const std::string& host : all_gather(ranks, host_name()))
+        of_rank.push_back(numbers.try_emplace(host, static_cast<std::int32_t>(numbers.size())).first->second);
+    return of_rank;
 }
 
 // What others are told of a part.
@@ -38,61 +61,6 @@ PartReport without_quality(PartReport part) {
 }
 
 }  // namespace
-
-// What ranks tell each other while they mesh.
-struct VolumeStage::Message {
-    enum class Kind : char { wish, assignment, part_done, all_done, stop };
-    Kind kind = Kind::stop;
-    std::int32_t number = 0;       // of the rank that wishes for a part; of the part that is assigned, in their order
-    std::vector<PartReport> part;  // the one that is done
-
-    template <class Archive>
-    void archive(Archive& a) {
-        a(kind, number, part);
-    }
-};
-
-// Each part goes to one rank: the root rank knows which is next, the others ask it.
-class VolumeStage::HandOut {
- public:
-    // `on_taken` gets the places of the parts that this rank takes.
-    HandOut(Communicator& ranks, std::size_t parts, PartQueue& queue, std::function<void(std::size_t)> on_taken)
-        : ranks_(ranks), parts_(static_cast<std::int32_t>(parts)), queue_(queue), on_taken_(std::move(on_taken)) {}
-
-    // A part for each worker that is free, now or when the answer comes.
-    void fill() {
-        if (ranks_.rank() == root) {
-            for (; queue_.free_workers() > 0 && next_ < parts_; ++next_) take(next_);
-            return;
-        }
-        for (; next_ < parts_ && wishes_ < queue_.free_workers(); ++wishes_)
-            ranks_.post(root, to_bytes(Message{Message::Kind::wish, ranks_.rank(), {}}));
-    }
-    // On the root rank. Beyond the last part the number says that there is none.
-    void answer(const Message& wish) {
-        ranks_.post(wish.number, to_bytes(Message{Message::Kind::assignment, next_, {}}));
-        if (next_ < parts_) ++next_;
-    }
-    // On the others.
-    void receive(const Message& assignment) {
-        --wishes_;
-        next_ = assignment.number;
-        if (next_ < parts_) take(next_);
-    }
-    bool is_waiting() const { return wishes_ > 0; }
-
- private:
-    void take(std::int32_t part) {
-        on_taken_(static_cast<std::size_t>(part));
-        queue_.add(static_cast<std::size_t>(part));
-    }
-
-    Communicator& ranks_;
-    std::int32_t parts_ = 0, next_ = 0;
-    std::size_t wishes_ = 0;  // without an answer
-    PartQueue& queue_;
-    std::function<void(std::size_t)> on_taken_;
-};
 
 // What the root rank knows about all parts.
 class VolumeStage::Tally {
@@ -175,7 +143,7 @@ void VolumeStage::keep_outcome(const PartReport& part) const {
     remove_file(job_file);
 }
 
-void VolumeStage::post_to_others(const Message& message) {
+void VolumeStage::post_to_others(const VolumeMessage& message) {
     const Bytes bytes = to_bytes(message);
     for (int rank = 0; rank < ranks_.size(); ++rank)
         if (rank != ranks_.rank()) ranks_.post(rank, bytes);
@@ -190,36 +158,41 @@ PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std:
              plan_.options.memory_mb, plan_.options.attempts, !plan_.options.transient}};
 }
 
-VolumeStage::HandOut VolumeStage::hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
-                                              const std::vector<std::size_t>& order) const {
-    return {ranks_, order.size(), queue, [&](std::size_t place) {
+PartHandOut VolumeStage::hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
+                                     const std::vector<std::size_t>& order,
+                                     const std::vector<std::int32_t>& host_of_rank) const {
+    std::vector<WaitingPart> waiting;
+    for (const std::size_t i : order)
+        waiting.push_back({parts[i].load, host_of_rank[static_cast<std::size_t>(parts[i].rank)]});
+    return {ranks_, std::move(waiting), host_of_rank, [&](std::size_t place) {
                 if (!plan_.options.transient) CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close();
+                queue.add(place);
             }};
 }
 
 // Returns whether all parts are done.
-bool VolumeStage::take_messages(HandOut& hand_out, Tally* tally, bool& was_told_to_stop) {
+bool VolumeStage::take_messages(PartHandOut& hand_out, Tally* tally, bool& was_told_to_stop) {
     while (const std::optional<Bytes> bytes = ranks_.poll()) {
-        const auto message = from_bytes<Message>(*bytes);
+        const auto message = from_bytes<VolumeMessage>(*bytes);
         switch (message.kind) {
-            case Message::Kind::wish:
+            case VolumeMessage::Kind::wish:
                 hand_out.answer(message);
                 break;
-            case Message::Kind::assignment:
+            case VolumeMessage::Kind::assignment:
                 hand_out.receive(message);
                 break;
-            case Message::Kind::part_done:
+            case VolumeMessage::Kind::part_done:
                 tally->add(message.part.front());
                 break;
-            case Message::Kind::all_done:
+            case VolumeMessage::Kind::all_done:
                 return true;
-            case Message::Kind::stop:
+            case VolumeMessage::Kind::stop:
                 was_told_to_stop = true;
                 throw Error(ErrorCode::cancelled, "The run was cancelled.");  // or an error of the sender says why
         }
     }
     if (!tally || !tally->all_done()) return false;
-    post_to_others({Message::Kind::all_done, 0, {}});
+    post_to_others({VolumeMessage::Kind::all_done, -1, {}});
     return true;
 }
 
@@ -228,24 +201,26 @@ void VolumeStage::keep_finished(PartReport part, Tally* tally) {
     if (tally)
         tally->add(part);
     else
-        ranks_.post(root, to_bytes(Message{Message::Kind::part_done, 0, {without_quality(part)}}));
+        ranks_.post(root, to_bytes(VolumeMessage{VolumeMessage::Kind::part_done, -1, {without_quality(part)}}));
     if (part.result.tets > 0) add_quality(part.result);
     own_.parts.push_back(without_quality(std::move(part)));
 }
 
 MeshedParts VolumeStage::mesh(const std::vector<PartReport>& parts) {
     bool was_told_to_stop = false;
+    const std::vector<std::int32_t> host_of_rank = number_hosts(ranks_);
     const auto mesh_share = [&] {
         std::optional<Tally> tally;  // on the root rank
         if (ranks_.rank() == root) tally.emplace(parts, plan_.options, ranks_.size(), listener_);
         const std::vector<std::size_t> order = waiting_parts(parts);
         PartQueue queue = queue_of(parts, order);
-        HandOut hand_out = hand_out_to(queue, parts, order);
+        PartHandOut hand_out = hand_out_to(queue, parts, order, host_of_rank);
         for (;;) {
             end_if_cancelled(listener_);
             if (take_messages(hand_out, tally ? &*tally : nullptr, was_told_to_stop)) return;
-            hand_out.fill();
-            auto finished = queue.step(queue.empty() || hand_out.is_waiting() ? idle_seconds : busy_seconds);
+            hand_out.fill(queue.free_workers());
+            const bool somebody_waits = hand_out.is_waiting() || (tally && ranks_.size() > 1);
+            auto finished = queue.step(somebody_waits ? seconds_between_answers : seconds_between_looks);
             // A signal to all processes of a terminal or a job ends workers, too: that is no failure of their parts.
             if (!finished || (listener_ && listener_->cancelled())) continue;
             PartReport part = parts[order[finished->part]];
@@ -259,7 +234,7 @@ MeshedParts VolumeStage::mesh(const std::vector<PartReport>& parts) {
             try {
                 mesh_share();
             } catch (...) {
-                if (!was_told_to_stop) post_to_others({Message::Kind::stop, 0, {}});
+                if (!was_told_to_stop) post_to_others({VolumeMessage::Kind::stop, -1, {}});
                 throw;
             }
         });
@@ -272,13 +247,12 @@ MeshedParts VolumeStage::mesh(const std::vector<PartReport>& parts) {
 }
 
 MeshedParts VolumeStage::gather(std::vector<PartReport> parts) {
-    MeshedParts all{std::move(parts), PartQuality(length_scale_), {}};
+    MeshedParts all{std::move(parts), add_up(ranks_, std::move(own_.quality)),
+                    add_up(ranks_, std::move(own_.improvement))};
     std::map<NodeId, PartReport*> by_id;
     for (PartReport& part : all.parts) by_id[part.id] = &part;
     for (std::vector<PartReport>& of_rank : all_gather(ranks_, own_.parts))
         for (PartReport& part : of_rank) *by_id[part.id] = std::move(part);
-    for (const PartQuality& of_rank : all_gather(ranks_, own_.quality)) all.quality.add(of_rank);
-    for (const Improvement& of_rank : all_gather(ranks_, own_.improvement)) all.improvement.add(of_rank);
     return all;
 }
 

@@ -4,6 +4,7 @@
 #include "io/run_folder.h"
 #include "parallel/communicator.h"
 #include "report/listener.h"
+#include "run/part_hand_out.h"
 #include "run/plan.h"
 #include "work/part_queue.h"
 
@@ -17,9 +18,10 @@ struct MeshedParts {
 };
 
 /// Every rank hands over the parts that it has cut; then the workers of all ranks take them, longest first, from one
-/// list. A part goes by files, from the rank that cut it to the worker that takes it, and from the worker to its place:
-/// no rank holds more than numbers. The root rank hands the parts out, one to each worker that is free; ranks post what
-/// they have finished to it, and it tells all when nothing is left.
+/// list, rather those of their own host where these are nearly as long. A part goes by files, from the rank that cut it
+/// to the worker that takes it, and from the worker to its place: no rank holds more than numbers. The root rank hands
+/// the parts out, one to each worker that is free; ranks post what they have finished to it, and it tells all when
+/// nothing is left. Ranks that wait sleep.
 class VolumeStage {
  public:
     /// `length_scale`: of the distributions of the quality.
@@ -41,18 +43,16 @@ class VolumeStage {
     MeshedParts mesh(const std::vector<PartReport>& parts);
 
  private:
-    struct Message;
     class Tally;
-    class HandOut;
     std::vector<std::size_t> waiting_parts(const std::vector<PartReport>& parts) const;
     PartQueue queue_of(const std::vector<PartReport>& parts, const std::vector<std::size_t>& order) const;
-    HandOut hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
-                        const std::vector<std::size_t>& order) const;
-    bool take_messages(HandOut& hand_out, Tally* tally, bool& was_told_to_stop);
+    PartHandOut hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
+                            const std::vector<std::size_t>& order, const std::vector<std::int32_t>& host_of_rank) const;
+    bool take_messages(PartHandOut& hand_out, Tally* tally, bool& was_told_to_stop);
     void keep_finished(PartReport part, Tally* tally);
     void add_quality(const PartResult& result);
     void keep_outcome(const PartReport& part) const;
-    void post_to_others(const Message& message);
+    void post_to_others(const VolumeMessage& message);
     MeshedParts gather(std::vector<PartReport> parts);
 
     Communicator& ranks_;
