@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "io/run_folder.h"
 #include "io/standard_streams.h"
 
 namespace kerf {
@@ -18,8 +19,9 @@ void tell_failed_parts(const RunReport& report) {
         ++failed;
         tell(
             fmt::format("kerf: part {} around ({:.6g}, {:.6g}, {:.6g}) could not be meshed: {} How to repeat and to "
-                        "look at it: {}/failed/part_{:04}.txt.\n",
-                        part.id, place.x(), place.y(), place.z(), part.result.message, report.folder, part.id));
+                        "look at it: {}/failed/{}.\n",
+                        part.id, place.x(), place.y(), place.z(), part.result.message, report.folder,
+                        failed_part_file_name(part.id)));
     }
     if (failed > 0 && failed < report.parts.size())
         tell(

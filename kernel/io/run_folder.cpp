@@ -116,14 +116,25 @@ std::string failed_path_of(const std::string& final_path) { return final_path + 
 std::string older_path_of(const std::string& partial) { return partial + "-older"; }
 std::string removed_path_of(const std::string& partial) { return partial + "-removed"; }
 
-// A folder that is not there has none.
-std::vector<std::string> names_in(const std::string& folder) {
-    std::error_code error;
-    std::vector<std::string> names;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        names.push_back(entry->path().filename());
-    if (error && error != std::errc::no_such_file_or_directory) fail("read the folder", folder, error);
-    return names;
+// The leaves that have an entry in the journal of a run; a folder that is not there has none.
+std::vector<int> leaves_in_journal(const std::string& folder) {
+    std::vector<int> leaves;
+    for (const std::string& entry : list_files((fs::path(folder) / "work/journal").string())) {
+        const char* end = entry.data() + entry.size();
+        const std::size_t slash = entry.rfind('/');
+        int leaf = 0;
+        const auto [stop, error] =
+            std::from_chars(entry.data() + (slash == std::string::npos ? 0 : slash + 1), end, leaf);
+        if (error == std::errc() && stop == end) leaves.push_back(leaf);
+    }
+    return leaves;
+}
+
+// Where a leaf has its files in folders that hold one of each. A few hundred leaves have a folder of their own, named
+// by the first of them: disks that many hosts share are slow where one folder holds thousands.
+std::string with_folder_of(int leaf, std::string name) {
+    constexpr int leaves_without_folder = 2048, leaves_of_folder = 200;
+    return leaf < leaves_without_folder ? name : fmt::format("{}/{}", leaf - leaf % leaves_of_folder, name);
 }
 
 // By which a run with failed parts is continued.
@@ -136,22 +147,17 @@ void clear_all_but_parts(const RunFolder& folder) {
         return !name.starts_with("parts/") && !name.starts_with("work/journal/") && name != "work/run.json" &&
                name != lock_file && name != ranks_file;
     });
-    std::error_code ignored;
-    fs::remove(folder.file("failed"), ignored);  // only if it is empty
+    remove_empty_run_folders(folder.partial_path(), "failed");
 }
 
 // What cannot be moved is meshed again.
 void take_over_finished_parts(const std::string& failed, const RunFolder& folder) {
     std::error_code ignored;
-    for (const std::string& entry : names_in((fs::path(failed) / "work/journal").string())) {
-        const std::string journal = "work/journal/" + entry;
-        int leaf = 0;
-        const char* end = entry.data() + entry.size();
-        const auto [stop, error] = std::from_chars(entry.data(), end, leaf);
-        if (error != std::errc() || stop != end) continue;  // no entry
-        const std::string part = "parts/" + stored_part_file_name(leaf);
-        for (const std::string& name : {part, journal}) fs::rename(fs::path(failed) / name, folder.file(name), ignored);
-    }
+    const std::vector<int> leaves = leaves_in_journal(failed);
+    folder.make_room(leaves);
+    for (const int leaf : leaves)
+        for (const std::string& name : {"parts/" + stored_part_file_name(leaf), journal_file_name(leaf)})
+            fs::rename(fs::path(failed) / name, folder.file(name), ignored);
 }
 
 // A run that was stopped between two renames has left its older one aside.
@@ -301,7 +307,7 @@ RunFolder RunFolder::create_transient(const std::string& path) {
 void RunFolder::keep_only(const std::vector<int>& leaves) const {
     std::set<std::string> kept;
     for (const int leaf : leaves) {
-        kept.insert("work/journal/" + fs::path(journal_file(leaf)).filename().string());
+        kept.insert(journal_file_name(leaf));
         std::error_code ignored;
         const bool is_stored = fs::exists(stored_part_file(leaf), ignored);
         kept.insert("parts/" + (is_stored ? stored_part_file_name(leaf) : part_file_name(leaf)));
@@ -309,6 +315,16 @@ void RunFolder::keep_only(const std::vector<int>& leaves) const {
     remove_run_files(partial_, [&](const std::string& name) {
         return (name.starts_with("parts/") || name.starts_with("work/journal/")) && !kept.contains(name);
     });
+    for (const char* name : {"parts", "work/journal"}) remove_empty_run_folders(partial_, name);
+    make_room(leaves);
+}
+
+void RunFolder::make_room(const std::vector<int>& leaves) const {
+    std::set<fs::path> folders = {file("parts")};
+    for (const int leaf : leaves)
+        for (const std::string& name : {part_file(leaf), job_file(leaf), journal_file(leaf), begun_file(leaf)})
+            folders.insert(fs::path(name).parent_path());
+    for (const fs::path& folder : folders) create_folder(folder.string());
 }
 
 RunFolder RunFolder::join(const std::string& partial_path) {
@@ -328,15 +344,11 @@ std::string RunFolder::part_file(int leaf) const { return file("parts/" + part_f
 std::string RunFolder::part_surface_file(int leaf) const { return file("parts/" + part_surface_file_name(leaf)); }
 std::string RunFolder::part_stl_file(int leaf) const { return file("parts/" + part_stl_file_name(leaf)); }
 std::string RunFolder::saved_run_file() const { return file("work/run.json"); }
-std::string RunFolder::job_file(int leaf) const { return file(fmt::format("work/jobs/{}", leaf)); }
-std::string RunFolder::journal_file(int leaf) const { return file(fmt::format("work/journal/{}", leaf)); }
-std::string RunFolder::begun_file(int leaf) const { return file(fmt::format("work/taken/{}", leaf)); }
+std::string RunFolder::job_file(int leaf) const { return file(job_file_name(leaf)); }
+std::string RunFolder::journal_file(int leaf) const { return file(journal_file_name(leaf)); }
+std::string RunFolder::begun_file(int leaf) const { return file(begun_file_name(leaf)); }
 
-std::size_t RunFolder::finished_parts() const {
-    std::size_t count = 0;
-    for (const std::string& name : names_in(file("work/journal"))) count += name.find('.') == std::string::npos;
-    return count;
-}
+std::size_t RunFolder::finished_parts() const { return leaves_in_journal(partial_).size(); }
 
 std::string RunFolder::commit(bool valid) {
     if (!owner_) throw Error(ErrorCode::internal, "A run folder is committed once, and by its creator.");
@@ -366,17 +378,22 @@ std::string RunFolder::commit(bool valid) {
         });
     } catch (const Error&) {
     }
-    std::error_code ignored;
-    for (const char* name : {"work/journal", "work/jobs", "work/taken", "work"})
-        fs::remove(fs::path(place) / name, ignored);  // only if it is empty
+    remove_empty_run_folders(place, "work");
     remove_run_folder(older);
     if (valid && !taken_over_.empty() && taken_over_ != place) remove_run_folder(taken_over_);
     return place;
 }
 
-std::string stored_part_file_name(int leaf) { return fmt::format("part_{:04}.part", leaf); }
-std::string part_file_name(int leaf) { return fmt::format("part_{:04}.vtu", leaf); }
-std::string part_surface_file_name(int leaf) { return fmt::format("part_{:04}.surface.vtu", leaf); }
-std::string part_stl_file_name(int leaf) { return fmt::format("part_{:04}.stl", leaf); }
+std::string stored_part_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.part", leaf)); }
+std::string part_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.vtu", leaf)); }
+std::string part_surface_file_name(int leaf) {
+    return with_folder_of(leaf, fmt::format("part_{:04}.surface.vtu", leaf));
+}
+std::string part_stl_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.stl", leaf)); }
+std::string failed_part_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.txt", leaf)); }
+
+std::string job_file_name(int leaf) { return "work/jobs/" + with_folder_of(leaf, std::to_string(leaf)); }
+std::string journal_file_name(int leaf) { return "work/journal/" + with_folder_of(leaf, std::to_string(leaf)); }
+std::string begun_file_name(int leaf) { return "work/taken/" + with_folder_of(leaf, std::to_string(leaf)); }
 
 }  // namespace kerf

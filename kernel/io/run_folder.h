@@ -90,8 +90,11 @@ class RunFolder {
     std::size_t finished_parts() const;
 
     /// Removes parts and journal entries of other leaves, and all surfaces, that an interrupted run has left; also the
-    /// files part_file() of leaves that have a stored_part_file(). Only for the creator. Throws Error(io).
+    /// files part_file() of leaves that have a stored_part_file(). Then there is room for all of these leaves. Only for
+    /// the creator. Throws Error(io).
     void keep_only(const std::vector<int>& leaves) const;
+    /// Makes the folders that files of these leaves lie in. Throws Error(io).
+    void make_room(const std::vector<int>& leaves) const;
 
     /// From now on the destructor leaves the folder for the next run, or again does not.
     void keep() { keep_ = true; }
@@ -112,10 +115,18 @@ class RunFolder {
     RunFolderLocks locks_;
 };
 
-/// part_0008.part, part_0008.vtu, part_0008.surface.vtu, part_0008.stl: names relative to the folder `parts`.
+/// part_0008.part, part_0008.vtu, part_0008.surface.vtu, part_0008.stl: names relative to the folder `parts`, in which
+/// leaves from 2048 on, of runs with more than 1,024 parts, have folders of their own for 200 each:
+/// 4000/part_4123.vtu. No folder of a run with thousands of parts holds more than 1,000 names.
 std::string stored_part_file_name(int leaf);
 std::string part_file_name(int leaf);
 std::string part_surface_file_name(int leaf);
 std::string part_stl_file_name(int leaf);
+/// part_0008.txt, relative to the folder `failed`, which is divided in the same way.
+std::string failed_part_file_name(int leaf);
+/// work/jobs/8, work/journal/8, work/taken/8, relative to the partial folder; work/jobs/4000/4123.
+std::string job_file_name(int leaf);
+std::string journal_file_name(int leaf);
+std::string begun_file_name(int leaf);
 
 }  // namespace kerf

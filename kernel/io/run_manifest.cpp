@@ -35,7 +35,16 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
     return is_there;
 }
 
+// Without the folder that leaves of large runs have: "4000/".
+std::string_view without_leaf_folder(std::string_view name) {
+    const std::size_t slash = name.find('/');
+    return slash != name.npos && is_number(name.substr(0, slash)) ? name.substr(slash + 1) : name;
+}
+
+// Or the folder of a few.
 bool is_part_name(std::string_view name, std::initializer_list<std::string_view> endings) {
+    name = without_leaf_folder(name);
+    if (name.empty()) return true;
     return take_prefix(name, "part_") && std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) {
                return name.ends_with(ending) && is_number(name.substr(0, name.size() - ending.size()));
            });
@@ -46,9 +55,11 @@ bool is_work_name(std::string_view name) {
         if (name == file) return true;
     if (take_prefix(name, "journal/")) {
         if (name.ends_with(".new")) name.remove_suffix(4);
-        return is_number(name);
+    } else if (!take_prefix(name, "jobs/") && !take_prefix(name, "taken/")) {
+        return false;
     }
-    return (take_prefix(name, "jobs/") || take_prefix(name, "taken/")) && is_number(name);
+    name = without_leaf_folder(name);
+    return name.empty() || is_number(name);
 }
 
 // Without a look into the folders below: this may be anybody's home.
@@ -118,7 +129,7 @@ bool is_named_like_run_file(const std::string& path) {
 
 bool is_stored_part(const std::string& path) {
     std::string_view name = path;
-    return take_prefix(name, "parts/") && is_part_name(name, {".part"});
+    return take_prefix(name, "parts/") && !name.ends_with('/') && is_part_name(name, {".part"});
 }
 
 FolderContent inspect_run_folder(const std::string& folder) {
@@ -168,16 +179,26 @@ void remove_run_folder(const std::string& folder) {
     try {
         for (const std::string& file : list_files(folder))
             if (is_named_like_run_file(file)) fs::remove(fs::path(folder) / file, ignored);
+    } catch (const Error&) {  // it cannot be read, so it stays
+    }
+    remove_empty_run_folders(folder, "");
+    fs::remove(folder, ignored);  // only if it is empty
+}
+
+void remove_empty_run_folders(const std::string& folder, const std::string& below) {
+    std::error_code ignored;
+    const fs::path top = below.empty() ? fs::path(folder) : fs::path(folder) / below;
+    const std::string prefix = below.empty() ? "" : below + "/";
+    try {
         // Those that are empty now are listed, and those above them next time.
         for (bool any = true; any;) {
             any = false;
-            for (const std::string& file : list_files(folder))
-                any |=
-                    file.ends_with('/') && is_named_like_run_file(file) && fs::remove(fs::path(folder) / file, ignored);
+            for (const std::string& file : list_files(top.string()))
+                any |= file.ends_with('/') && is_named_like_run_file(prefix + file) && fs::remove(top / file, ignored);
         }
     } catch (const Error&) {  // it cannot be read, so it stays
     }
-    fs::remove(folder, ignored);  // only if it is empty
+    if (!below.empty()) fs::remove(top, ignored);  // only if it is empty
 }
 
 }  // namespace kerf

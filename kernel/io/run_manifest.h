@@ -38,7 +38,8 @@ std::string sealed(const std::string& report);
 bool is_sealed(const std::string& report);
 
 /// Whether a path below a run folder is named like a file that Kerf writes there, finished or not:
-/// "parts/part_0008.vtu", "export/su2/mesh.su2", "report.json", "work/journal/8"; folders, which end with '/', too.
+/// "parts/part_0008.vtu", "parts/4000/part_4123.vtu", "export/su2/mesh.su2", "report.json", "work/journal/8"; folders,
+/// which end with '/', too.
 bool is_named_like_run_file(const std::string& path);
 
 /// The file of a run of order 2 with the nodes that stored parts do not tell (part/curved_nodes_file.h).
@@ -65,5 +66,9 @@ void remove_run_files(const std::string& folder, const std::function<bool(const 
 
 /// Removes all files that are named like a run's, and the folders that are empty then, as far as that can be done.
 void remove_run_folder(const std::string& folder);
+
+/// Removes what is empty of the folder `below` of a run, "parts" or "work/jobs", itself and folders named like a run's
+/// in it, as far as that can be done. Of an empty name: all in the run's folder.
+void remove_empty_run_folders(const std::string& folder, const std::string& below);
 
 }  // namespace kerf

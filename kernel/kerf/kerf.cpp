@@ -11,6 +11,7 @@
 #include "export/merged_file.h"
 #include "io/file_bytes.h"
 #include "io/program_finder.h"
+#include "io/run_folder.h"
 #include "io/temporary_folder.h"
 #include "kerf/array_parts.h"
 #include "kerf/array_points.h"
@@ -41,7 +42,7 @@ FailedPart failed_part(const RunReport& report, const PartReport& part) {
     const auto node = std::find_if(report.nodes.begin(), report.nodes.end(),
                                    [&](const TreeNode& candidate) { return candidate.id == part.id; });
     return {part.id, to_array(node->mass.centroid), part.result.message,
-            fmt::format("{}/failed/part_{:04}.txt", report.folder, part.id)};
+            fmt::format("{}/failed/{}", report.folder, failed_part_file_name(part.id))};
 }
 
 [[noreturn]] void refuse_sizes(const std::string& what) { throw Error(ErrorCode::input, "The sizes given: " + what); }

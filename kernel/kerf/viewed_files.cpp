@@ -165,13 +165,14 @@ void write_surface_to_view(const ClosedSurface& surface, const std::string& path
 
 void write_mesh_to_view(const MeshArrays& mesh, const std::string& folder) {
     if (mesh.tets.empty()) throw Error(ErrorCode::usage, "The mesh has no tetrahedra: there is nothing to be seen.");
-    std::error_code error;
-    std::filesystem::create_directories(folder + "/parts", error);
-    if (error) throw Error(ErrorCode::io, folder + ": the folder cannot be made: " + error.message() + ".");
     std::map<NodeId, ViewedCounts> parts;
     for_each_part_of(mesh, [&](const Part& part) {
         parts[part.id] = counts_of(part);
-        write_part(folder + "/parts/" + part_file_name(part.id), part, {.has_regions = !mesh.region_names.empty()});
+        const std::string file = folder + "/parts/" + part_file_name(part.id);
+        std::error_code error;
+        std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
+        if (error) throw Error(ErrorCode::io, folder + ": the folder cannot be made: " + error.message() + ".");
+        write_part(file, part, {.has_regions = !mesh.region_names.empty()});
         write_part_surface(folder + "/parts/" + part_surface_file_name(part.id), part);
     });
     write_text_file(folder + "/report.json", report_to_view(mesh, parts).dump());

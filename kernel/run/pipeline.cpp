@@ -134,6 +134,7 @@ std::vector<PartReport> hand_over_parts(const RunContext& run, RunFolder& folder
             tell_progress(run.listener, "prepare", i, own.size());
             PartReport& report = own[i].report;
             const PartJob job = std::exchange(own[i].job, {});
+            folder.make_room({job.part});
             if (!run.options.transient)
                 report.surface_hash = write_part_surface(folder.part_surface_file(job.part), part_of_job(job));
             if (run.options.stl) write_stl(folder.part_stl_file(job.part), job.surface.vertices, job.surface.facets);
@@ -309,8 +310,7 @@ void finish(const RunContext& run, std::optional<RunFolder>& folder, RunReport& 
     });
 }
 
-// What ends a run says how to continue it. A run that the user has stopped can always be continued; of another one
-// nothing is left if no part is finished.
+// Says how to go on: always where the user has stopped the run, else if a part is finished.
 Error with_way_to_go_on(const RunOptions& options, std::optional<RunFolder>& folder, const Error& error) {
     if (!folder || !options.volume || options.transient) return error;
     std::size_t finished = 0;

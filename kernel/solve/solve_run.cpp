@@ -244,6 +244,7 @@ void SolveStages::write() {
             tell_part("write", p, space_->parts().size());
             const Part& part = space_->parts()[p];
             const std::string file = folder_->part_file(part.id);
+            folder_->make_room({part.id});
             const FileHash hash = write_part(file, part, layout, values_of(p));
             files.push_back({"parts/" + part_file_name(part.id),
                              static_cast<std::int64_t>(std::filesystem::file_size(file)), hash_text(hash)});

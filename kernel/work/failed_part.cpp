@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "geometry/box.h"
+#include "io/run_folder.h"
 #include "io/text_file.h"
 #include "volume/meshers.h"
 
@@ -25,15 +26,18 @@ std::string place_of(const SurfaceArrays& surface) {
 
 void write_failed_part(const std::string& folder, int leaf, const SurfaceArrays& surface, const MesherOptions& mesher,
                        const std::string& reason) {
+    namespace fs = std::filesystem;
+    const fs::path text = fs::path(folder) / failed_part_file_name(leaf), place = text.parent_path();
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw Error(ErrorCode::io, fmt::format("Cannot create {}: {}.", folder, error.message()));
-    const std::string name = fmt::format("part_{:04}", leaf);
+    fs::create_directories(place, error);
+    if (error) throw Error(ErrorCode::io, fmt::format("Cannot create {}: {}.", place.string(), error.message()));
+    const std::string name = text.stem().string();
+    const fs::path surface_file = fs::path(folder).parent_path() / "parts" / part_surface_file_name(leaf);
     const Reproducer reproducer = find_mesher(mesher.name).reproducer(surface, mesher, name);
-    write_text_file(folder + "/" + name + reproducer.ending, reproducer.bytes);
-    write_text_file(folder + "/" + name + ".txt",
-                    fmt::format("{}\nIt lies {}.\nTo repeat: {}\n{}To look at it: paraview ../parts/{}.surface.vtu\n",
-                                reason, place_of(surface), reproducer.command, reproducer.note, name));
+    write_text_file((place / (name + reproducer.ending)).string(), reproducer.bytes);
+    write_text_file(text.string(), fmt::format("{}\nIt lies {}.\nTo repeat: {}\n{}To look at it: paraview {}\n", reason,
+                                               place_of(surface), reproducer.command, reproducer.note,
+                                               surface_file.lexically_relative(place).string()));
 }
 
 }  // namespace kerf

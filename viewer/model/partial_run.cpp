@@ -27,11 +27,15 @@ NodeId number_in(const std::string& name, std::string_view prefix, std::string_v
     return error == std::errc() && stop == end && number > 0 ? number : 0;
 }
 
+// Also in the folders below, which large runs have.
 std::set<NodeId> numbers_in(const fs::path& folder, std::string_view prefix, std::string_view ending) {
     std::set<NodeId> numbers;
     std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        if (const NodeId number = number_in(entry->path().filename(), prefix, ending)) numbers.insert(number);
+    for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        std::error_code ignored;
+        const NodeId number = number_in(entry->path().filename(), prefix, ending);
+        if (number && !entry->is_directory(ignored)) numbers.insert(number);
+    }
     return numbers;
 }
 
@@ -66,7 +70,7 @@ PartialRun look_at_partial_run(const std::string& partial, const std::set<NodeId
             run.finished.insert(part);
             continue;
         }
-        const auto entry = read_journal_entry(partial + "/work/journal/" + std::to_string(part));
+        const auto entry = read_journal_entry(partial + "/" + journal_file_name(part));
         if (!entry) continue;
         run.finished.insert(part);
         TreeRow row;

@@ -109,7 +109,7 @@ void measure_modes(Solution& solution) {
     for (Solution::Case& one : solution.cases)
         if (one.is_mode() && one.largest_displacement < 0) unknown.push_back(&one);
     if (unknown.empty()) return;
-    for (const auto& entry : std::filesystem::directory_iterator(solution.folder + "/parts")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(solution.folder + "/parts")) {
         if (entry.path().extension() != ".vtu") continue;
         const PointArrays arrays(entry.path().string());
         for (Solution::Case* mode : unknown)

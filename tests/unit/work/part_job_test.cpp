@@ -379,6 +379,10 @@ TEST(FailedPart, IsKeptWithTheCommandThatRepeatsIt) {
     EXPECT_TRUE(has(plain, "It hangs.") && has(plain, "part_0003.smesh") && !has(plain, "a0.5"));
     EXPECT_TRUE(has(constant, "a0.5 part_0003.smesh") && !has(constant, "leaves them out"));
     EXPECT_TRUE(!has(varying, "a0.5") && has(varying, "leaves them out"));
+    EXPECT_TRUE(has(plain, "paraview ../parts/part_0003.surface.vtu"));
+    write_failed_part(folder.file("failed"), 4123, surface, {}, "It hangs.");
+    EXPECT_TRUE(has(test::bytes_of_file(folder.file("failed/4000/part_4123.txt")),
+                    "paraview ../../parts/4000/part_4123.surface.vtu"));
 }
 
 }  // namespace
