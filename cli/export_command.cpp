@@ -40,7 +40,8 @@ int export_on_ranks(ExportRequest request, bool quiet) {
         ExportSummary summary;
         {
             ProgressLine progress(quiet || !root, nullptr);
-            summary = export_run(request, *ranks.communicator, &progress);
+            summary =
+                run_together(*ranks.communicator, [&] { return export_run(request, *ranks.communicator, &progress); });
         }
         if (root && !quiet) tell(summary_text(request, summary));
         return 0;

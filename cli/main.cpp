@@ -15,6 +15,7 @@
 #include "core/version.h"
 #include "help/program_help.h"
 #include "io/standard_streams.h"
+#include "parallel/failure_deadline.h"
 
 namespace kerf {
 
@@ -64,14 +65,15 @@ int main(int argc, char** argv) {
     try {
         return kerf::run_program(argc, argv);
     } catch (const kerf::Error& e) {
-        if (kerf::is_first_rank()) kerf::tell_error(e.what());  // all ranks meet it
+        // All ranks meet it; where they do not, this one says so later.
+        if (kerf::is_first_rank()) kerf::tell_error(e.what());
+        kerf::begin_failure_deadline(static_cast<int>(e.code()), kerf::is_first_rank() ? "" : e.what());
         return static_cast<int>(e.code());
     } catch (const std::exception& e) {
-        if (kerf::is_out_of_memory(e)) {
-            kerf::tell_error("Out of memory.");
-            return static_cast<int>(kerf::ErrorCode::memory);
-        }
-        kerf::tell_error(fmt::format("internal error: {}", e.what()));
-        return static_cast<int>(kerf::ErrorCode::internal);
+        const bool no_memory = kerf::is_out_of_memory(e);
+        const int code = static_cast<int>(no_memory ? kerf::ErrorCode::memory : kerf::ErrorCode::internal);
+        kerf::begin_failure_deadline(code, "");
+        kerf::tell_error(no_memory ? "Out of memory." : fmt::format("internal error: {}", e.what()));
+        return code;
     }
 }

@@ -11,7 +11,10 @@
 #ifdef KERF_WITH_MPI
 #include <unistd.h>
 
+#include <string_view>
+
 #include "mpi/host_processors.h"
+#include "parallel/failure_deadline.h"
 #endif
 
 namespace kerf {
@@ -25,19 +28,35 @@ int count_of(const std::vector<int>& processors) {
 
 #ifdef KERF_WITH_MPI
 
+// Others are told by an agreement within moments, unless they are deaf or wait for what never comes.
+constexpr unsigned seconds_for_others = 5;
+
+// The launcher ends the other ranks when one has gone like this.
+void end_failed_rank_now(int code, std::string_view message) {
+    for (const std::string_view text : {std::string_view("kerf: "), message, std::string_view("\n")})
+        if (!message.empty()) (void)!::write(STDERR_FILENO, text.data(), text.size());
+    ::_exit(code);
+}
+
 // What the launcher may use itself is what it could have given to its ranks: not all of the machine within the limits
 // of a batch system. Where a shell lies between, that is bound like the rank, and nothing is known.
-Ranks join_mpi_ranks() {
-    auto ranks = std::make_unique<MpiRanks>();
+Ranks find_processors(MpiRanks& ranks) {
     Ranks joined;
     joined.launched = true;
-    const HostProcessors host = host_processors(*ranks);
+    const HostProcessors host = host_processors(ranks);
     joined.cores_of_rank = host.share();
     joined.unbound_share = count_of(allowed_processors(::getppid())) / static_cast<int>(host.allowed.size());
     joined.bound_to = count_of(host.allowed[host.own]);
-    for (const int processors : all_gather(*ranks, joined.bound_to))
+    for (const int processors : all_gather(ranks, joined.bound_to))
         joined.bound_to = std::min(joined.bound_to, processors);
-    joined.mpi = ranks.get();
+    joined.mpi = &ranks;
+    return joined;
+}
+
+Ranks join_mpi_ranks() {
+    limit_wait_after_failure(seconds_for_others, end_failed_rank_now);
+    auto ranks = std::make_unique<MpiRanks>();
+    Ranks joined = run_together(*ranks, [&] { return find_processors(*ranks); });
     joined.communicator = std::move(ranks);
     return joined;
 }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "parallel/failure_deadline.h"
+
 namespace kerf {
 
 namespace {
@@ -130,6 +132,7 @@ void MpiRanks::end_together(LastWords& words) {
 // A rank that waits for another one, not in a collective, learns of it by a message.
 void MpiRanks::leave(const StageStatus& why) {
     if (is_over_) return;
+    const FailureDeadline deadline(why.code, why.message);
     LastWords words{why.code, {}};
     why.message.copy(words.message.data(), words.message.size() - 1);
     for (int r = 0; r < size_; ++r)

@@ -1,8 +1,10 @@
 #include "parallel/communicator.h"
-#include "core/out_of_memory.h"
 
 #include <algorithm>
 #include <array>
+
+#include "core/out_of_memory.h"
+#include "parallel/failure_deadline.h"
 
 namespace kerf {
 
@@ -19,6 +21,7 @@ StageStatus status_of_exception() {
 }
 
 void throw_first_error(Communicator& ranks, const StageStatus& own) {
+    const FailureDeadline deadline(own.code, own.message);
     const bool was_stopped = own.code == static_cast<int>(ErrorCode::cancelled);
     const bool has_failed = own.code != 0 && !was_stopped;
     std::array<std::uint64_t, 2> counts = {has_failed, was_stopped};
