@@ -13,17 +13,20 @@
 #include "surface/intersections.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
+#include <mutex>
 
-#include <CGAL/Box_intersection_d/Box_with_handle_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
 #include <Eigen/Geometry>
 
 #include "core/check.h"
 #include "core/elements.h"
 #include "geometry/box.h"
+#include "geometry/overlap_tree.h"
 #include "geometry/predicates.h"
+#include "geometry/vector_pair.h"
 
 namespace kerf {
 
@@ -117,6 +120,15 @@ bool plainly_on_one_side(const Corners& p, const Corners& q) {
     return above == 3 || below == 3;
 }
 
+// The same as plainly_apart() with a margin that takes fewer steps and is a little larger.
+bool plainly_apart_at(const Vec3& a, const Vec3& w, const std::array<Vec3, 2>& p, const std::array<Vec3, 2>& q) {
+    const VectorPair to_p = VectorPair(p[0], p[1]) - VectorPair(a, a), to_q = VectorPair(q[0], q[1]) - VectorPair(a, a);
+    const VectorPair across(w, w);
+    const Pair margin = rounding * (across.squared_norm() + to_p.squared_norm() + to_q.squared_norm());
+    const Pair height_p = across.dot(to_p) - margin, height_q = across.dot(to_q) + margin;
+    return height_p[0] > 0 && height_p[1] > 0 && height_q[0] < 0 && height_q[1] < 0;
+}
+
 bool meet_without_sharing(const Corners& p, const Corners& q) {
     const Vec3 centre_p = (p[0] + p[1] + p[2]) / 3, centre_q = (q[0] + q[1] + q[2]) / 3;
     if (plainly_apart<3>((centre_p + centre_q) / 2, centre_p - centre_q, p, q)) return false;
@@ -133,20 +145,22 @@ bool meet_without_sharing(const Corners& p, const Corners& q) {
     return false;
 }
 
-// p[0] and q[0] are the shared vertex.
-bool meet_beyond_vertex(const Corners& p, const Corners& q) {
-    const Vec3& a = p[0];
-    const Vec3 along_p = (p[1] - a).normalized() + (p[2] - a).normalized();
-    const Vec3 along_q = (q[1] - a).normalized() + (q[2] - a).normalized();
-    if (plainly_apart<2>(a, along_p - along_q, {p[1], p[2]}, {q[1], q[2]})) return false;
-    const std::array<int, 3> side_q = sides(q, p), side_p = sides(p, q);
-    return segment_meets(q[1], q[2], side_q[1], side_q[2], p) || segment_meets(p[1], p[2], side_p[1], side_p[2], q);
+// Two facets at vertex a; p, q: their other corners. The ways from a to these tell where to look for a plane: added as
+// they are where facets are of one size, by direction where that does not help.
+bool meet_beyond_vertex(const Vec3& a, const std::array<Vec3, 2>& p, const std::array<Vec3, 2>& q) {
+    if (plainly_apart_at(a, (p[0] - q[0]) + (p[1] - q[1]), p, q)) return false;
+    const Vec3 along_p = (p[0] - a).normalized() + (p[1] - a).normalized();
+    const Vec3 along_q = (q[0] - a).normalized() + (q[1] - a).normalized();
+    if (plainly_apart<2>(a, along_p - along_q, p, q)) return false;
+    const Corners t_p = {a, p[0], p[1]}, t_q = {a, q[0], q[1]};
+    const std::array<int, 3> side_q = sides(t_q, t_p), side_p = sides(t_p, t_q);
+    return segment_meets(q[0], q[1], side_q[1], side_q[2], t_p) || segment_meets(p[0], p[1], side_p[1], side_p[2], t_q);
 }
 
 // a, b: the shared edge; c, d: the third vertices.
 bool meet_beyond_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 e = b - a, f = c - a, g = d - a;
-    const double scale = e.squaredNorm() * f.norm() * g.norm();
+    const double scale = e.squaredNorm() * (f.squaredNorm() + g.squaredNorm());
     if (e.cross(f).dot(e.cross(g)) < -rounding * scale) return false;  // unfolded by more than a right angle
     if (orientation(a, b, c, d) != 0) return false;
     for (int axis = 0; axis < 3; ++axis)
@@ -154,141 +168,171 @@ bool meet_beyond_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
     return false;
 }
 
-// Corners of p and q that are the same vertex.
+// Corners of two facets that are the same vertex.
 struct Sharing {
-    std::array<std::pair<int, int>, 3> corners;
     int count = 0;
-};
+    std::array<std::array<std::uint8_t, 2>, 2> corners;  // the first two
 
-Sharing find_sharing(const Triangle& p, const Triangle& q) {
-    Sharing sharing;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (p[i] == q[j]) {
-                sharing.corners[sharing.count++] = {i, j};
-                break;
-            }
-    return sharing;
-}
-
-// A soup with so many intersections is no surface; finding them all may take minutes.
-constexpr std::size_t hopeless_factor = 20;
-struct Hopeless {};
-
-Corners rotated(const Corners& p, int first) { return {p[first], p[(first + 1) % 3], p[(first + 2) % 3]}; }
-
-using FacetBox = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Triangle*>;
-
-std::vector<FacetBox> facet_boxes(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
-    std::vector<FacetBox> boxes;
-    boxes.reserve(facets.size());
-    for (const Triangle& t : facets) {
-        const Box box = box_around(vertices, t);
-        const Vec3 &low = box.min(), &high = box.max();
-        boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), &t);
-    }
-    return boxes;
-}
-
-// Collects the intersecting ones of the pairs of boxes that it is given, the first of them, until there are too many.
-class PairSearch {
- public:
-    PairSearch(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, std::size_t limit)
-        : vertices_(vertices), facets_(facets), limit_(limit) {}
-
-    // `for_each_pair` calls what it is given with each pair.
-    template <class ForEachPair>
-    std::vector<std::pair<std::int32_t, std::int32_t>> run(ForEachPair for_each_pair) {
-        try {
-            for_each_pair([this](const FacetBox& a, const FacetBox& b) { test(*a.handle(), *b.handle()); });
-        } catch (const Hopeless&) {
-            // there are enough of them
+    Sharing(const Triangle& p, const Triangle& q) {
+        unsigned equal = 0;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) equal |= static_cast<unsigned>(p[i] == q[j]) << (3 * i + j);
+        for (std::array<std::uint8_t, 2>& corner : corners) {
+            count += equal != 0 ? 1 : 0;
+            const int bit = std::countr_zero(equal | 0x100U);
+            corner = {static_cast<std::uint8_t>(bit / 3), static_cast<std::uint8_t>(bit % 3)};
+            equal &= equal - 1;
         }
-        keep_first();
-        return std::move(pairs_);
+        count += equal != 0 ? 1 : 0;
     }
-
- private:
-    Corners corners(const Triangle& t) const { return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]}; }
-    std::int32_t number(const Triangle& t) const { return static_cast<std::int32_t>(&t - facets_.data()); }
-    void keep_first() {
-        std::sort(pairs_.begin(), pairs_.end());
-        if (pairs_.size() > limit_) pairs_.resize(limit_);
-    }
-    void test(const Triangle& s, const Triangle& t) {
-        if (!triangles_intersect(corners(s), s, corners(t), t)) return;
-        pairs_.push_back(std::minmax(number(s), number(t)));
-        if (pairs_.size() > 2 * limit_ + 1000) keep_first();  // the boxes come in no particular order
-        if (++found_ == hopeless_factor * limit_) throw Hopeless();
-    }
-
-    const std::vector<Vec3>& vertices_;
-    const std::vector<Triangle>& facets_;
-    std::size_t limit_, found_ = 0;
-    std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;
 };
 
-}  // namespace
+using CornerPointers = std::array<const Vec3*, 3>;
 
-bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
-                         const Triangle& q_id) {
-    const Sharing sharing = find_sharing(p_id, q_id);
+bool meet_beyond_shared(const CornerPointers& p, const Triangle& p_id, const CornerPointers& q, const Triangle& q_id) {
+    const Sharing sharing(p_id, q_id);
     const auto [i, j] = sharing.corners[0];
     const auto [k, l] = sharing.corners[1];
     switch (sharing.count) {
         case 0:
-            return meet_without_sharing(p, q);
+            return meet_without_sharing({*p[0], *p[1], *p[2]}, {*q[0], *q[1], *q[2]});
         case 1:
-            return meet_beyond_vertex(rotated(p, i), rotated(q, j));
+            return meet_beyond_vertex(*p[i], {*p[(i + 1) % 3], *p[(i + 2) % 3]}, {*q[(j + 1) % 3], *q[(j + 2) % 3]});
         case 2:
-            return meet_beyond_edge(p[i], p[k], p[3 - i - k], q[3 - j - l]);
+            return meet_beyond_edge(*p[i], *p[k], *p[3 - i - k], *q[3 - j - l]);
         default:
             return true;
     }
 }
 
-std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const std::vector<Vec3>& vertices,
-                                                                           const std::vector<Triangle>& facets,
-                                                                           std::size_t limit) {
-    std::vector<FacetBox> boxes = facet_boxes(vertices, facets);
-    return PairSearch(vertices, facets, limit).run([&](const auto& test_pair) {
-        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), test_pair);
+bool facets_intersect(const std::vector<Vec3>& vertices, const Triangle& s, const Triangle& t) {
+    return meet_beyond_shared({&vertices[s[0]], &vertices[s[1]], &vertices[s[2]]}, s,
+                              {&vertices[t[0]], &vertices[t[1]], &vertices[t[2]]}, t);
+}
+
+// A soup with so many intersections is no surface; finding them all may take minutes.
+constexpr std::size_t hopeless_factor = 20;
+
+// Ends a search in ranges behind that with which too many are found, whichever of them are done first.
+class SearchEnd {
+ public:
+    SearchEnd(std::size_t ranges, std::size_t most) : end_(ranges), most_(most), found_(ranges, unknown) {}
+    std::size_t end() const { return end_; }
+    void tell(std::size_t range, std::size_t found) {
+        const std::lock_guard lock(mutex_);
+        found_[range] = found;
+        for (; known_ < end_ && found_[known_] != unknown; ++known_) {
+            sum_ += found_[known_];
+            if (sum_ >= most_) end_ = known_ + 1;
+        }
+    }
+
+ private:
+    static constexpr std::size_t unknown = ~std::size_t{0};
+
+    std::atomic<std::size_t> end_;
+    const std::size_t most_;
+    std::mutex mutex_;
+    std::vector<std::size_t> found_;
+    std::size_t known_ = 0, sum_ = 0;  // of the ranges before that
+};
+
+void keep_first(IntersectingPairs& pairs, std::size_t limit) {
+    std::sort(pairs.begin(), pairs.end());
+    if (pairs.size() > limit) pairs.resize(limit);
+}
+
+// for_each_pair(range, visit) calls visit(f, g) for pairs of facets whose boxes meet, until it returns true; the ranges
+// are those of core/threads.h.
+template <class ForEachPair>
+IntersectingPairs first_intersections(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                      std::size_t count, std::size_t limit, const ForEachPair& for_each_pair) {
+    constexpr std::size_t grain = 1024;
+    const std::size_t most = hopeless_factor * limit;
+    SearchEnd search((count + grain - 1) / grain, most);
+    std::vector<IntersectingPairs> of_ranges = values_of_ranges(count, grain, [&](const IndexRange& range) {
+        IntersectingPairs pairs;
+        if (range.first / grain >= search.end()) return pairs;
+        std::size_t found = 0;
+        for_each_pair(range, [&](std::int32_t f, std::int32_t g) {
+            if (!facets_intersect(vertices, facets[f], facets[g])) return false;
+            pairs.push_back(std::minmax(f, g));
+            if (pairs.size() > 2 * limit + 1000) keep_first(pairs, limit);
+            return ++found >= most;
+        });
+        keep_first(pairs, limit);
+        search.tell(range.first / grain, found);
+        return pairs;
     });
+    IntersectingPairs all;
+    for (std::size_t i = 0; i < search.end(); ++i) all.insert(all.end(), of_ranges[i].begin(), of_ranges[i].end());
+    keep_first(all, limit);
+    return all;
+}
+
+OverlapTree tree_of_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    return {facets.size(), [&](std::size_t i) { return box_around(vertices, facets[i]); }};
+}
+
+}  // namespace
+
+bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
+                         const Triangle& q_id) {
+    return meet_beyond_shared({&p[0], &p[1], &p[2]}, p_id, {&q[0], &q[1], &q[2]}, q_id);
+}
+
+SelfIntersectionSearch::SelfIntersectionSearch(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets)
+    : vertices_(vertices),
+      facets_(facets),
+      tree_(std::make_unique<const OverlapTree>(tree_of_facets(vertices, facets))) {}
+
+SelfIntersectionSearch::~SelfIntersectionSearch() = default;
+
+IntersectingPairs SelfIntersectionSearch::pairs_of_share(std::size_t share, std::size_t shares,
+                                                         std::size_t limit) const {
+    KERF_CHECK(share < shares && limit > 0);
+    const std::size_t leaves = tree_->leaf_count();
+    const std::size_t first = leaves * share / shares, last = leaves * (share + 1) / shares;
+    return first_intersections(vertices_, facets_, last - first, limit, [&](IndexRange range, const auto& visit) {
+        tree_->any_pair({first + range.first, first + range.last}, visit);
+    });
+}
+
+IntersectingPairs find_self_intersections(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                          std::size_t limit) {
+    return SelfIntersectionSearch(vertices, facets).pairs_of_share(0, 1, limit);
 }
 
 bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                              const std::vector<std::int32_t>& shell, const std::vector<std::int32_t>& parent) {
     KERF_CHECK(shell.size() == facets.size());
-    std::vector<std::vector<FacetBox>> inside(parent.size()), of(parent.size());  // of the shells in each, of itself
-    std::vector<FacetBox> outermost;
-    for (const FacetBox& box : facet_boxes(vertices, facets)) {
-        const std::int32_t own = shell[box.handle() - facets.data()], around = parent[own];
-        (around < 0 ? outermost : inside[around]).push_back(box);
-        of[own].push_back(box);
-    }
-    const auto pairs = PairSearch(vertices, facets, 1).run([&](const auto& test_pair) {
-        CGAL::box_self_intersection_d(outermost.begin(), outermost.end(), test_pair);
-        for (std::size_t s = 0; s < parent.size(); ++s) {
-            CGAL::box_self_intersection_d(inside[s].begin(), inside[s].end(), test_pair);
-            CGAL::box_intersection_d(of[s].begin(), of[s].end(), inside[s].begin(), inside[s].end(), test_pair);
-        }
-    });
+    if (parent.size() <= 1) return find_self_intersections(vertices, facets, 1).empty();
+    const auto are_next = [&](std::int32_t s, std::int32_t t) {
+        return s == t || parent[s] == parent[t] || parent[s] == t || parent[t] == s;
+    };
+    const OverlapTree tree = tree_of_facets(vertices, facets);
+    const auto pairs =
+        first_intersections(vertices, facets, tree.leaf_count(), 1, [&](const IndexRange& range, const auto& visit) {
+            tree.any_pair(range,
+                          [&](std::int32_t f, std::int32_t g) { return are_next(shell[f], shell[g]) && visit(f, g); });
+        });
     return pairs.empty();
 }
 
-std::vector<std::pair<std::int32_t, std::int32_t>> find_intersections_of(const std::vector<char>& chosen,
-                                                                         const std::vector<Vec3>& vertices,
-                                                                         const std::vector<Triangle>& facets,
-                                                                         std::size_t limit) {
+IntersectingPairs find_intersections_of(const std::vector<char>& chosen, const std::vector<Vec3>& vertices,
+                                        const std::vector<Triangle>& facets, std::size_t limit) {
     KERF_CHECK(chosen.size() == facets.size());
-    std::vector<FacetBox> all = facet_boxes(vertices, facets), few;
-    const auto is_chosen = [&](const FacetBox& box) { return chosen[box.handle() - facets.data()] != 0; };
-    std::copy_if(all.begin(), all.end(), std::back_inserter(few), is_chosen);
-    return PairSearch(vertices, facets, limit).run([&](const auto& test_pair) {
-        const auto test_once = [&](const FacetBox& a, const FacetBox& b) {  // two chosen ones come in both orders
-            if (a.handle() != b.handle() && (a.handle() < b.handle() || !is_chosen(b))) test_pair(a, b);
-        };
-        CGAL::box_intersection_d(few.begin(), few.end(), all.begin(), all.end(), test_once);
+    std::vector<std::int32_t> few;
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        if (chosen[f]) few.push_back(static_cast<std::int32_t>(f));
+    const OverlapTree tree(few.size(), [&](std::size_t i) { return box_around(vertices, facets[few[i]]); });
+    // All facets ask the tree; chosen ones come in both orders.
+    return first_intersections(vertices, facets, facets.size(), limit, [&](const IndexRange& range, const auto& visit) {
+        for (auto f = static_cast<std::int32_t>(range.first); f < static_cast<std::int32_t>(range.last); ++f)
+            if (tree.any_meeting(box_around(vertices, facets[f]), [&](std::int32_t i) {
+                    return few[i] != f && (few[i] < f || !chosen[f]) && visit(f, few[i]);
+                }))
+                return;
     });
 }
 

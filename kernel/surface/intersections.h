@@ -2,12 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/types.h"
 
 namespace kerf {
+
+class OverlapTree;
 
 /// True if the two triangles meet anywhere but in the vertices and edges that they share by number.
 ///
@@ -17,26 +21,45 @@ namespace kerf {
 bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
                          const Triangle& q_id);
 
-/// All intersecting pairs (smaller number first, ascending) of a triangle soup; the first `limit` of them if there are
-/// more, or of those found so far when 20 times `limit` are found: then the search ends. Expected O(#F log #F).
-/// Requires limit > 0, finite coordinates and facets with three distinct, non-collinear vertices; a facet with
-/// collinear corners counts as the segment that it is, but may be reported with its neighbours.
-std::vector<std::pair<std::int32_t, std::int32_t>> find_self_intersections(const std::vector<Vec3>& vertices,
-                                                                           const std::vector<Triangle>& facets,
-                                                                           std::size_t limit = 1000);
+/// Pairs of facets, the smaller number first, ascending.
+using IntersectingPairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+/// All intersecting pairs of a triangle soup; the first `limit` of them if there are more, or of those found so far
+/// when 20 times `limit` are found: then the search ends. O(#F) where few boxes of facets meet, on threads, of which
+/// the result does not depend; 40 bytes a facet. Requires limit > 0, finite coordinates and facets with three distinct,
+/// non-collinear vertices; a facet with collinear corners counts as the segment that it is, but may be reported with
+/// its neighbours.
+IntersectingPairs find_self_intersections(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                          std::size_t limit = 1000);
+
+/// The same search in shares, for ranks that have one surface.
+class SelfIntersectionSearch {
+ public:
+    /// Keeps both arrays by reference. Requirements as above.
+    SelfIntersectionSearch(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
+    ~SelfIntersectionSearch();
+
+    /// What one of `shares` equal shares finds, numbered from 0: the first `limit` pairs. Those of all shares, sorted,
+    /// are those of share 0 of 1, up to the limit, unless there are 20 times `limit`. Each pair is in one share.
+    IntersectingPairs pairs_of_share(std::size_t share, std::size_t shares, std::size_t limit = 1000) const;
+
+ private:
+    const std::vector<Vec3>& vertices_;
+    const std::vector<Triangle>& facets_;
+    std::unique_ptr<const OverlapTree> tree_;  // of the boxes of facets
+};
 
 /// Whether no two facets of closed shells meet. `shell`: #F, the shell of each facet; `parent`: of each shell the
 /// innermost one that one of its vertices lies in, -1 for none. Only shells that lie in the same one are compared, and
-/// these with that: where they do not meet, nothing else can. So shells within shells take no longer than shells side
-/// by side, while the boxes of their facets may all overlap. Requirements and cost as above; no vertex on two shells.
+/// these with that: where they do not meet, nothing else can. So shells within shells take hardly longer than shells
+/// side by side, while the boxes of their facets may all overlap. Requirements and cost as above; no vertex on two
+/// shells.
 bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                              const std::vector<std::int32_t>& shell, const std::vector<std::int32_t>& parent);
 
 /// Finds what find_self_intersections() does, but only pairs of which at least one facet is `chosen` (#F): what is to
 /// be asked where few facets of a surface without intersections have changed.
-std::vector<std::pair<std::int32_t, std::int32_t>> find_intersections_of(const std::vector<char>& chosen,
-                                                                         const std::vector<Vec3>& vertices,
-                                                                         const std::vector<Triangle>& facets,
-                                                                         std::size_t limit = 1000);
+IntersectingPairs find_intersections_of(const std::vector<char>& chosen, const std::vector<Vec3>& vertices,
+                                        const std::vector<Triangle>& facets, std::size_t limit = 1000);
 
 }  // namespace kerf

@@ -1,13 +1,16 @@
 #include "surface/intersections.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "core/threads.h"
 #include "geometry/predicates.h"
 #include "support/shapes.h"
 #include "surface/orientation.h"
@@ -239,6 +242,88 @@ TEST(FindSelfIntersections, KeepsToItsLimitInASoupThatIsNoSurface) {
             EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
         }
     }
+}
+
+// Spheres at random: most pairs of facets are neighbours or apart, some hundred cross.
+Soup crossing_spheres(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(0, 10);
+    Soup soup;
+    for (int i = 0; i < 12; ++i) {
+        const Vec3 centre(coordinate(random), coordinate(random), coordinate(random));
+        soup = test::join(std::move(soup), test::icosphere(3, 1.5, centre));
+    }
+    return soup;
+}
+
+TEST(FindSelfIntersections, IsTheSameForAnyNumberOfThreadsAndHopelessOrNot) {
+    const Soup soup = crossing_spheres(5);
+    for (const std::size_t limit : {1, 3, 10, 100'000}) {
+        SCOPED_TRACE(limit);
+        std::vector<IntersectingPairs> found;
+        for (const int threads : {1, 2, 7}) {
+            set_thread_limit(threads);
+            found.push_back(find_self_intersections(soup.vertices, soup.facets, limit));
+        }
+        set_thread_limit(static_cast<int>(std::thread::hardware_concurrency()));
+        EXPECT_GT(found[0].size(), std::min<std::size_t>(limit, 200) - 1);
+        EXPECT_EQ(found[1], found[0]);
+        EXPECT_EQ(found[2], found[0]);
+    }
+}
+
+TEST(SelfIntersectionSearch, FindsInSharesWhatItFindsAtOnce) {
+    for (const Soup& soup : {crossing_spheres(6), test::tetrahedron(), Soup()}) {
+        const SelfIntersectionSearch search(soup.vertices, soup.facets);
+        const IntersectingPairs all = find_self_intersections(soup.vertices, soup.facets, 100'000);
+        for (const std::size_t shares : {1, 2, 3, 8, 100})
+            for (const std::size_t limit : {std::size_t{100'000}, all.size() / 10 + 1}) {
+                IntersectingPairs found;
+                for (std::size_t share = 0; share < shares; ++share) {
+                    const IntersectingPairs part = search.pairs_of_share(share, shares, limit);
+                    EXPECT_TRUE(std::is_sorted(part.begin(), part.end()));
+                    EXPECT_LE(part.size(), limit);
+                    found.insert(found.end(), part.begin(), part.end());
+                }
+                std::sort(found.begin(), found.end());
+                found.resize(std::min(found.size(), limit));
+                IntersectingPairs expected = all;
+                expected.resize(std::min(all.size(), limit));
+                EXPECT_EQ(found, expected) << shares << " shares, limit " << limit;
+            }
+    }
+}
+
+// Facets of all sizes and shapes, at places that floats cannot tell from each other or cannot hold.
+TEST(FindSelfIntersections, AgreesWithAllPairsWhereverTheSoupLies) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (const double scale : {1.0, 1e30, 1e-30})
+        for (const double distance : {0.0, 1e7})
+            for (const bool is_flat : {false, true}) {
+                SCOPED_TRACE(testing::Message() << "scale " << scale << ", at " << distance << ", flat " << is_flat);
+                std::vector<Vec3> vertices;
+                std::vector<Triangle> facets;
+                for (int i = 0; i < 120; ++i) {
+                    const Vec3 centre(unit(random), unit(random), is_flat ? 0 : unit(random));
+                    const double size = 0.3 * std::pow(10, 2 * unit(random) - 1);
+                    for (int c = 0; c < 3; ++c) {
+                        const Vec3 corner(unit(random), unit(random), is_flat ? 0 : unit(random));
+                        vertices.emplace_back(scale * (centre + size * corner + Vec3::Constant(distance)));
+                    }
+                    facets.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+                }
+                IntersectingPairs expected;
+                const auto corners = [&](std::int32_t f) {
+                    return Corners{vertices[3 * f], vertices[3 * f + 1], vertices[3 * f + 2]};
+                };
+                for (std::int32_t f = 0; f < 120; ++f)
+                    for (std::int32_t g = f + 1; g < 120; ++g)
+                        if (triangles_intersect(corners(f), facets[f], corners(g), facets[g]))
+                            expected.emplace_back(f, g);
+                EXPECT_GT(expected.size(), 5u);
+                EXPECT_EQ(find_self_intersections(vertices, facets, 100'000), expected);
+            }
 }
 
 // Shells at random, most of them one in the other, some of which cross.
