@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/threads.h"
 #include "geometry/box.h"
 
 namespace kerf {
@@ -23,31 +24,27 @@ struct BoxNode {
 /// The child that BoxHierarchy::least() looks at first where both promise the same.
 enum class FirstOfEqual { left, right };
 
-/// A binary tree over items that its owner keeps in the order of the leaves. Built in O(n log n), immutable.
+/// A binary tree over items that its owner keeps in the order of the leaves. Built in O(n log n) on threads, of
+/// which it does not depend; immutable.
 template <class Node = BoxNode>
 class BoxHierarchy {
  public:
     BoxHierarchy() = default;
 
     /// Over `count` items. `halve(first, last)` may put these items into another order and returns the first one of the
-    /// right child; `node_of(item)` is a node that knows of one item alone. No item moves once it is called.
+    /// right child; `node_of(item)` is a node that knows of one item alone. No item moves once it is called. Both are
+    /// called from several threads, the first one for items that no other thread has then.
     template <class Halve, class NodeOf>
     BoxHierarchy(std::size_t count, const Halve& halve, const NodeOf& node_of) {
         add_child(0, static_cast<std::int32_t>(count));
-        for (std::size_t n = 0; n < nodes_.size(); ++n) {
-            const std::int32_t first = nodes_[n].first, last = nodes_[n].last;
-            if (last - first <= most_of_leaf) continue;
-            const std::int32_t middle = halve(first, last);
-            nodes_[n].left = static_cast<std::int32_t>(nodes_.size());
-            add_child(first, middle);
-            add_child(middle, last);
+        std::vector<std::size_t> level_begin;
+        for (std::size_t begin = 0; begin < nodes_.size();) {
+            level_begin.push_back(begin);
+            divide_level(std::exchange(begin, nodes_.size()), count, halve);
         }
         nodes_.shrink_to_fit();
-        for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {  // children come behind their parents
-            for (std::int32_t child = node->left; node->left > 0 && child < node->left + 2; ++child)
-                node->add(nodes_[child]);
-            for (std::int32_t i = node->first; node->left == 0 && i < node->last; ++i) node->add(node_of(i));
-        }
+        for (std::size_t end = nodes_.size(); !level_begin.empty(); level_begin.pop_back())
+            gather_level(level_begin.back(), std::exchange(end, level_begin.back()), node_of);
     }
 
     /// The root is the first; none where the hierarchy was not made of items.
@@ -105,8 +102,42 @@ class BoxHierarchy {
 
  private:
     static constexpr std::int32_t most_of_leaf = 4;
+    static constexpr std::size_t least_of_range = 4096;  // items that are worth a thread
     static constexpr std::size_t most_open = 128;  // one sibling a level, and two levels at least halve what is below
 
+    // Of the nodes from `begin` on; their children go behind all of them.
+    template <class Halve>
+    void divide_level(std::size_t begin, std::size_t count, const Halve& halve) {
+        const auto is_leaf = [&](const Node& node) { return node.last - node.first <= most_of_leaf; };
+        const std::size_t end = nodes_.size();
+        const std::size_t grain = 1 + least_of_range * (end - begin) / std::max(count, least_of_range);
+        std::vector<std::int32_t> middle(end - begin);
+        for_ranges_on_threads(end - begin, grain, [&](const IndexRange& range) {
+            for (std::size_t i = range.first; i < range.last; ++i) {
+                const Node& node = nodes_[begin + i];
+                if (!is_leaf(node)) middle[i] = halve(node.first, node.last);
+            }
+        });
+        for (std::size_t n = begin; n < end; ++n) {
+            if (is_leaf(nodes_[n])) continue;
+            const std::int32_t first = nodes_[n].first, last = nodes_[n].last;
+            nodes_[n].left = static_cast<std::int32_t>(nodes_.size());
+            add_child(first, middle[n - begin]);
+            add_child(middle[n - begin], last);
+        }
+    }
+    // What these nodes know, once those of the next level do.
+    template <class NodeOf>
+    void gather_level(std::size_t begin, std::size_t end, const NodeOf& node_of) {
+        for_ranges_on_threads(end - begin, least_of_range, [&](const IndexRange& range) {
+            for (std::size_t n = begin + range.first; n < begin + range.last; ++n) {
+                Node& node = nodes_[n];
+                for (std::int32_t child = node.left; node.left > 0 && child < node.left + 2; ++child)
+                    node.add(nodes_[child]);
+                for (std::int32_t i = node.first; node.left == 0 && i < node.last; ++i) node.add(node_of(i));
+            }
+        });
+    }
     void add_child(std::int32_t first, std::int32_t last) {
         nodes_.emplace_back();
         nodes_.back().first = first;
@@ -133,15 +164,24 @@ Iterator halve_by_centre(Iterator begin, Iterator end, const CentreOf& centre_of
 }
 
 /// A hierarchy of these boxes. Puts `order`, which is to number all of them, into its order: its item i is the box
-/// `order[i]`.
+/// `order[i]`. 32 bytes a box meanwhile.
 inline BoxHierarchy<> make_hierarchy(const std::vector<Box>& boxes, std::vector<std::int32_t>& order) {
-    const auto centre_of = [&](std::int32_t box) { return boxes[box].center(); };
-    const auto number_of = [](std::int32_t box) { return box; };
+    struct Item {
+        Vec3 centre;
+        std::int32_t box;
+    };
+    std::vector<Item> items;
+    items.reserve(order.size());
+    for (const std::int32_t box : order) items.push_back({boxes[box].center(), box});
+    const auto centre_of = [](const Item& item) -> const Vec3& { return item.centre; };
+    const auto number_of = [](const Item& item) { return item.box; };
     const auto halve = [&](std::int32_t first, std::int32_t last) {
-        const auto begin = order.begin();
+        const auto begin = items.begin();
         return static_cast<std::int32_t>(halve_by_centre(begin + first, begin + last, centre_of, number_of) - begin);
     };
-    return {order.size(), halve, [&](std::int32_t item) { return BoxNode{boxes[order[item]]}; }};
+    BoxHierarchy<> hierarchy(items.size(), halve, [&](std::int32_t i) { return BoxNode{boxes[items[i].box]}; });
+    for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].box;
+    return hierarchy;
 }
 
 }  // namespace kerf

@@ -12,7 +12,7 @@
 
 namespace kerf {
 
-/// A binary tree over boxes, split at the median of the longest side of their centres. Built in O(n log n).
+/// A binary tree over boxes, split at the median of the longest side of their centres. Built in O(n log n) on threads.
 class BoxTree {
  public:
     /// No box may be empty.

@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "core/threads.h"
 #include "geometry/closest_point.h"
 #include "geometry/triangle.h"
 
@@ -75,12 +76,19 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& vertices, const std::vector<
     order_.resize(pieces.facets.size());
     std::iota(order_.begin(), order_.end(), 0);
     hierarchy_ = make_hierarchy(pieces.boxes, order_);
-    corners_.reserve(order_.size());
-    for (std::int32_t& of : order_) {
-        of = pieces.facets[of];
-        place_[of] = static_cast<std::int32_t>(corners_.size());
-        corners_.push_back({vertices[facets[of][0]], vertices[facets[of][1]], vertices[facets[of][2]]});
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        order_[i] = pieces.facets[order_[i]];
+        place_[order_[i]] = static_cast<std::int32_t>(i);
     }
+    pieces = {};
+    corners_.resize(order_.size());
+    constexpr std::size_t grain = 1 << 14;
+    for_ranges_on_threads(order_.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t i = range.first; i < range.last; ++i) {
+            const Triangle& t = facets[order_[i]];
+            corners_[i] = {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+        }
+    });
 }
 
 double TriangleTree::squared_distance(const Vec3& p, std::int32_t place) const {

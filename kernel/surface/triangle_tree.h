@@ -17,7 +17,8 @@ namespace kerf {
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// A binary tree over the boxes of triangles, of their pieces where needles lie across the axes, split at the median of
-/// the longest side of their centres. Built in O(n log n), immutable; a query is O(log n) where few triangles are near.
+/// the longest side of their centres. Built in O(n log n) on threads, immutable; a query is O(log n) where few
+/// triangles are near.
 class TriangleTree {
  public:
     struct Closest {

@@ -2,8 +2,11 @@
 
 #include <numeric>
 #include <random>
+#include <thread>
 
 #include <gtest/gtest.h>
+
+#include "core/threads.h"
 
 namespace kerf {
 namespace {
@@ -68,6 +71,28 @@ TEST(BoxHierarchy, FindsTheLeastAndStopsWhereItIsTold) {
             EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
             EXPECT_EQ(seen.size(), count);
         }
+    }
+}
+
+TEST(BoxHierarchy, IsTheSameForAnyNumberOfThreads) {
+    std::mt19937 random(3);
+    const std::vector<Box> boxes = some_boxes(random, 50'000);
+    std::vector<std::vector<std::int32_t>> orders;
+    std::vector<std::vector<BoxNode>> nodes;
+    for (const int threads : {1, 2, 7}) {
+        set_thread_limit(threads);
+        std::vector<std::int32_t>& order = orders.emplace_back(boxes.size());
+        std::iota(order.begin(), order.end(), 0);
+        nodes.push_back(make_hierarchy(boxes, order).nodes());
+    }
+    set_thread_limit(static_cast<int>(std::thread::hardware_concurrency()));
+    const auto are_equal = [](const BoxNode& a, const BoxNode& b) {
+        return a.box.min() == b.box.min() && a.box.max() == b.box.max() && a.first == b.first && a.last == b.last &&
+               a.left == b.left;
+    };
+    for (std::size_t i = 1; i < orders.size(); ++i) {
+        EXPECT_EQ(orders[i], orders[0]);
+        EXPECT_TRUE(std::equal(nodes[i].begin(), nodes[i].end(), nodes[0].begin(), nodes[0].end(), are_equal));
     }
 }
 
