@@ -2,23 +2,16 @@
 // the order of the tree, whichever thread has finished first.
 #include "decompose/decomposition.h"
 
-#include <future>
 #include <mutex>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/threads.h"
 #include "decompose/region_tree.h"
 
 namespace kerf {
 
 namespace {
-
-// A node and all below it.
-struct Branch {
-    NodeId id = 1;
-    std::int32_t first_leaf = 0, leaves = 1;
-    RegionIndex region;
-};
 
 // Several of them, and the tree above their roots.
 struct Regions {
@@ -29,13 +22,18 @@ struct Regions {
 
 class Decomposer {
  public:
-    Decomposer(const DecomposeOptions& options, LeafRange range, CutListener* listener)
-        : options_(options), range_(range), listener_(listener), records_(listener && listener->wants_cuts()) {
+    // `others` null: all of the range is cut here, whomever the branches that lead to it belong to.
+    Decomposer(const DecomposeOptions& options, LeafRange range, OtherRanges* others, CutListener* listener)
+        : options_(options),
+          range_(range),
+          others_(others),
+          listener_(listener),
+          records_(listener && listener->wants_cuts()) {
         options_.cut.check_cancelled = CancellationCheck([this] { end_if_cancelled(); });
     }
 
-    Decomposition descend(Surface surface, const Branch& branch, std::int32_t threads);
-    Decomposition descend(const Regions& regions, const RegionTree::Node& node, std::int32_t threads);
+    Decomposition descend(Surface surface, const Branch& branch);
+    Decomposition descend(const Regions& regions, const RegionTree::Node& node);
 
  private:
     using Halves = std::array<Surface, 2>;
@@ -46,15 +44,17 @@ class Decomposer {
     void keep_whole(const Surface& surface, Decomposition& result) const;
     static std::array<double, 2> loads(const Halves& halves, const LoadModel& model);
     void tell_listener(const Surface& surface, const Cut& cut);
-    void descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
-                        Decomposition& result);
-    // Calls descend_half(i, threads) for both halves, if they have leaves in the range, on two threads if there are.
+    bool is_own(const Branch& branch) const {
+        return others_ ? range_.contains(branch.first_leaf) : range_.meets(branch.first_leaf, branch.leaves);
+    }
+    void descend_halves(Halves halves, const std::array<Branch, 2>& branches, Decomposition& result);
+    // Appends descend_half(i) of both halves, if they are wanted.
     template <class DescendHalf>
-    void descend_both(const std::array<bool, 2>& wanted, std::int32_t threads, Decomposition& result,
-                      DescendHalf descend_half);
+    void descend_both(const std::array<bool, 2>& wanted, Decomposition& result, const DescendHalf& descend_half);
 
     DecomposeOptions options_;
     LeafRange range_;
+    OtherRanges* others_;
     CutListener* listener_;
     bool records_;
     std::mutex listener_mutex_;
@@ -69,7 +69,9 @@ void append(Decomposition& result, Decomposition branch) {
 void Decomposer::keep_whole(const Surface& surface, Decomposition& result) const {
     const TreeNode& node = result.nodes.back();
     if (range_.contains(node.first_leaf))
-        result.leaves.push_back({node.id, node.first_leaf, node.leaves, node.mass.volume, {}, surface.arrays()});
+        result.leaves.push_back(
+            {node.id, node.first_leaf, node.leaves, node.mass.volume, node.region, surface.arrays()});
+    if (others_ && node.leaves > 1) others_->are_one_part({node.first_leaf, node.first_leaf + node.leaves});
 }
 
 std::array<double, 2> Decomposer::loads(const Halves& halves, const LoadModel& model) {
@@ -87,12 +89,13 @@ void Decomposer::tell_listener(const Surface& surface, const Cut& cut) {
     listener_->on_cut(surface, cut);
 }
 
-Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::int32_t threads) {
+Decomposition Decomposer::descend(Surface surface, const Branch& branch) {
     end_if_cancelled();
     const auto [id, first_leaf, leaves, region] = branch;
     const MassProperties mass = mass_properties(surface);
     Decomposition result;
     TreeNode& node = result.nodes.emplace_back(describe_node(id, first_leaf, leaves, surface, mass));
+    node.region = region;
     const bool by_edges = options_.cut.contour != ContourMethod::straight;
     if (leaves == 1 || surface.facet_count() < 2 * min_facets_per_part || !by_edges) {
         keep_whole(surface, result);
@@ -114,47 +117,57 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch, std::in
     add_to_cut_hash(node, std::span(&below, 1));
     const Branch lower{lower_id, first_leaf, below, region},
         upper{upper_id, first_leaf + below, leaves - below, region};
-    descend_halves(std::move(bisection.halves), {lower, upper}, threads, result);
+    descend_halves(std::move(bisection.halves), {lower, upper}, result);
     return result;
 }
 
-void Decomposer::descend_halves(Halves halves, const std::array<Branch, 2>& branches, std::int32_t threads,
-                                Decomposition& result) {
-    const auto wanted = [&](std::size_t i) { return range_.meets(branches[i].first_leaf, branches[i].leaves); };
-    descend_both({wanted(0), wanted(1)}, threads, result, [&](std::size_t i, std::int32_t own_threads) {
-        return descend(std::exchange(halves[i], {}), branches[i], own_threads);
-    });
+// Those who wait for a half get it before this thread goes on.
+void Decomposer::descend_halves(Halves halves, const std::array<Branch, 2>& branches, Decomposition& result) {
+    const std::array<bool, 2> own = {is_own(branches[0]), is_own(branches[1])};
+    for (const std::size_t i : {0, 1}) {
+        if (own[i]) continue;
+        Surface half = std::exchange(halves[i], {});
+        if (others_) others_->take(branches[i], std::move(half));
+    }
+    descend_both(own, result, [&](std::size_t i) { return descend(std::exchange(halves[i], {}), branches[i]); });
 }
 
 template <class DescendHalf>
-void Decomposer::descend_both(const std::array<bool, 2>& wanted, std::int32_t threads, Decomposition& result,
-                              DescendHalf descend_half) {
-    if (threads > 1 && wanted[0] && wanted[1]) {
-        std::future<Decomposition> below = std::async(std::launch::async, descend_half, 0, threads / 2);
-        Decomposition above = descend_half(1, threads - threads / 2);
-        append(result, below.get());
-        append(result, std::move(above));
-    } else {
-        for (const std::size_t i : {0, 1})
-            if (wanted[i]) append(result, descend_half(i, threads));
-    }
+void Decomposer::descend_both(const std::array<bool, 2>& wanted, Decomposition& result,
+                              const DescendHalf& descend_half) {
+    std::array<Decomposition, 2> below;
+    const auto descend_wanted = [&](std::size_t i) {
+        if (wanted[i]) below[i] = descend_half(i);
+    };
+    if (options_.threads > 1 && wanted[0] && wanted[1])
+        for_each_on_threads(2, descend_wanted);
+    else
+        for (const std::size_t i : {0, 1}) descend_wanted(i);
+    for (Decomposition& half : below) append(result, std::move(half));
 }
 
-Decomposition Decomposer::descend(const Regions& regions, const RegionTree::Node& node, std::int32_t threads) {
+Decomposition Decomposer::descend(const Regions& regions, const RegionTree::Node& node) {
     const RegionTree& tree = regions.tree;
     if (node.regions == 1) {
-        Decomposition branch = descend(regions.complex.surface_of(tree.region(node)),
-                                       {node.id, tree.first_leaf(node), tree.leaves(node), tree.region(node)}, threads);
-        for (Leaf& leaf : branch.leaves) leaf.region = tree.region(node);
-        for (TreeNode& below : branch.nodes) below.region = tree.region(node);
-        return branch;
+        const Branch branch{node.id, tree.first_leaf(node), tree.leaves(node), tree.region(node)};
+        return is_own(branch) ? descend(regions.complex.surface_of(branch.region), branch) : Decomposition();
     }
     Decomposition result;
     result.nodes.push_back(tree.describe(node, regions.measures));
     const std::array<RegionTree::Node, 2> halves = tree.halves(node);
     const auto wanted = [&](std::size_t i) { return range_.meets(tree.first_leaf(halves[i]), tree.leaves(halves[i])); };
-    descend_both({wanted(0), wanted(1)}, threads, result,
-                 [&](std::size_t i, std::int32_t own_threads) { return descend(regions, halves[i], own_threads); });
+    descend_both({wanted(0), wanted(1)}, result, [&](std::size_t i) { return descend(regions, halves[i]); });
+    return result;
+}
+
+Decomposition cut_regions(const Complex& complex, const DecomposeOptions& options, LeafRange range, OtherRanges* others,
+                          CutListener* listener) {
+    KERF_CHECK(options.parts >= complex.region_count() && options.threads >= 1);
+    std::vector<RegionMeasures> measures = measure_regions(complex, options);
+    const RegionTree tree(complex, measures, options.parts);
+    const Regions regions{complex, std::move(measures), tree};
+    Decomposition result = Decomposer(options, range, others, listener).descend(regions, tree.root());
+    result.contacts = complex.find_contacts();
     return result;
 }
 
@@ -169,19 +182,26 @@ CutOptions DecomposeOptions::cut_in(RegionIndex region) const {
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range, CutListener* listener) {
     KERF_CHECK(surface.facet_count() > 0);
     KERF_CHECK(options.parts >= 1 && options.threads >= 1);
-    return Decomposer(options, range, listener).descend(std::move(surface), {1, 0, options.parts, {}}, options.threads);
+    return Decomposer(options, range, nullptr, listener).descend(std::move(surface), {1, 0, options.parts, {}});
 }
 
 Decomposition decompose(const Complex& complex, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener) {
     if (complex.region_count() == 1) return decompose(complex.surface_of(RegionIndex(0)), options, range, listener);
-    KERF_CHECK(options.parts >= complex.region_count() && options.threads >= 1);
-    std::vector<RegionMeasures> measures = measure_regions(complex, options);
-    const RegionTree tree(complex, measures, options.parts);
-    const Regions regions{complex, std::move(measures), tree};
-    Decomposition result = Decomposer(options, range, listener).descend(regions, tree.root(), options.threads);
-    result.contacts = complex.find_contacts();
-    return result;
+    return cut_regions(complex, options, range, nullptr, listener);
+}
+
+Decomposition decompose_branch(Surface surface, const Branch& branch, const DecomposeOptions& options, LeafRange range,
+                               OtherRanges& others, CutListener* listener) {
+    KERF_CHECK(surface.facet_count() > 0 && options.threads >= 1);
+    KERF_CHECK(range.contains(branch.first_leaf));
+    return Decomposer(options, range, &others, listener).descend(std::move(surface), branch);
+}
+
+Decomposition decompose_regions(const Complex& complex, const DecomposeOptions& options, LeafRange range,
+                                OtherRanges& others, CutListener* listener) {
+    KERF_CHECK(complex.region_count() > 1);
+    return cut_regions(complex, options, range, &others, listener);
 }
 
 }  // namespace kerf

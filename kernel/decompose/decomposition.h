@@ -20,7 +20,7 @@ struct DecomposeOptions {
     std::int32_t parts = 8;  ///< K >= 1, any whole number
     FacetPolicy facets = FacetPolicy::split;
     CutOptions cut;
-    std::int32_t threads = 1;       ///< at most; the result is the same for any number
+    std::int32_t threads = 1;       ///< 1: halves follow each other; else they share the threads that are free
     RegionSizes region_sizes = {};  ///< of regions that have other sizes than `cut`
 
     /// The options of cuts in a region.
@@ -74,6 +74,29 @@ struct LeafRange {
     bool meets(std::int32_t begin, std::int32_t count) const { return begin < last && begin + count > first; }
 };
 
+/// A node and all below it, before it is cut.
+struct Branch {
+    NodeId id = 1;
+    std::int32_t first_leaf = 0, leaves = 1;
+    RegionIndex region;  ///< in which it lies
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(id, first_leaf, leaves, region);
+    }
+};
+
+/// What of a branch is for others than those who cut it. A branch belongs to the range that has its first leaf. Called
+/// on any thread, also on several at a time.
+class OtherRanges {
+ public:
+    virtual ~OtherRanges() = default;
+    /// A half that another range has.
+    virtual void take(const Branch& half, Surface surface) = 0;
+    /// These leaves are one part, that of the first of them: none of the others will be there.
+    virtual void are_one_part(const LeafRange& leaves) = 0;
+};
+
 struct Decomposition {
     std::vector<TreeNode> nodes;               ///< visited ones, in depth-first order
     std::vector<Leaf> leaves;                  ///< those of the range, in the order of the tree
@@ -85,8 +108,7 @@ struct Decomposition {
 /// that lead to them are descended. A node that wants k leaves is cut at floor(k/2)/k of the load; the halves then get
 /// leaves in proportion to the load that they have. A part that cannot be cut stays whole, so that there may be fewer
 /// leaves than wanted; it belongs to whoever owns its first leaf. The result depends on surface and options only, not
-/// on the range, listener or threads. Cost n + n/2 + n/4 + ... for a single leaf, n log K for all; the first cut runs
-/// on one thread, the halves of a cut share the threads.
+/// on the range, listener or threads. Cost n + n/2 + n/4 + ... for a single leaf, n log K for all.
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener = nullptr);
 
@@ -96,5 +118,15 @@ Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRa
 /// volume.
 Decomposition decompose(const Complex& complex, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener = nullptr);
+
+/// Cuts a branch that belongs to `range`, down to its leaves there. Each cut is made by the range that its node belongs
+/// to, and by no other: halves that belong elsewhere go to `others`. Of all ranges together come the nodes and leaves
+/// of decompose(), bit for bit. Costs as the nodes that belong to the range.
+Decomposition decompose_branch(Surface surface, const Branch& branch, const DecomposeOptions& options, LeafRange range,
+                               OtherRanges& others, CutListener* listener = nullptr);
+
+/// The same for those branches that are the whole of a region and belong to `range`, with the nodes above them.
+Decomposition decompose_regions(const Complex& complex, const DecomposeOptions& options, LeafRange range,
+                                OtherRanges& others, CutListener* listener = nullptr);
 
 }  // namespace kerf

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <new>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -227,45 +229,63 @@ void MpiRanks::sum(std::span<std::uint64_t> words) {
     });
 }
 
-// Returns true when the message has left or arrived, false when a rank has left.
+// Returns true when the message has left or arrived, false when a rank has left. Who waits for long leaves the
+// processor to others.
 bool MpiRanks::is_done(MPI_Request& request) const {
-    for (int is_over = 0, has_rank_left = 0;;) {
+    constexpr int looks_without_sleep = 1000;
+    for (int looks = 0, is_over = 0, has_rank_left = 0;; ++looks) {
         check_mpi(MPI_Test(&request, &is_over, MPI_STATUS_IGNORE), "MPI_Test");
         if (is_over) return true;
         check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm_, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
         if (has_rank_left) return false;
+        if (looks > looks_without_sleep) std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
 }
 
-void MpiRanks::send_piece(const char* data, int size, int rank) {
+void MpiRanks::send_piece(const char* data, int size, int rank, int tag) {
     MPI_Request request = MPI_REQUEST_NULL;
-    check_mpi(MPI_Isend(data, size, MPI_BYTE, rank, send_tag, comm_, &request), "MPI_Isend");
+    check_mpi(MPI_Isend(data, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Isend");
     if (is_done(request)) return;
     check_mpi(MPI_Request_free(&request), "MPI_Request_free");
     begin_collective(0);  // throws, when nobody receives any more
 }
 
-void MpiRanks::receive_piece(char* data, int size, int rank) {
+void MpiRanks::receive_piece(char* data, int size, int rank, int tag) {
     MPI_Request request = MPI_REQUEST_NULL;
-    check_mpi(MPI_Irecv(data, size, MPI_BYTE, rank, send_tag, comm_, &request), "MPI_Irecv");
+    check_mpi(MPI_Irecv(data, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Irecv");
     if (is_done(request)) return;
     check_mpi(MPI_Cancel(&request), "MPI_Cancel");
     check_mpi(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
     begin_collective(0);  // throws
 }
 
+// The receiver answers the size by whether it has room.
 void MpiRanks::send(int rank, const Bytes& message) {
     const std::uint64_t size = message.size();
-    send_piece(reinterpret_cast<const char*>(&size), sizeof size, rank);
-    for_pieces(message, [&](const char* piece, int piece_size) { send_piece(piece, piece_size, rank); });
+    std::int32_t has_room = 0;
+    send_piece(reinterpret_cast<const char*>(&size), sizeof size, rank, send_tag);
+    receive_piece(reinterpret_cast<char*>(&has_room), sizeof has_room, rank, answer_tag);
+    if (!has_room) return;
+    for_pieces(message, [&](const char* piece, int piece_size) { send_piece(piece, piece_size, rank, send_tag); });
 }
 
 Bytes MpiRanks::receive(int rank) {
     std::uint64_t size = 0;
-    receive_piece(reinterpret_cast<char*>(&size), sizeof size, rank);
-    Bytes message(size);
-    for_pieces(message, [&](char* piece, int piece_size) { receive_piece(piece, piece_size, rank); });
+    receive_piece(reinterpret_cast<char*>(&size), sizeof size, rank, send_tag);
+    Bytes message;
+    const std::int32_t has_room = has_room_for([&] { message.resize(size); });
+    send_piece(reinterpret_cast<const char*>(&has_room), sizeof has_room, rank, answer_tag);
+    if (!has_room) throw std::bad_alloc();
+    for_pieces(message, [&](char* piece, int piece_size) { receive_piece(piece, piece_size, rank, send_tag); });
     return message;
+}
+
+std::optional<Bytes> MpiRanks::receive_any() {
+    int arrived = 0;
+    MPI_Status status;
+    check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, send_tag, comm_, &arrived, &status), "MPI_Iprobe");
+    if (!arrived) return {};
+    return receive(status.MPI_SOURCE);
 }
 
 void MpiRanks::post(int rank, const Bytes& message) {

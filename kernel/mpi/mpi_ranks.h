@@ -61,6 +61,7 @@ class MpiRanks : public Communicator {
     void sum(std::span<std::uint64_t> words) override;
     void send(int rank, const Bytes& message) override;
     Bytes receive(int rank) override;
+    std::optional<Bytes> receive_any() override;
     void post(int rank, const Bytes& message) override;
     std::optional<Bytes> poll() override;
     void drop_messages() override;
@@ -105,7 +106,7 @@ class MpiRanks : public Communicator {
     MPI_Comm handle() const { return comm_; }
 
  private:
-    static constexpr int post_tag = 0, exchange_tag = 1, send_tag = 2, leave_tag = 3;
+    static constexpr int post_tag = 0, exchange_tag = 1, send_tag = 2, leave_tag = 3, answer_tag = 4;
     static MPI_Op operation_of(Reduction reduction);
     Bytes receive(const MPI_Status& announced) const;
     void broadcast_bytes(std::span<char> bytes, int root) const;
@@ -115,8 +116,8 @@ class MpiRanks : public Communicator {
     void end_together(LastWords& words);
     void take_messages();
     bool is_done(MPI_Request& request) const;
-    void send_piece(const char* data, int size, int rank);
-    void receive_piece(char* data, int size, int rank);
+    void send_piece(const char* data, int size, int rank, int tag);
+    void receive_piece(char* data, int size, int rank, int tag);
 
     // A message on its way, which MPI reads until it has left.
     struct Posted {

@@ -53,11 +53,14 @@ class Communicator {
     /// Collective: each of these words, of which every rank gives as many, becomes its sum over the ranks, modulo 2^64.
     virtual void sum(std::span<std::uint64_t> words) = 0;
 
-    /// Sends another rank a message of any size, and may wait for receive() to be called there. No collective; but if a
-    /// rank leaves meanwhile, its error is thrown here, as in receive().
+    /// Sends another rank a message of any size, and waits until it is taken there. No collective; but if a rank leaves
+    /// meanwhile, its error is thrown here, as in receive().
     virtual void send(int rank, const Bytes& message) = 0;
-    /// Waits for the next message that the other rank sends to this one.
+    /// Waits for the next message that the other rank sends to this one. Throws std::bad_alloc where there is no memory
+    /// for it: it is lost then, and its sender goes on.
     virtual Bytes receive(int rank) = 0;
+    /// The next message that some rank sends to this one; nothing if none is on its way. Throws as receive().
+    virtual std::optional<Bytes> receive_any() = 0;
 
     /// Sends a message of a few kilobytes to another rank and does not wait for it to arrive.
     virtual void post(int rank, const Bytes& message) = 0;
@@ -82,6 +85,7 @@ class SingleRank : public Communicator {
     void sum(std::span<std::uint64_t>) override {}
     void send(int, const Bytes&) override {}  // there is no other rank
     Bytes receive(int) override { return {}; }
+    std::optional<Bytes> receive_any() override { return {}; }
     void post(int, const Bytes&) override {}  // there is no other rank
     std::optional<Bytes> poll() override { return {}; }
     void drop_messages() override {}

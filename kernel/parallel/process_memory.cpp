@@ -21,9 +21,9 @@ std::int64_t own_peak_rss_bytes() {
     return kilobytes * 1024;
 }
 
-double most_memory_bytes(int processes) {
+double most_memory_bytes() {
     const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-    const double machine = pages * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / processes;
+    const double machine = pages * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return machine;
     return std::min(machine, static_cast<double>(limit.rlim_cur));

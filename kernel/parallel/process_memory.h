@@ -8,8 +8,7 @@ namespace kerf {
 /// The most that was resident at once since the program was started, in bytes; 0 where the system does not tell.
 std::int64_t own_peak_rss_bytes();
 
-/// The least of a share of the machine's memory, if so many processes need the same, and of what this process may have
-/// as address space, in bytes.
-double most_memory_bytes(int processes = 1);
+/// The lesser of the machine's memory and of what this process may have as address space, in bytes.
+double most_memory_bytes();
 
 }  // namespace kerf

@@ -34,6 +34,16 @@ std::vector<int> allowed_processors(pid_t process) {
     return allowed;
 }
 
+void allow_processors(const std::vector<int>& processors) {
+    if (processors.empty()) return;
+    const int size = std::max(CPU_SETSIZE, *std::max_element(processors.begin(), processors.end()) + 1);
+    const std::unique_ptr<cpu_set_t, FreeSet> set(CPU_ALLOC(size));
+    const std::size_t bytes = CPU_ALLOC_SIZE(size);
+    CPU_ZERO_S(bytes, set.get());
+    for (const int processor : processors) CPU_SET_S(processor, bytes, set.get());
+    ::sched_setaffinity(0, bytes, set.get());
+}
+
 int machine_processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 int share_of_processors(const std::vector<std::vector<int>>& allowed, std::size_t process) {

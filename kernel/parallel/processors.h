@@ -11,6 +11,10 @@ namespace kerf {
 /// system or taskset has bound it. Those of this process without an argument; empty if the system does not tell.
 std::vector<int> allowed_processors(pid_t process = 0);
 
+/// Lets the calling thread, and those that it starts from now on, run on these processors alone, as far as the system
+/// allows it; no processors: as it is.
+void allow_processors(const std::vector<int>& processors);
+
 /// The number of all processors of the machine; at least 1.
 int machine_processors();
 

@@ -120,24 +120,24 @@ double next_size(const std::vector<FoundSize>& tried) {
 
 double excess_of(const FoundSize& found) { return std::log(found.tets / static_cast<double>(found.cells)); }
 
-SizedInput size_to_cells(Input input, const RunOptions& options, StageListener* listener, int processes) {
+SizedInput size_to_cells(Input input, const RunOptions& options, StageListener* listener) {
     const double size = forecast_size(input, options, SurfaceChange::none);
     const FoundSize found{options.sizes.cells, size, TetForecast(input, options).tets(size)};
     RunOptions sized = with_size(options, size);
-    input = remesh_where_asked(std::move(input), sized, listener, processes);
+    input = remesh_where_asked(std::move(input), sized, listener);
     return {std::move(input), std::move(sized), found};
 }
 
-SizedInput change_to_cells(const Input& input, const RunOptions& options, SurfaceChange change, StageListener* listener,
-                           int processes) {
+SizedInput change_to_cells(const Input& input, const RunOptions& options, SurfaceChange change,
+                           StageListener* listener) {
     SizedInput best;
     std::vector<FoundSize> tried;
     double size = forecast_size(input, options, change);
-    if (size == 0 && change == SurfaceChange::division) return size_to_cells(input, options, listener, processes);
+    if (size == 0 && change == SurfaceChange::division) return size_to_cells(input, options, listener);
     if (size == 0) size = with_four_digits(input.diagonal);
     while (true) {
         RunOptions sized = with_size(options, size);
-        Input changed = remesh_where_asked(input, sized, listener, processes);
+        Input changed = remesh_where_asked(input, sized, listener);
         tried.push_back({options.sizes.cells, size, TetForecast(changed, options).tets(size)});
         const double excess = excess_of(tried.back());
         if (!best.found || std::abs(excess) < std::abs(excess_of(*best.found)))
@@ -175,12 +175,12 @@ RunOptions with_forecast_size(const Input& input, RunOptions options) {
     return with_size(std::move(options), size);
 }
 
-SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener, int processes) {
+SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener) {
     if (options.sizes.cells == 0)
-        return {remesh_where_asked(std::move(input), options, listener, processes), options, std::nullopt};
+        return {remesh_where_asked(std::move(input), options, listener), options, std::nullopt};
     const SurfaceChange change = surface_change(input, options);
-    SizedInput sized = change == SurfaceChange::none ? size_to_cells(std::move(input), options, listener, processes)
-                                                     : change_to_cells(input, options, change, listener, processes);
+    SizedInput sized = change == SurfaceChange::none ? size_to_cells(std::move(input), options, listener)
+                                                     : change_to_cells(input, options, change, listener);
     const std::string note = note_of(*sized.found, change == SurfaceChange::remeshing, options.sizes);
     if (!note.empty()) sized.input.notes.push_back(note);
     return sized;

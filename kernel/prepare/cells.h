@@ -35,8 +35,7 @@ RunOptions with_forecast_size(const Input& input, RunOptions options);
 /// known afterwards: it is remeshed up to four times, with sizes that are closer and closer, until the forecast is
 /// within 5 % of the number, and the closest is taken. If even the coarsest mesh has more, that is what comes, with a
 /// note in Input::notes. Depends on input and options alone. Throws as remesh_where_asked() and read_size_field() do.
-SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener = nullptr,
-                           int processes = 1);
+SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener = nullptr);
 
 /// What was found, in one line.
 std::string found_size_text(const FoundSize& found);

@@ -162,8 +162,8 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     return task;
 }
 
-void check_memory(double facets, const RunOptions& options, double edge, int processes) {
-    const double most = most_memory_bytes(processes) / bytes_per_facet;
+void check_memory(double facets, const RunOptions& options, double edge) {
+    const double most = most_memory_bytes() / bytes_per_facet;
     if (facets <= most) return;
     // A twentieth more than what there is memory for, so that it stays enough when it is rounded.
     const std::string way_out = options.sizes.depends_on_place() ? "Use larger sizes"
@@ -201,11 +201,11 @@ std::vector<std::string> region_names(const Complex& complex) {
 }
 
 Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
-               StageListener* listener, int processes) {
+               StageListener* listener) {
     RemeshTask task = remesh_task(input, before, bad, options);
     RemeshOptions& wanted = task.options;
     if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, bad, wanted));
-    check_memory(forecast_facets(task.facets.surface, wanted), options, wanted.longest, processes);
+    check_memory(forecast_facets(task.facets.surface, wanted), options, wanted.longest);
     wanted.poll = step_counter(listener);
     if (wanted.poll) wanted.poll();
     Remeshed result = remesh(task.facets.surface, wanted);
@@ -238,10 +238,9 @@ Complex with_pieces(const Complex& before, DividedSurface divided) {
     return {std::move(divided.surface), std::move(sides), region_names(before)};
 }
 
-Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener,
-              int processes) {
+Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener) {
     const FacetSizes wanted = wanted_on_facets(options, before, input);
-    check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal), processes);
+    check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal));
     DividedSurface result = divide_facets(before, wanted, CancellationCheck(step_counter(listener)));
 
     input.remeshed = {.facets_before = input.facets,
@@ -256,13 +255,13 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
 
 // A wrap may be so rough that no bound can be kept. Its facets do.
 Input remeshed_if_possible(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
-                           StageListener* listener, int processes) {
+                           StageListener* listener) {
     try {
-        return remeshed(input, before, bad, options, listener, processes);
+        return remeshed(input, before, bad, options, listener);
     } catch (const Error& error) {
         if (error.code() != ErrorCode::input) throw;
         input.notes.push_back(fmt::format("The facets of the wrap are kept. {}", error.what()));
-        return divided(std::move(input), before, options, listener, processes);
+        return divided(std::move(input), before, options, listener);
     }
 }
 
@@ -316,18 +315,16 @@ double forecast_changed_facets(const Input& input, const RunOptions& options) {
     return static_cast<double>(input.facets);
 }
 
-Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener, int processes) {
+Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener) {
     const SurfaceArrays before = input.complex.arrays();
     const BadFacets bad = find_bad_facets(input, before);
     const SurfaceChange change = change_of(input, before, bad, options);
     if (change == SurfaceChange::remeshing && input.wrapped)
-        return remeshed_if_possible(std::move(input), before, bad, options, listener, processes);
-    if (change == SurfaceChange::remeshing)
-        return remeshed(std::move(input), before, bad, options, listener, processes);
+        return remeshed_if_possible(std::move(input), before, bad, options, listener);
+    if (change == SurfaceChange::remeshing) return remeshed(std::move(input), before, bad, options, listener);
     const std::string note = sliver_note(bad.slivers, input.path);
     if (!note.empty()) input.notes.push_back(note);
-    return change == SurfaceChange::division ? divided(std::move(input), before, options, listener, processes)
-                                             : std::move(input);
+    return change == SurfaceChange::division ? divided(std::move(input), before, options, listener) : std::move(input);
 }
 
 }  // namespace kerf

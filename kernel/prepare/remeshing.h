@@ -42,7 +42,6 @@ double forecast_changed_facets(const Input& input, const RunOptions& options);
 /// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,
 /// Error(input) where the bound cannot be kept, Error(memory) with the way out for more facets than there is memory
 /// for, before the first of them, Error(cancelled).
-/// `processes`: that do the same on this machine.
-Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener = nullptr, int processes = 1);
+Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener = nullptr);
 
 }  // namespace kerf

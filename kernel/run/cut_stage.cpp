@@ -6,6 +6,7 @@
 #include "core/host_name.h"
 #include "decompose/straight_division.h"
 #include "prepare/gathered_nodes.h"
+#include "run/cuts_on_ranks.h"
 #include "run/range_of_rank.h"
 #include "run/trace.h"
 
@@ -28,6 +29,12 @@ Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const De
         ranks, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks), cuts); });
 }
 
+// The halves hold all that is needed of a single surface.
+Decomposition cut_here(Input& input, const DecomposeOptions& options, LeafRange range, CutListener* cuts) {
+    return input.complex.region_count() == 1 ? decompose(input.complex.take_only_region(), options, range, cuts)
+                                             : decompose(input.complex, options, range, cuts);
+}
+
 }  // namespace
 
 Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& options, StageListener* listener) {
@@ -38,12 +45,9 @@ Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& o
     // A forecast counts the triangles of fine interfaces without making them.
     if (options.dry_run && options.trace_file.empty()) wanted.cut.size = SizeField();
     if (!options.trace_file.empty()) cuts = &trace.emplace(options, input, cuts);
-    Decomposition own = in_agreement(ranks, [&] {
-        tell_progress(listener, "decompose", 0, 1);
-        // The halves hold all that is needed of a single surface.
-        return input.complex.region_count() == 1 ? decompose(input.complex.take_only_region(), wanted, range, cuts)
-                                                 : decompose(input.complex, wanted, range, cuts);
-    });
+    in_agreement(ranks, [&] { tell_progress(listener, "decompose", 0, 1); });
+    Decomposition own = ranks.size() > 1 ? decompose_on_ranks(ranks, input.complex, wanted, cuts)
+                                         : in_agreement(ranks, [&] { return cut_here(input, wanted, range, cuts); });
     if (wanted.facets == FacetPolicy::split) own = divide_unfinished(ranks, std::move(own), options.decompose, cuts);
     if (trace) trace->write(options.trace_file, ranks, own, range);  // a run that fails later has one, too
     return own;

@@ -11,11 +11,14 @@
 #include "export/patch_types.h"
 #include "io/program_finder.h"
 #include "io/run_manifest.h"
+#include "parallel/on_root.h"
+#include "parallel/processors.h"
 #include "prepare/cells.h"
 #include "prepare/remeshing.h"
 #include "prepare/size_reader.h"
 #include "request/saved_run.h"
 #include "run/forecast.h"
+#include "run/told_plan.h"
 
 namespace kerf {
 
@@ -79,9 +82,83 @@ void check_budget_before_remeshing(const Input& input, RunOptions options, int r
 
 bool keeps_most_facets(const Input& input) { return !input.remeshed || 2 * input.remeshed->facets_kept > input.facets; }
 
-int ranks_of_this_host(Communicator& ranks) {
-    const std::vector<std::string> hosts = all_gather(ranks, host_name());
-    return static_cast<int>(std::count(hosts.begin(), hosts.end(), host_name()));
+// The processors of the first rank's host, which that rank uses alone while the others wait.
+class ProcessorsOfHost {
+ public:
+    // Collective.
+    explicit ProcessorsOfHost(Communicator& ranks) {
+        const std::string host = host_name();
+        const Bytes of_root = ranks.broadcast(Bytes(host.begin(), host.end()), 0);
+        std::vector<Bytes> to_rank(static_cast<std::size_t>(ranks.size()));
+        if (std::string(of_root.begin(), of_root.end()) == host) to_rank[0] = to_bytes(own_);
+        for (const Bytes& bytes : ranks.exchange(std::move(to_rank))) {
+            if (bytes.empty()) continue;
+            ++ranks_;
+            const auto of_rank = from_bytes<std::vector<int>>(bytes);
+            all_.insert(all_.end(), of_rank.begin(), of_rank.end());
+        }
+        std::sort(all_.begin(), all_.end());
+        all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
+    }
+
+    // Calls body() with threads for all ranks of the host.
+    template <class Body>
+    void lend(int threads_of_rank, const Body& body) const {
+        struct Borrowed {
+            const ProcessorsOfHost& host;
+            int threads_of_rank;
+            ~Borrowed() {
+                allow_processors(host.own_);
+                set_thread_limit(threads_of_rank);
+            }
+        } const borrowed{*this, threads_of_rank};
+        const int most = std::max(threads_of_rank, static_cast<int>(all_.size()));
+        if (ranks_ > 1) allow_processors(all_);
+        set_thread_limit(std::min(threads_of_rank * std::max(1, ranks_), most));
+        body();
+    }
+
+ private:
+    std::vector<int> own_ = allowed_processors(), all_;
+    int ranks_ = 0;  // of the host
+};
+
+// What a rank can tell of the options by itself.
+RunOptions resolved_request(const RunOptions& request, int cores_of_rank, const Input& input) {
+    RunOptions options = request;
+    if (input.is_ready) options.input = input.path;
+    options = resolved(std::move(options), cores_of_rank);
+    const bool meshes = options.volume && !options.dry_run;
+    if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
+    return options;
+}
+
+// Reads what plan.options name, and completes them.
+void plan_surface(RunPlan& plan, Input& input, int ranks, StageListener* listener) {
+    RunOptions wanted = std::move(plan.options);
+    if (!std::exchange(input.is_ready, false)) input = read_input(wanted.input, wanted.input_options, listener);
+    refuse_changed_input(wanted, input.file_hash);
+    wanted.input_options.weld_tolerance = input.weld_tolerance;
+    wanted = with_lengths(std::move(wanted), input.diagonal);
+    check_budget_before_remeshing(input, wanted, ranks);
+    const SurfaceArrays behind = surface_behind(input, wanted);
+    SizedInput sized = remesh_and_size(std::move(input), wanted, listener);
+    input = std::move(sized.input);
+    plan.surface_nodes = make_surface_nodes(input, behind, sized.options);
+    plan.found_size = sized.found;
+    if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
+    RunOptions options = sized_on(input, std::move(sized.options));
+    options.decompose.region_sizes = RegionSizes(max_volumes_of_regions(options.sizes, input));
+    require_patches(parse_patch_types(options.patch_types), input.patch_names);
+    if (options.split_regions) require_regions(input.complex.region_names().size());
+    const double volume = sized_volume_of(input, options);
+    options.decompose.parts = part_count(input, options, volume, ranks);
+    if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
+    const std::int32_t wanted_parts = wanted.decompose.parts;
+    if (wanted_parts > 0 && options.decompose.parts > wanted_parts)
+        input.notes.push_back(fmt::format("The {} regions are a part each, though -n {} asks for fewer parts.",
+                                          input.complex.region_count(), wanted_parts));
+    plan.options = std::move(options);
 }
 
 }  // namespace
@@ -90,46 +167,24 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
                  StageListener* listener) {
     // Hosts may differ, but the defaults of K and workers must not.
     for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
-    const int ranks_here = ranks_of_this_host(ranks);
+    const ProcessorsOfHost host(ranks);
     RunPlan plan;
-    const RunOptions wanted = in_agreement(ranks, [&] {
-        RunOptions options = request;
-        if (input.is_ready) options.input = input.path;
-        options = resolved(std::move(options), cores_of_rank);
-        set_thread_limit(options.workers);  // they have nothing to do yet
-        const bool meshes = options.volume && !options.dry_run;
-        if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
-        if (meshes && !options.transient) plan.worker_hash = describe_file("", options.worker_program).hash;
+    in_agreement(ranks, [&] {
+        plan.options = resolved_request(request, cores_of_rank, input);
+        const bool meshes = plan.options.volume && !plan.options.dry_run;
+        if (meshes && !plan.options.transient) plan.worker_hash = describe_file("", plan.options.worker_program).hash;
         if (listener) listener->on_progress("read", 0, 1);
-        if (!std::exchange(input.is_ready, false)) input = read_input(options.input, options.input_options, listener);
-        refuse_changed_input(options, input.file_hash);
-        options.input_options.weld_tolerance = input.weld_tolerance;
-        options = with_lengths(std::move(options), input.diagonal);
-        if (ranks.rank() == 0) check_budget_before_remeshing(input, options, ranks.size());
-        return options;
+        set_thread_limit(plan.options.workers);  // they have nothing to do yet
     });
-    plan.options = in_agreement(ranks, [&] {
-        const SurfaceArrays behind = surface_behind(input, wanted);
-        SizedInput sized = remesh_and_size(std::move(input), wanted, listener, ranks_here);
-        input = std::move(sized.input);
-        plan.surface_nodes = make_surface_nodes(input, behind, sized.options);
-        plan.found_size = sized.found;
-        if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
-        RunOptions options = sized_on(input, std::move(sized.options));
-        options.decompose.region_sizes = RegionSizes(max_volumes_of_regions(options.sizes, input));
-        require_patches(parse_patch_types(options.patch_types), input.patch_names);
-        if (options.split_regions) require_regions(input.complex.region_names().size());
-        if (ranks.rank() != 0) return options;
-        const double volume = sized_volume_of(input, options);
-        options.decompose.parts = part_count(input, options, volume, ranks.size());
-        if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
-        return options;
+    const int threads = plan.options.workers;
+    const auto of_root = [&] {
+        host.lend(threads, [&] { plan_surface(plan, input, ranks.size(), listener); });
+        return ranks.size() > 1 ? bytes_of_plan(plan, input) : Bytes();
+    };
+    const Bytes told = bytes_of_root(ranks, of_root, [&] { end_if_cancelled(listener); });
+    in_agreement(ranks, [&] {
+        if (ranks.rank() != 0) take_plan(told, plan, input);
     });
-    const std::int32_t wanted_parts = wanted.decompose.parts;
-    plan.options.decompose.parts = all_gather(ranks, plan.options.decompose.parts).front();
-    if (wanted_parts > 0 && plan.options.decompose.parts > wanted_parts)
-        input.notes.push_back(fmt::format("The {} regions are a part each, though -n {} asks for fewer parts.",
-                                          input.complex.region_count(), wanted_parts));
     return plan;
 }
 

@@ -23,8 +23,12 @@ struct RunPlan {
 
 /// Reads the surface into `input`, unless it is there already (Input::is_ready), remeshes it where that is asked for,
 /// puts it on the faces of a CAD file where cells of order 2 are to have curved edges (prepare/surface_nodes.h), and
-/// resolves the request. Collective; the same plan on every rank. Throws Error on every rank alike, for what cannot
-/// end well (check_budget()) before the surface is remeshed or cut.
+/// resolves the request. Throws Error on every rank alike, for what cannot end well (check_budget()) before the surface
+/// is remeshed or cut.
+///
+/// Collective; the same plan on every rank. The first rank does it, with the processors of all ranks of its host, which
+/// sleep meanwhile. `input` of the others gets numbers and names, for several regions the surface, too, for one region
+/// none: what was repaired and remeshed is known to the first rank alone.
 RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
                  StageListener* listener);
 

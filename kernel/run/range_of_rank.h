@@ -6,10 +6,18 @@
 
 namespace kerf {
 
-/// The share of this rank in `count` things, as first_of_rank() has it.
+/// The share of a rank in `count` things, as first_of_rank() has it.
+inline LeafRange range_of_rank(std::int32_t count, int rank, const Communicator& ranks) {
+    const auto begin = [&](int r) { return static_cast<std::int32_t>(first_of_rank(count, r, ranks)); };
+    return {begin(rank), begin(rank + 1)};
+}
 inline LeafRange range_of_rank(std::int32_t count, const Communicator& ranks) {
-    const auto begin = [&](int rank) { return static_cast<std::int32_t>(first_of_rank(count, rank, ranks)); };
-    return {begin(ranks.rank()), begin(ranks.rank() + 1)};
+    return range_of_rank(count, ranks.rank(), ranks);
+}
+
+/// The rank that has number `item` of them.
+inline int rank_of_item(std::int32_t item, std::int32_t count, const Communicator& ranks) {
+    return static_cast<int>(((item + std::int64_t{1}) * ranks.size() - 1) / count);
 }
 
 }  // namespace kerf

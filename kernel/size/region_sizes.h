@@ -18,6 +18,7 @@ class RegionSizes {
     explicit RegionSizes(std::vector<double> max_volumes) : max_volumes_(std::move(max_volumes)) {}
 
     bool empty() const { return max_volumes_.empty(); }
+    const std::vector<double>& max_volumes() const { return max_volumes_; }
     /// The field of a region, where `all` is that of the others.
     SizeField of(RegionIndex region, const SizeField& all) const {
         const auto r = static_cast<std::size_t>(region.value());

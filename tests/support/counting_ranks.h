@@ -69,19 +69,20 @@ class CountingRanks : public Communicator {
         count(0, std::ssize(message), 0);
         return message;
     }
+    std::optional<Bytes> receive_any() override { return counted(ranks_.receive_any()); }
     void post(int rank, const Bytes& message) override {
         count(std::ssize(message), 0, 1);
         ranks_.post(rank, message);
     }
-    std::optional<Bytes> poll() override {
-        std::optional<Bytes> message = ranks_.poll();
-        if (message) count(0, std::ssize(*message), 0);
-        return message;
-    }
+    std::optional<Bytes> poll() override { return counted(ranks_.poll()); }
     void drop_messages() override { ranks_.drop_messages(); }
     void leave(const StageStatus& why) override { ranks_.leave(why); }
 
  private:
+    std::optional<Bytes> counted(std::optional<Bytes> message) {
+        if (message) count(0, std::ssize(*message), 0);
+        return message;
+    }
     // Of a tree of all ranks.
     std::int64_t depth() const { return std::bit_width(static_cast<unsigned>(size() - 1)); }
     void count(std::int64_t sent, std::int64_t received, std::int64_t messages) {

@@ -58,6 +58,13 @@ class MeetingPoint {
         }
         return take_first(queue);
     }
+    // The first message that waits for this rank.
+    std::optional<Bytes> take_any(int to) {
+        const std::lock_guard lock(mutex_);
+        for (auto& [ends, queue] : sent_)
+            if (ends.second == to && !queue.empty()) return take_first(queue);
+        return {};
+    }
     void post(int to, const Bytes& message) {
         const std::lock_guard lock(mutex_);
         posted_[to].push_back(message);
@@ -124,6 +131,7 @@ class ThreadRank : public Communicator {
     Bytes receive(int rank) override {
         return or_over([&] { return meeting_.receive(rank, rank_); });
     }
+    std::optional<Bytes> receive_any() override { return meeting_.take_any(rank_); }
     void post(int rank, const Bytes& message) override { meeting_.post(rank, message); }
     std::optional<Bytes> poll() override { return meeting_.poll(rank_); }
     void drop_messages() override {

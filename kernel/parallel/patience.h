@@ -1,0 +1,25 @@
+// Waiting for messages without work for the processor.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace kerf {
+
+/// Pauses between looks at what may have arrived: short at first, and a millisecond at last.
+class Patience {
+ public:
+    void pause() {
+        std::this_thread::sleep_for(pause_);
+        pause_ = std::min(2 * pause_, longest);
+    }
+    /// Something has arrived: more may follow soon.
+    void reset() { pause_ = shortest; }
+
+ private:
+    static constexpr std::chrono::microseconds shortest{20}, longest{1000};
+    std::chrono::microseconds pause_ = shortest;
+};
+
+}  // namespace kerf

@@ -1,0 +1,18 @@
+// What the first rank tells the others of a plan: they have not read the surface.
+#pragma once
+
+#include "core/bytes.h"
+#include "prepare/input.h"
+#include "run/plan.h"
+
+namespace kerf {
+
+/// The plan and its input, as plan_run() leaves them to other ranks. O(#F) for several regions, else a few kilobytes
+/// beside sources of sizes, and nodes on edges.
+Bytes bytes_of_plan(const RunPlan& plan, const Input& input);
+
+/// Takes over what bytes_of_plan() has said. `plan`: with the options as far as a rank resolves them by itself. O(#F
+/// log #F) for several regions.
+void take_plan(const Bytes& told, RunPlan& plan, Input& input);
+
+}  // namespace kerf
