@@ -61,6 +61,7 @@ TEST(MpiRanks, KeepThePromisesOfCollectives) {
     for (const std::size_t largest : {1, 9, 40'001, 300'007}) test::expect_collectives(ranks, largest);
     test::expect_sums(ranks);
     test::expect_exchanged_items(ranks);
+    test::expect_posts(ranks);
 }
 
 // From one rank, more than one call gathers.

@@ -105,11 +105,13 @@ TEST(Collectives, KeepTheirPromises) {
             for (const std::size_t largest : {1, 9, 40'001}) test::expect_collectives(ranks, largest);
             test::expect_sums(ranks);
             test::expect_exchanged_items(ranks);
+            test::expect_posts(ranks);
         });
     SingleRank alone;
     test::expect_collectives(alone, 10);
     test::expect_sums(alone);
     test::expect_exchanged_items(alone);
+    test::expect_posts(alone);
 }
 
 TEST(Collectives, EndWhenARankLeaves) {
