@@ -1,0 +1,109 @@
+// What parts are told before they are meshed: the same for any number of ranks.
+#include "run/prepare_stage.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "prepare/gathered_nodes.h"
+#include "run/cut_stage.h"
+#include "support/assets.h"
+#include "support/counting_ranks.h"
+#include "support/thread_ranks.h"
+#include "support/voxel_regions.h"
+
+namespace kerf {
+namespace {
+
+struct Preparation {
+    std::vector<Bytes> jobs, reports;  // of all parts, in the order of the tree
+    std::int64_t surface_vertices = -1, shared_edges = 0, contacts = 0;
+    std::vector<test::Traffic> traffic;  // of each rank in this stage
+
+    void add(PreparedParts prepared) {
+        surface_vertices = prepared.surface_vertices;
+        EXPECT_EQ(prepared.unmatched_interface_facets, 0);
+        EXPECT_EQ(prepared.missing_input_facets, 0);
+        for (OwnPart& part : prepared.own) {
+            part.report.rank = 0;
+            for (const SharedEdgeGroup& group : part.job.shared_edges) shared_edges += std::ssize(group.edges);
+            contacts += std::ssize(part.job.contact_vertices);
+            jobs.push_back(to_bytes(part.job));
+            reports.push_back(to_bytes(part.report));
+        }
+    }
+};
+
+Preparation prepare_on(int size, const std::function<Input()>& read, const RunOptions& options) {
+    std::vector<PreparedParts> of_ranks(size);
+    Preparation all;
+    all.traffic.resize(size);
+    test::run_ranks(size, [&](Communicator& ranks) {
+        Input input = read();
+        Decomposition own = cut_surface(ranks, input, options, nullptr);
+        const std::vector<TreeNode> nodes = gather_nodes(ranks, own.nodes, "host");
+        test::CountingRanks counting(ranks);
+        of_ranks[ranks.rank()] = prepare_parts(counting, input, nodes, std::move(own), options);
+        all.traffic[ranks.rank()] = counting.traffic();
+    });
+    for (PreparedParts& prepared : of_ranks) all.add(std::move(prepared));
+    return all;
+}
+
+RunOptions in_parts(std::int32_t parts, ContourMethod contour = ContourMethod::min_cut) {
+    RunOptions options;
+    options.decompose.parts = parts;
+    options.decompose.cut.contour = contour;
+    return options;
+}
+
+void expect_the_same_for_any_ranks(const char* what, const std::function<Input()>& read, const RunOptions& options) {
+    const Preparation alone = prepare_on(1, read, options);
+    EXPECT_GT(alone.shared_edges, 0) << what;
+    for (const int size : {2, 4, 8}) {
+        const Preparation together = prepare_on(size, read, options);
+        EXPECT_EQ(together.surface_vertices, alone.surface_vertices) << what << " on " << size;
+        EXPECT_TRUE(together.jobs == alone.jobs) << what << " on " << size;
+        EXPECT_TRUE(together.reports == alone.reports) << what << " on " << size;
+    }
+}
+
+TEST(PrepareParts, TellsPartsTheSameForAnyNumberOfRanks) {
+    const auto asset = [](const char* name) { return [name] { return read_input(test::asset_path(name)); }; };
+    expect_the_same_for_any_ranks("hollow box", asset("hollow_box"), in_parts(13));
+    expect_the_same_for_any_ranks("straight cuts", asset("hollow_box"), in_parts(6, ContourMethod::straight));
+    expect_the_same_for_any_ranks("pipe", asset("pipe_with_holes"), in_parts(9));
+}
+
+// Parts that touch each other without a facet between them, too.
+TEST(PrepareParts, TellsPartsOfRegionsTheSameForAnyNumberOfRanks) {
+    std::int64_t contacts = 0;
+    for (const test::TouchingBodies& bodies : test::touching_bodies()) {
+        const test::VoxelBody body = test::voxel_body(bodies.cubes, bodies.region);
+        const auto read = [&] {
+            return make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
+        };
+        const RunOptions options = in_parts(static_cast<std::int32_t>(body.names.size()) + 3);
+        expect_the_same_for_any_ranks(bodies.name, read, options);
+        contacts += prepare_on(1, read, options).contacts;
+    }
+    EXPECT_GT(contacts, 0);
+}
+
+// The bytes of the busiest rank fall as its share does; it says something to each other rank a few times.
+TEST(PrepareParts, CostsARankLessWhereThereAreMore) {
+    const auto read = [] { return read_input(test::asset_path("bearing_cap_14k")); };
+    std::map<int, std::int64_t> most_bytes;
+    for (const int size : {2, 4, 8})
+        for (const test::Traffic& traffic : prepare_on(size, read, in_parts(16)).traffic) {
+            most_bytes[size] = std::max(most_bytes[size], traffic.bytes());
+            EXPECT_LE(traffic.messages, 10 * size + 30) << size;
+        }
+    EXPECT_LT(static_cast<double>(most_bytes[8]), 0.6 * static_cast<double>(most_bytes[2]));
+}
+
+}  // namespace
+}  // namespace kerf
