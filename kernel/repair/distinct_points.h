@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/types.h"
+#include "surface/vertex_table.h"
 
 namespace kerf {
 
@@ -21,12 +23,8 @@ class DistinctPoints {
     std::int32_t number_of(const Vec3& p);
 
  private:
-    std::size_t slot_of(const Vec3& p) const;
-    void make_room();
-
     std::vector<Vec3> points_;
-    std::vector<std::int32_t> slots_;  // a hash table with open addressing; -1: free
-    std::size_t used_ = 0;
+    VertexTable table_;
 };
 
 }  // namespace kerf

@@ -1,9 +1,9 @@
-// Welding by one pass over a hash table with open addressing, filled in the order of the vertices: the first of equals
-// is found by every later one. The hash only decides who is compared with whom, so the result does not depend on it.
-// With a tolerance the table holds cells of a grid, and the 27 cells around a vertex are looked through.
+// Welding by one pass over a hash table, filled in the order of the vertices: the first of equals is found by every
+// later one. With a tolerance the table holds cells of a grid, and the 27 cells around a vertex are looked through.
 #include "surface/soup.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -13,33 +13,23 @@
 #include "core/check.h"
 #include "core/drop_items.h"
 #include "core/elements.h"
+#include "surface/vertex_table.h"
 
 namespace kerf {
 
 namespace {
 
-std::uint64_t hash(const Vec3& p) {
-    std::uint64_t h = 0;
-    for (int i = 0; i < 3; ++i) {
-        h ^= std::bit_cast<std::uint64_t>(p[i] + 0.0);  // -0 + 0 = 0
-        h *= 0x9e3779b97f4a7c15ULL;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
-// The first vertex with equal coordinates, for each vertex; by open addressing in the order of the vertices.
+// The first vertex with equal coordinates, for each vertex. Most of the time is waiting for the table, in blocks.
 std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices) {
-    const std::size_t mask = std::bit_ceil(2 * vertices.size() + 1) - 1;
-    std::vector<std::int32_t> table(mask + 1, -1);
+    constexpr std::size_t block = 128;
+    std::array<std::uint64_t, block> hashes;
+    VertexTable table(vertices.size() / 4);  // of separate corners a sixth is left
     std::vector<std::int32_t> representative(vertices.size());
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        representative[v] = static_cast<std::int32_t>(v);
-        if (vertices[v].hasNaN()) continue;  // equal to nothing; many of them would only lengthen the probes
-        std::size_t slot = hash(vertices[v]) & mask;
-        while (table[slot] >= 0 && vertices[table[slot]] != vertices[v]) slot = (slot + 1) & mask;
-        if (table[slot] < 0) table[slot] = static_cast<std::int32_t>(v);
-        representative[v] = table[slot];
+    for (std::size_t begin = 0; begin < vertices.size(); begin += block) {
+        const std::size_t count = std::min(block, vertices.size() - begin);
+        for (std::size_t i = 0; i < count; ++i) table.prefetch(hashes[i] = hash_of_point(vertices[begin + i]));
+        for (std::size_t i = 0; i < count; ++i)
+            representative[begin + i] = table.enter(static_cast<std::int32_t>(begin + i), hashes[i], vertices);
     }
     return representative;
 }
@@ -77,8 +67,10 @@ std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
         }
     }
     const auto removed = static_cast<std::int64_t>(soup.vertices.size()) - kept;
+    const bool is_much = 2 * removed > kept;  // of separate corners, of which most are gone
     soup.vertices.resize(kept);
     soup.vertex_number.resize(kept);
+    if (is_much) soup.vertices.shrink_to_fit(), soup.vertex_number.shrink_to_fit();
     for (Triangle& t : soup.facets)
         for (std::int32_t& v : t) v = new_number[v];
     renumber_edges(soup.model_edges, new_number);
@@ -112,7 +104,7 @@ class WeldGrid {
 
  private:
     Vec3 cell(const Vec3& p) const { return (p / (1.5 * tolerance_)).array().floor(); }
-    std::size_t slot(const Vec3& cell) const { return hash(cell) & mask_; }
+    std::size_t slot(const Vec3& cell) const { return hash_of_point(cell) & mask_; }
 
     const std::vector<Vec3>& vertices_;
     double tolerance_;
