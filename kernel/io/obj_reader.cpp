@@ -18,6 +18,7 @@ std::string_view find_patch_keyword(std::string_view text, const std::string& pa
     constexpr std::array<std::string_view, 3> keywords = {"g", "o", "usemtl"};
     std::size_t best = keywords.size();
     for (TextScanner scanner(text, path, '#'); best > 0 && !scanner.at_end(); scanner.skip_line()) {
+        if (const char first = scanner.peek(); first == 'v' || first == 'f') continue;  // most lines
         const std::string_view word = scanner.next_word();
         for (std::size_t i = 0; i < best; ++i)
             if (word == keywords[i]) best = i;
@@ -36,8 +37,7 @@ void read_vertex(TextScanner& scanner, SoupBuilder& builder) {
 }
 
 std::int64_t read_corner(TextScanner& scanner, std::int64_t vertex_count) {
-    const std::string_view word = scanner.next_word();
-    const std::int64_t index = scanner.to_integer(word.substr(0, word.find('/')));
+    const std::int64_t index = scanner.next_integer_before('/');
     if (index == 0) scanner.fail("a face names vertex 0, but OBJ counts from 1. Export the surface again.");
     return index > 0 ? index - 1 : vertex_count + index;
 }

@@ -13,6 +13,9 @@
 
 namespace kerf {
 
+/// What some programs put in front of a text.
+inline constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
+
 namespace detail {
 
 constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
@@ -68,11 +71,24 @@ class TextScanner {
     }
     /// The next word, over line ends; throws Error(input) at the end of the text.
     std::string_view next_word() {
-        if (at_end()) fail("the file ends too early. It is truncated: export or copy it again.");
+        begin_word();
         return scan_word();
     }
-    double next_real() { return to_real(next_word()); }
-    std::int64_t next_integer() { return to_integer(next_word()); }
+    double next_real() {
+        double value = 0;
+        return take_plain_number(value, '\0') ? value : to_real(scan_word());
+    }
+    std::int64_t next_integer() {
+        std::int64_t value = 0;
+        return take_plain_number(value, '\0') ? value : to_integer(scan_word());
+    }
+    /// The next word up to `mark`, if that is in it, which must be a whole number.
+    std::int64_t next_integer_before(char mark) {
+        std::int64_t value = 0;
+        if (take_plain_number(value, mark)) return value;
+        const std::string_view word = scan_word();
+        return to_integer(word.substr(0, word.find(mark)));
+    }
     /// An index that counts from `first`, as one that counts from 0.
     std::int64_t next_index(std::int64_t first) {
         const std::int64_t index = next_integer();
@@ -106,7 +122,7 @@ class TextScanner {
     /// Throws Error(input) if a word is left behind `last`, the last of what the file announced.
     void expect_end(const std::string& last) {
         if (at_end()) return;
-        scan_word();
+        begin_word();
         fail("the file goes on after " + last + ". Correct the numbers or export the surface again.");
     }
 
@@ -120,7 +136,8 @@ class TextScanner {
         return rest;
     }
     void skip_line() {
-        position_ = find_line_end();
+        const char* const end = text_.data() + text_.size();
+        position_ = static_cast<std::size_t>(line_end(text_.data() + position_, end) - text_.data());
         if (text_.substr(position_, 2) == "\r\n") ++position_;
         if (position_ < text_.size()) ++position_;
     }
@@ -137,26 +154,45 @@ class TextScanner {
     }
 
  private:
+    // The loops walk by pointers of their own: through a member each step would be a write to memory.
     void skip(bool over_line_ends) {
-        for (; position_ < text_.size(); ++position_) {
-            const char c = text_[position_];
-            if (comment_ && c == comment_)
-                position_ = find_line_end() - 1;
-            else if (!detail::is_space(c) || (detail::is_line_end(c) && !over_line_ends))
-                return;
+        const char *at = text_.data() + position_, *const end = text_.data() + text_.size();
+        for (; at != end; ++at) {
+            if (comment_ && *at == comment_) at = line_end(at, end);
+            if (at == end || !detail::is_space(*at) || (!over_line_ends && detail::is_line_end(*at))) break;
         }
+        position_ = static_cast<std::size_t>(at - text_.data());
     }
-    std::size_t find_line_end() const {
-        std::size_t end = position_;
-        while (end < text_.size() && !detail::is_line_end(text_[end])) ++end;
-        return end;
+    static const char* line_end(const char* at, const char* end) {
+        while (at != end && !detail::is_line_end(*at)) ++at;
+        return at;
+    }
+    void begin_word() {
+        if (at_end()) fail("the file ends too early. It is truncated: export or copy it again.");
+        word_ = position_;
+    }
+    // Begins a word. Takes it if it is a number as from_chars() knows them, `mark` and more behind it perhaps, in one
+    // walk instead of two; all others are looked at as words.
+    template <class Number>
+    bool take_plain_number(Number& value, char mark) {
+        begin_word();
+        const char* const end = text_.data() + text_.size();
+        const auto [at, error] = std::from_chars(text_.data() + position_, end, value);
+        if (error != std::errc()) return false;
+        if (at != end && mark && *at == mark) {
+            scan_word();
+            return true;
+        }
+        if (at != end && !detail::is_space(*at) && !(comment_ && *at == comment_)) return false;
+        position_ = static_cast<std::size_t>(at - text_.data());
+        return true;
     }
     std::string_view scan_word() {
-        word_ = position_;
-        while (position_ < text_.size() && !detail::is_space(text_[position_]) &&
-               !(comment_ && text_[position_] == comment_))
-            ++position_;
-        return text_.substr(word_, position_ - word_);
+        const char *const begin = text_.data() + position_, *at = begin, *const end = text_.data() + text_.size();
+        const char comment = comment_ ? comment_ : ' ';
+        while (at != end && !detail::is_space(*at) && *at != comment) ++at;
+        position_ += static_cast<std::size_t>(at - begin);
+        return {begin, static_cast<std::size_t>(at - begin)};
     }
     [[noreturn]] void refuse(std::string_view word, const char* kind, std::errc error) const {
         const std::string quoted = "\"" + std::string(word.substr(0, 40)) + "\"";
