@@ -127,6 +127,8 @@ std::size_t most_content(std::size_t archive_bytes) {
     return any_archive + surface_growth * archive_bytes;
 }
 
+bool is_archive(std::string_view bytes) { return bytes.starts_with(gzip_magic) || bytes.starts_with(zstd_magic); }
+
 std::string decompress(std::string bytes, const std::string& path) {
     if (bytes.starts_with(gzip_magic)) return decompress_gzip(bytes, path);
     if (bytes.starts_with(zstd_magic)) return decompress_zstd(bytes, path);

@@ -12,6 +12,9 @@ inline constexpr std::size_t surface_growth = 128;
 /// The bytes that may come out of so many bytes of an archive: 250 MB, and `surface_growth` times its own.
 std::size_t most_content(std::size_t archive_bytes);
 
+/// Whether these are the first bytes of a gzip or zstd archive.
+bool is_archive(std::string_view bytes);
+
 /// The content of a gzip or zstd archive, told by its first bytes; all other bytes are given back as they are. Archives
 /// that were joined give their contents one behind the other. `path` serves messages.
 ///

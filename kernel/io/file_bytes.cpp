@@ -1,11 +1,10 @@
-// One read into one buffer: surface files are read once from front to back, and a string outlives the file if another
-// program truncates it meanwhile, where a mapping would end the process.
+// Surface files are read from front to back, into memory of our own: it outlives the file if another program truncates
+// it meanwhile, where a mapping would end the process.
 #include "io/file_bytes.h"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "core/error.h"
 
@@ -19,7 +18,7 @@ namespace {
 
 }  // namespace
 
-std::string read_file(const std::string& path) {
+FileReader::FileReader(const std::string& path) : path_(path) {
     if (path == "-")
         fail(path, "standard input is not supported because a surface is read more than once; give a file");
     std::error_code error;
@@ -28,12 +27,21 @@ std::string read_file(const std::string& path) {
     if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
         fail(path, "it is a pipe or a device; give a file");
     errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) fail(path, std::strerror(errno));
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    file_.open(path, std::ios::binary);
+    if (!file_) fail(path, std::strerror(errno));
+    size_ = std::filesystem::file_size(path, error);
     if (error) fail(path, error.message());
-    std::string bytes(size, '\0');
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) fail(path, "it ends before its size is reached");
+}
+
+void FileReader::read(std::span<char> bytes) {
+    if (!file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+        fail(path_, "it ends before its size is reached");
+}
+
+std::string read_file(const std::string& path) {
+    FileReader file(path);
+    std::string bytes(file.size(), '\0');
+    file.read(bytes);
     return bytes;
 }
 

@@ -1,12 +1,30 @@
 // The bytes of a file.
 #pragma once
 
+#include <cstddef>
+#include <fstream>
+#include <span>
 #include <string>
 
 namespace kerf {
 
-/// The whole content. Throws Error(io) naming the file and the system's reason if it cannot be opened or read, and
-/// refuses `-`, folders and everything else that has no size.
+/// Reads a file from front to back. Throws Error(io) naming the file and the system's reason if it cannot be opened or
+/// read, and refuses `-`, folders and everything else that has no size.
+class FileReader {
+ public:
+    explicit FileReader(const std::string& path);
+    /// When it was opened.
+    std::size_t size() const { return size_; }
+    /// The bytes that follow; throws if they are fewer.
+    void read(std::span<char> bytes);
+
+ private:
+    const std::string& path_;
+    std::ifstream file_;
+    std::size_t size_ = 0;
+};
+
+/// The whole content. Throws as FileReader.
 std::string read_file(const std::string& path);
 
 }  // namespace kerf

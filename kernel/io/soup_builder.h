@@ -16,6 +16,7 @@
 #include "io/tet_collector.h"
 #include "surface/facet_triangulation.h"
 #include "surface/soup.h"
+#include "surface/vertex_table.h"
 
 namespace kerf {
 
@@ -102,12 +103,23 @@ class SoupBuilder {
         for (const Triangle& triangle : found.triangles) add_facet(triangle);
         ++polygon_count_;
     }
-    /// A triangle of three new vertices.
-    void add_separate_facet(const Vec3& a, const Vec3& b, const Vec3& c) {
-        for (const Vec3* p : {&a, &b, &c}) add_vertex(*p);
-        const auto end = static_cast<std::int32_t>(soup_.vertices.size());
-        add_facet({end - 3, end - 2, end - 1});
-        ++polygon_count_;
+    /// Makes room for so many triangles of a closed surface, once the file is known to have them.
+    void reserve_separate_facets(std::size_t count) {
+        soup_.facets.reserve(count);
+        soup_.patch.reserve(count);
+        soup_.vertices.reserve(count / 2 + count / 16);  // pages that are not used are none
+        table_ = VertexTable(count / 2);
+    }
+    /// Triangles by their corners, three each, in the current patch. Corners with equal coordinates are one vertex, as
+    /// weld_exactly() has it, if all vertices come in this way. Best by some hundred corners.
+    void add_separate_facets(std::span<const Vec3> corners) {
+        hashes_.clear();
+        for (const Vec3& p : corners) table_.prefetch(hashes_.emplace_back(hash_of_point(p)));
+        for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+            const std::int32_t a = welded(corners[i], hashes_[i]), b = welded(corners[i + 1], hashes_[i + 1]);
+            add_facet({a, b, welded(corners[i + 2], hashes_[i + 2])});
+            ++polygon_count_;
+        }
     }
     /// Of a cell with nodes between its corners, straight or curved, only the corners are taken: that is noted.
     void count_cell_by_corners() { ++cells_by_corners_; }
@@ -166,6 +178,13 @@ class SoupBuilder {
         for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
         ++polygon_count_;
     }
+    std::int32_t welded(const Vec3& p, std::uint64_t hash) {
+        add_vertex(p);
+        const auto last = static_cast<std::int32_t>(vertex_count() - 1),
+                   vertex = table_.enter(last, hash, soup_.vertices);
+        if (vertex != last) soup_.vertices.pop_back();
+        return vertex;
+    }
     void add_skin() {
         set_patch("surface");  // whatever curves or volumes came last
         for (const RegionFace& face : tets_.skin()) add_facet(face.corners);
@@ -223,6 +242,8 @@ class SoupBuilder {
     std::int32_t unnamed_patch_ = -1;  // of such facets
     std::vector<FacetSides> sides_;
     std::vector<std::string> region_names_;
+    VertexTable table_;  // of separate facets, and the hashes of their corners
+    std::vector<std::uint64_t> hashes_;
 };
 
 }  // namespace kerf

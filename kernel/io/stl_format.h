@@ -19,10 +19,10 @@ inline std::uint32_t claimed_stl_facets(std::string_view bytes) {
 }
 
 /// True if the size is that of a binary STL; many exporters begin theirs with the word "solid".
-inline bool is_binary_stl(std::string_view bytes) {
-    return bytes.size() >= stl_header_size &&
-           bytes.size() == stl_header_size + stl_facet_size * claimed_stl_facets(bytes);
+inline bool is_binary_stl(std::string_view header, std::size_t size) {
+    return header.size() >= stl_header_size && size == stl_header_size + stl_facet_size * claimed_stl_facets(header);
 }
+inline bool is_binary_stl(std::string_view bytes) { return is_binary_stl(bytes, bytes.size()); }
 
 inline bool holds_nul(std::string_view bytes) { return bytes.find('\0') != std::string_view::npos; }
 

@@ -1,19 +1,27 @@
-// STL knows no shared vertices: every facet brings its three corners, which are welded where they are exactly equal.
+// STL knows no shared vertices: every facet brings its three corners, which are welded where they are exactly equal, as
+// they come. A large binary file is never in memory as a whole.
 //
 // Binary: 80 bytes of header, a count, 50 bytes per facet, little-endian floats. The normals are ignored: they say
 // nothing that the order of the corners does not say, and are wrong in many files.
 // ASCII: solid NAME { facet normal x y z outer loop vertex x y z (three times) endloop endfacet } endsolid NAME,
 // keywords in any case. A name runs to the end of its line and may hold keywords. Some programs write "end solid", some
 // no "endfacet", some no blank behind "endsolid".
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
+#include "core/hash.h"
+#include "io/cad_body.h"
+#include "io/compressed.h"
+#include "io/file_bytes.h"
 #include "io/soup_builder.h"
 #include "io/stl_format.h"
 #include "io/surface_reader.h"
 #include "io/text_scanner.h"
+#include "io/threemf_file.h"
 
 namespace kerf {
 
@@ -48,15 +56,25 @@ bool holds_claimed_facets(std::string_view bytes) {
                                       ". Export it again.");
 }
 
-void read_binary(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
-    builder.announce_facets(claimed_stl_facets(bytes));
-    if (!holds_claimed_facets(bytes)) refuse_size(bytes, path);
-    const std::size_t end = stl_header_size + stl_facet_size * claimed_stl_facets(bytes);
-    for (std::size_t at = stl_header_size; at < end; at += stl_facet_size) {
-        const char* corners = bytes.data() + at + 12;
-        builder.add_separate_facet(read_corner(corners), read_corner(corners + 12), read_corner(corners + 24));
+void add_facets(std::string_view bytes, SoupBuilder& builder) {
+    constexpr std::size_t most = 64;
+    std::vector<Vec3> corners;
+    for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), most * stl_facet_size))) {
+        corners.clear();
+        for (std::size_t f = 0; f < std::min(most, bytes.size() / stl_facet_size); ++f)
+            for (std::size_t i = 0; i < 3; ++i)
+                corners.push_back(read_corner(bytes.data() + f * stl_facet_size + 12 * (i + 1)));
+        builder.add_separate_facets(corners);
     }
-    builder.note_ignored(static_cast<std::int64_t>(bytes.size() - end), "byte behind the last facet",
+}
+
+void read_binary(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
+    const std::size_t count = claimed_stl_facets(bytes), size = stl_facet_size * count;
+    builder.announce_facets(static_cast<std::int64_t>(count));
+    if (!holds_claimed_facets(bytes)) refuse_size(bytes, path);
+    builder.reserve_separate_facets(count);
+    add_facets(bytes.substr(stl_header_size, size), builder);
+    builder.note_ignored(static_cast<std::int64_t>(bytes.size() - stl_header_size - size), "byte behind the last facet",
                          "bytes behind the last facet");
 }
 
@@ -67,12 +85,12 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
     return true;
 }
 
-[[noreturn]] void refuse(const TextScanner& scanner, const std::string& expected, std::string_view word) {
-    scanner.fail("\"" + expected + "\" is expected, not \"" + std::string(word.substr(0, 40)) +
+[[noreturn]] void refuse(const TextScanner& scanner, std::string_view expected, std::string_view word) {
+    scanner.fail("\"" + std::string(expected) + "\" is expected, not \"" + std::string(word.substr(0, 40)) +
                  "\". Correct the line or export the surface again.");
 }
 
-void expect(TextScanner& scanner, const std::string& keyword) {
+void expect(TextScanner& scanner, std::string_view keyword) {
     const std::string_view word = scanner.next_word();
     if (!is_keyword(word, keyword)) refuse(scanner, keyword, word);
 }
@@ -93,8 +111,9 @@ std::string_view read_facet(TextScanner& scanner, SoupBuilder& builder, std::int
     // Exporters write what they like as the normal of a sliver ("nan", "-1.#IND"): it is passed over as words.
     while (!is_keyword(scanner.next_word(), "outer")) continue;
     expect(scanner, "loop");
-    const Vec3 a = read_vertex(scanner), b = read_vertex(scanner), c = read_vertex(scanner);
-    builder.add_separate_facet(a, b, c);
+    std::array<Vec3, 3> corners;
+    for (Vec3& corner : corners) corner = read_vertex(scanner);
+    builder.add_separate_facets(corners);
     expect(scanner, "endloop");
     const std::string_view word = scanner.next_word();
     if (is_keyword(word, "facet") || is_keyword(word.substr(0, 8), "endsolid")) {
@@ -130,10 +149,30 @@ Soup read_stl(std::string_view bytes, const std::string& path) {
         read_ascii(without_padding(bytes), path, builder);
     else
         read_binary(bytes, path, builder);
-    Soup soup = builder.finish();
-    weld_exactly(soup);
-    soup.vertex_number.clear();  // the file numbers no vertices
-    return soup;
+    return builder.finish();
+}
+
+std::optional<HashedSoup> read_binary_stl_file(const std::string& path) {
+    constexpr std::size_t facets_at_once = 8192;
+    FileReader file(path);
+    std::string block(std::min(stl_header_size, file.size()), '\0');
+    file.read(block);
+    if (!is_binary_stl(block, file.size()) || is_archive(block) || is_zip(block) || block.starts_with(utf8_mark) ||
+        cad_format(block) != CadFormat::none)
+        return {};
+    const std::size_t count = claimed_stl_facets(block);
+    SoupBuilder builder(path);
+    builder.announce_facets(static_cast<std::int64_t>(count));
+    builder.reserve_separate_facets(count);
+    Hasher hasher;
+    hasher.add_bytes(block.data(), block.size());
+    for (std::size_t f = 0; f < count; f += facets_at_once) {
+        block.resize(std::min(facets_at_once, count - f) * stl_facet_size);
+        file.read(block);
+        hasher.add_bytes(block.data(), block.size());
+        add_facets(block, builder);
+    }
+    return HashedSoup{builder.finish(), hasher.digest(), true};
 }
 
 }  // namespace kerf

@@ -130,13 +130,16 @@ Reader recognise(std::string_view bytes, const std::string& path) {
 
 }  // namespace
 
-Soup read_surface(const std::string& path) { return read_surface_bytes(read_file(path), path); }
+Soup read_surface(const std::string& path) {
+    if (std::optional<HashedSoup> read = read_binary_stl_file(path)) return std::move(read->soup);
+    return read_surface_bytes(read_file(path), path);
+}
 
 Soup read_surface_bytes(std::string file, const std::string& path) {
     const std::string content = decompress(std::move(file), path);
     std::string_view bytes = content;
     if (bytes.empty()) throw Error(ErrorCode::input, path + ": the file is empty. Export the surface again.");
-    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // byte-order mark of UTF-8
+    if (bytes.starts_with(utf8_mark)) bytes.remove_prefix(utf8_mark.size());
     if (const CadFormat cad = cad_format(bytes); cad != CadFormat::none)
         throw Error(ErrorCode::input,
                     fmt::format("{}: this is a CAD file ({}), but only triangles can be read here. Use "

@@ -1,9 +1,11 @@
 // Surface files to triangle soups.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/hash.h"
 #include "surface/soup.h"
 
 namespace kerf {
@@ -38,6 +40,18 @@ Soup read_surface(const std::string& path);
 
 /// Reads the bytes of a file that is already in memory.
 Soup read_surface_bytes(std::string file, const std::string& path);
+
+/// What a file says, and the hash of its bytes.
+struct HashedSoup {
+    Soup soup;
+    FileHash hash = {};
+    bool is_welded = false;  ///< no two vertices are equal: weld_exactly() would find nothing
+};
+
+/// read_surface() of a binary STL that is not compressed, block by block: beside the soup, which takes 28 bytes a facet
+/// of a closed surface, 4 to 8 are needed a facet. Nothing for any other file, also for a binary STL whose size is not
+/// that of its facets. Throws as read_surface().
+std::optional<HashedSoup> read_binary_stl_file(const std::string& path);
 
 /// The formats by themselves, on the bytes of a file without compression; `path` serves messages, and tells TetGen's
 /// .poly from .smesh in doubt and where the .node file of one without nodes is.

@@ -1,5 +1,6 @@
 #include "prepare/cad_input.h"
 
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -77,8 +78,18 @@ CadAnswer ask_import_program(const std::string& path, const FileHash& file_hash,
     return answer;
 }
 
-Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions& options) {
-    const FileHash file_hash = digest_of(bytes);
+void refuse_cad_options(const std::string& path, const CadOptions& options) {
+    for (const auto& [name, is_given] :
+         {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
+          std::pair("no-imprint", options.no_imprint), std::pair("cad-deflection", options.deflection > 0)})
+        if (is_given)
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));
+    refuse_unit(path, options);
+}
+
+// `file_hash`: of the bytes.
+Soup read_unscaled(std::string bytes, const FileHash& file_hash, const std::string& path, const CadOptions& options) {
     std::string content = decompress(std::move(bytes), path);
     if (cad_format(content) != CadFormat::none) {
         CadBody body = read_cad(path, file_hash, options);
@@ -89,13 +100,7 @@ Soup read_unscaled(std::string bytes, const std::string& path, const CadOptions&
         constexpr double timeout_seconds = 600;
         return std::move(read_cad(path, file_hash, options, "", timeout_seconds, threemf_program).soup);
     }
-    for (const auto& [name, is_given] :
-         {std::pair("solid", options.solid > 0), std::pair("unite", options.unite),
-          std::pair("no-imprint", options.no_imprint), std::pair("cad-deflection", options.deflection > 0)})
-        if (is_given)
-            throw Error(ErrorCode::usage,
-                        fmt::format("{} is no CAD file, so that --{} has no meaning. Leave it out.", path, name));
-    refuse_unit(path, options);
+    refuse_cad_options(path, options);
     return read_surface_bytes(std::move(content), path);
 }
 
@@ -111,15 +116,19 @@ ProjectedPoints project_on_cad_file(const std::string& path, const FileHash& fil
     return ask_import_program(path, file_hash, options, program, timeout_seconds, cad_program, &points).projected;
 }
 
-Soup read_surface_or_cad(const std::string& path, const InputOptions& options) {
-    return read_surface_or_cad(read_file(path), path, options);
-}
-
-Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options) {
-    Soup soup = read_unscaled(std::move(bytes), path, options.cad);
-    scale(soup, options.scale);
-    name_walls(soup);
-    return soup;
+HashedSoup read_surface_or_cad(const std::string& path, const InputOptions& options) {
+    std::optional<HashedSoup> read = read_binary_stl_file(path);
+    if (read) {
+        refuse_cad_options(path, options.cad);
+    } else {
+        std::string bytes = read_file(path);
+        const FileHash hash = digest_of(bytes);
+        read = HashedSoup{read_unscaled(std::move(bytes), hash, path, options.cad), hash};
+    }
+    if (options.scale != 1) read->is_welded = false;  // products of different numbers may be equal
+    scale(read->soup, options.scale);
+    name_walls(read->soup);
+    return std::move(*read);
 }
 
 }  // namespace kerf

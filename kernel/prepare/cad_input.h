@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "io/surface_reader.h"
 #include "prepare/input.h"
 
 namespace kerf {
@@ -40,12 +41,10 @@ ProjectedPoints project_on_cad_file(const std::string& path, const FileHash& fil
                                     double timeout_seconds = 3600);
 
 /// read_surface() that knows CAD files and 3MF, too, obeys InputOptions::cad and multiplies all coordinates by
-/// InputOptions::scale. Where the file has regions, patches are named as name_walls() does.
-Soup read_surface_or_cad(const std::string& path, const InputOptions& options = {});
-
-/// Reads the bytes of the file at `path` in the same way. Throws Error(usage) for options of CAD files on another one,
-/// and for a unit that is asked of a file which has none; those of the unit and of one solid, which is a build item
-/// there, are for 3MF, too.
-Soup read_surface_or_cad(std::string bytes, const std::string& path, const InputOptions& options);
+/// InputOptions::scale; with the hash of the file, whose bytes are read and hashed once. Where the file has regions,
+/// patches are named as name_walls() does. Throws Error(usage) for options of CAD files on another one, and for a unit
+/// that is asked of a file which has none; those of the unit and of one solid, which is a build item there, are for
+/// 3MF, too.
+HashedSoup read_surface_or_cad(const std::string& path, const InputOptions& options = {});
 
 }  // namespace kerf

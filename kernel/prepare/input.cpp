@@ -264,7 +264,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     CheckedSoup checked{std::move(files.soup), {}, {}, 0, {}};
     Soup& soup = checked.soup;
     InputRepairs& repairs = checked.repairs;
-    repairs.welded_vertices = weld_exactly(soup);
+    if (!files.is_welded) repairs.welded_vertices = weld_exactly(soup);
     if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
     if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
     if (options.fill_hole_edges > 0 && soup.sides.empty()) {

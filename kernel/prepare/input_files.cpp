@@ -105,19 +105,19 @@ std::string walls_path(const std::string& path) { return path + ".regions.json";
 
 InputFiles read_input_files(const std::string& path, const InputOptions& options) {
     InputFiles files;
-    std::string bytes = read_file(path);
-    FileHash hash = digest_of(bytes);
-    Soup first = read_surface_or_cad(std::move(bytes), path, options);
+    HashedSoup first = read_surface_or_cad(path, options);
     if (options.more_files.empty()) {
-        files.soup = std::move(first);
-        files.hash = hash_text(hash);
-        read_walls_beside(path, hash, files);
+        files.soup = std::move(first.soup);
+        files.is_welded = first.is_welded;
+        files.hash = hash_text(first.hash);
+        read_walls_beside(path, first.hash, files);
         return files;
     }
     Hasher hasher;
     std::vector<FileHash> hashes;
     std::set<std::string> taken_names;
-    const auto add = [&](const std::string& file, const Soup& soup) {
+    const auto add = [&](const std::string& file, const HashedSoup& read) {
+        const auto& [soup, hash, is_welded] = read;
         if (std::filesystem::exists(walls_path(file)))
             throw Error(ErrorCode::input, fmt::format("{}: such a JSON is for a file alone, but here are several, a "
                                                       "region each. Mesh {} alone, or take the JSON away.",
@@ -137,11 +137,8 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
         files.file_of_patch.resize(files.soup.patch_names.size(), static_cast<std::int32_t>(files.names.size()) - 1);
     };
     add(path, first);
-    for (const std::string& file : options.more_files) {
-        bytes = read_file(file);
-        hash = digest_of(bytes);
-        add(file, read_surface_or_cad(std::move(bytes), file, options));
-    }
+    first = {};
+    for (const std::string& file : options.more_files) add(file, read_surface_or_cad(file, options));
     files.hash = hash_text(hasher.digest());
     return files;
 }

@@ -19,6 +19,7 @@ struct InputFiles {
     std::vector<std::string> names;           ///< of the files: their stems, all different; empty for one file
     std::string walls_file = {};              ///< the JSON beside one file, if it is there
     std::vector<NamedWall> walls = {};  ///< what the JSON beside one file says of its patches; empty: there is none
+    bool is_welded = false;             ///< no two vertices of `soup` are equal, as HashedSoup has it
 };
 
 /// The JSON that says which regions the patches of a file bound: its name with ".regions.json" behind it.

@@ -61,7 +61,7 @@ RepairedFile repair_file(const std::string& input, const InputOptions& options, 
     tell_progress(listener, "read", 0, 1);
     InputFiles files = read_input_files(input, options);
     Soup before = files.soup;
-    weld_exactly(before);
+    if (!files.is_welded) weld_exactly(before);
     const bool is_alone = options.more_files.empty() && files.walls.empty() && options.scale == 1;
     tell_progress(listener, "repair", 0, 0);
     RepairedFile repaired{input, output, check_files(std::move(files), options, 1, poll_of(listener)), {}, {}, {}, {},

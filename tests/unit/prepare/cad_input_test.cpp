@@ -136,7 +136,7 @@ TEST_F(CadInput, ThreemfHasAProgramOfItsOwn) {
     body.file_hash = digest_of(threemf);
     std::filesystem::rename(answering({0, "", body}), folder_.file("kerf-3mf"));
     setenv(programs_variable, folder_.file("").c_str(), 1);
-    EXPECT_EQ(read_surface_or_cad(folder_.file("part.3mf")).facets, body.soup.facets);
+    EXPECT_EQ(read_surface_or_cad(folder_.file("part.3mf")).soup.facets, body.soup.facets);
     unsetenv(programs_variable);
 }
 
@@ -160,19 +160,19 @@ TEST(CadOptionsText, HasNoMeaningForTriangles) {
     EXPECT_THROW(read_surface_or_cad(test::asset_path("cube"), options), Error);
     in_mm.cad.unit_is_asked = true;
     EXPECT_THROW(read_surface_or_cad(test::asset_path("cube"), in_mm), Error);
-    EXPECT_EQ(read_surface_or_cad(test::asset_path("cube")).facets.size(),
+    EXPECT_EQ(read_surface_or_cad(test::asset_path("cube")).soup.facets.size(),
               read_surface(test::asset_path("cube")).facets.size());
 }
 
-TEST(Scale, MultipliesVerticesAndHoles) {
+TEST_F(CadInput, OthersAreScaledWithTheirHoles) {
     const std::string path = test::asset_path("cube");
     InputOptions scaled;
     scaled.scale = 0.5;
-    const Soup whole = read_surface(path), half = read_surface_or_cad(path, scaled);
+    const Soup whole = read_surface(path), half = read_surface_or_cad(path, scaled).soup;
     ASSERT_EQ(half.vertices.size(), whole.vertices.size());
     for (std::size_t v = 0; v < whole.vertices.size(); ++v) EXPECT_EQ(2 * half.vertices[v], whole.vertices[v]);
-    const std::string poly = "3 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1\n1\n3 1 2 3\n1\n1 4 6 8\n";
-    EXPECT_EQ(read_surface_or_cad(poly, "a.poly", scaled).holes, std::vector<Vec3>{Vec3(2, 3, 4)});
+    const std::string poly = write("a.poly", "3 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1\n1\n3 1 2 3\n1\n1 4 6 8\n");
+    EXPECT_EQ(read_surface_or_cad(poly, scaled).soup.holes, std::vector<Vec3>{Vec3(2, 3, 4)});
 }
 
 TEST(ModelEdges, FollowTheirVertices) {
