@@ -201,14 +201,15 @@ bool FacetSizes::is_empty() const {
     return std::all_of(fields_.begin(), fields_.end(), [](const SizeField& field) { return field.is_empty(); });
 }
 
-bool has_facets_to_divide(const SurfaceArrays& surface, const FacetSizes& all) {
+bool has_facets_to_divide(const Complex& complex, const FacetSizes& all) {
     if (all.is_empty()) return false;
-    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+    for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
+        const Triangle t = complex.vertices(f);
         for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3 &a = surface.vertices[surface.facets[f][i]],
-                       &b = surface.vertices[surface.facets[f][(i + 1) % 3]];
-            if (pieces_of(lengths_along(a, b, all.of(f))) > 1) return true;
+            const Vec3 &a = complex.point(t[i]), &b = complex.point(t[(i + 1) % 3]);
+            if (pieces_of(lengths_along(a, b, all.of(static_cast<std::size_t>(f)))) > 1) return true;
         }
+    }
     return false;
 }
 

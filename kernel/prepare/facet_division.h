@@ -7,7 +7,7 @@
 
 #include "core/cancellation.h"
 #include "size/size_field.h"
-#include "surface/surface.h"
+#include "surface/complex.h"
 
 namespace kerf {
 
@@ -31,7 +31,7 @@ class FacetSizes {
 };
 
 /// Whether divide_facets() would divide any. Asks the field at O(#E) points, and fewer if the first edges say it.
-bool has_facets_to_divide(const SurfaceArrays& surface, const FacetSizes& wanted);
+bool has_facets_to_divide(const Complex& complex, const FacetSizes& wanted);
 
 /// Facets that divide_facets() makes, within a fifth or so. O(#F) queries of the field.
 double forecast_divided_facets(const SurfaceArrays& surface, const FacetSizes& wanted);

@@ -49,16 +49,16 @@ double smallest_angle(const SurfaceArrays& surface) {
 }
 
 // Lengths in space that the options ask for; the growth from the surface's own edges, which are to change, is not.
-SizeField wanted_lengths(const RunOptions& options, const SurfaceArrays& surface, const Input& input) {
+SizeField wanted_lengths(const RunOptions& options, const Input& input) {
     SizeOptions sizes = options.sizes;
     sizes.growth = 0;
-    return sizes.depends_on_place() ? read_size_field(sizes, surface, input.patch_names)
+    return sizes.depends_on_place() ? read_size_field(sizes, input.complex.arrays(), input.patch_names)
                                     : SizeField(sizes.constant_max_volume());
 }
 
 // The same on facets, of which those of a region may have a size of its own; of a wall the smaller one counts.
-FacetSizes wanted_on_facets(const RunOptions& options, const SurfaceArrays& surface, const Input& input) {
-    const SizeField all = wanted_lengths(options, surface, input);
+FacetSizes wanted_on_facets(const RunOptions& options, const Input& input) {
+    const SizeField all = wanted_lengths(options, input);
     const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (volumes.empty()) return all;
     const RegionSizes sizes(volumes);
@@ -105,10 +105,11 @@ struct BadFacets {
     bool spoil_cells() const { return slivers.spoil_cells() || are_too_wide(); }
 };
 
-BadFacets find_bad_facets(const Input& input, const SurfaceArrays& surface) {
-    if (input.complex.region_count() == 1) return {find_slivers(surface.vertices, surface.facets)};
+BadFacets find_bad_facets(const Input& input) {
+    const Slivers slivers = find_slivers(input.complex);
+    if (input.complex.region_count() == 1) return {slivers};
     const std::vector<char> is_thin = facets_on_thin_layers(label_facets(input.complex));
-    return {find_slivers(surface.vertices, surface.facets), std::count(is_thin.begin(), is_thin.end(), char{1})};
+    return {slivers, std::count(is_thin.begin(), is_thin.end(), char{1})};
 }
 
 // What the remesher is given.
@@ -145,7 +146,7 @@ void want_lengths_of_regions(const RunOptions& options, const SizeField& all, co
 RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
                        const RunOptions& options) {
     constexpr double share_of_gap = 0.1;  // a wrap is rough where it bridges
-    const SizeField wanted = wanted_lengths(options, surface, input);
+    const SizeField wanted = wanted_lengths(options, input);
     RemeshTask task = {label_facets(input.complex),
                        {.longest = longest_edge(options, input.diagonal), .creases = input.creases}};
     RemeshOptions& result = task.options;
@@ -239,7 +240,7 @@ Complex with_pieces(const Complex& before, DividedSurface divided) {
 }
 
 Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener) {
-    const FacetSizes wanted = wanted_on_facets(options, before, input);
+    const FacetSizes wanted = wanted_on_facets(options, input);
     check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal));
     DividedSurface result = divide_facets(before, wanted, CancellationCheck(step_counter(listener)));
 
@@ -265,11 +266,10 @@ Input remeshed_if_possible(Input input, const SurfaceArrays& before, const BadFa
     }
 }
 
-SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
-                        const RunOptions& options) {
+SurfaceChange change_of(const Input& input, const BadFacets& bad, const RunOptions& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
     if (options.remeshing == Remeshing::always || input.is_cad || bad.spoil_cells()) return SurfaceChange::remeshing;
-    if (options.sizes.cells > 0 || has_facets_to_divide(surface, wanted_on_facets(options, surface, input)))
+    if (options.sizes.cells > 0 || has_facets_to_divide(input.complex, wanted_on_facets(options, input)))
         return SurfaceChange::division;
     return SurfaceChange::none;
 }
@@ -277,8 +277,7 @@ SurfaceChange change_of(const Input& input, const SurfaceArrays& surface, const 
 }  // namespace
 
 SurfaceChange surface_change(const Input& input, const RunOptions& options) {
-    const SurfaceArrays surface = input.complex.arrays();
-    return change_of(input, surface, find_bad_facets(input, surface), options);
+    return change_of(input, find_bad_facets(input), options);
 }
 
 // Whoever wants a size gets it: a bound that is much smaller would ask for finer facets wherever the surface is curved.
@@ -300,15 +299,14 @@ double deviation_for(const Length& wanted, double diagonal) {
 }
 
 double forecast_changed_facets(const Input& input, const RunOptions& options) {
-    const SurfaceArrays surface = input.complex.arrays();
-    const BadFacets bad = find_bad_facets(input, surface);
-    switch (change_of(input, surface, bad, options)) {
+    const BadFacets bad = find_bad_facets(input);
+    switch (change_of(input, bad, options)) {
         case SurfaceChange::none:
             break;
         case SurfaceChange::division:
-            return forecast_divided_facets(surface, wanted_on_facets(options, surface, input));
+            return forecast_divided_facets(input.complex.arrays(), wanted_on_facets(options, input));
         case SurfaceChange::remeshing: {
-            const RemeshTask task = remesh_task(input, surface, bad, options);
+            const RemeshTask task = remesh_task(input, input.complex.arrays(), bad, options);
             return forecast_facets(task.facets.surface, task.options);
         }
     }
@@ -316,15 +314,15 @@ double forecast_changed_facets(const Input& input, const RunOptions& options) {
 }
 
 Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener) {
+    const BadFacets bad = find_bad_facets(input);
+    const SurfaceChange change = change_of(input, bad, options);
+    if (change != SurfaceChange::remeshing)
+        if (const std::string note = sliver_note(bad.slivers, input.path); !note.empty()) input.notes.push_back(note);
+    if (change == SurfaceChange::none) return input;
     const SurfaceArrays before = input.complex.arrays();
-    const BadFacets bad = find_bad_facets(input, before);
-    const SurfaceChange change = change_of(input, before, bad, options);
-    if (change == SurfaceChange::remeshing && input.wrapped)
-        return remeshed_if_possible(std::move(input), before, bad, options, listener);
-    if (change == SurfaceChange::remeshing) return remeshed(std::move(input), before, bad, options, listener);
-    const std::string note = sliver_note(bad.slivers, input.path);
-    if (!note.empty()) input.notes.push_back(note);
-    return change == SurfaceChange::division ? divided(std::move(input), before, options, listener) : std::move(input);
+    if (change == SurfaceChange::division) return divided(std::move(input), before, options, listener);
+    return input.wrapped ? remeshed_if_possible(std::move(input), before, bad, options, listener)
+                         : remeshed(std::move(input), before, bad, options, listener);
 }
 
 }  // namespace kerf

@@ -1,9 +1,11 @@
 #include "prepare/slivers.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
+#include "core/threads.h"
 #include "remesh/remesh.h"
 
 namespace kerf {
@@ -17,12 +19,29 @@ bool is_sliver(const std::vector<Vec3>& vertices, const Triangle& t) {
     return smallest_sine(vertices[t[0]], vertices[t[1]], vertices[t[2]]) < sine_of_10;
 }
 
+// On threads. `is_bad`: of the facet of a number.
+template <class IsBad>
+Slivers count_slivers(std::size_t facets, const IsBad& is_bad) {
+    constexpr std::size_t grain = std::size_t{1} << 16;
+    const std::vector<std::int64_t> counts = values_of_ranges(facets, grain, [&](const IndexRange& range) {
+        std::int64_t count = 0;
+        for (std::size_t f = range.first; f < range.last; ++f) count += is_bad(f);
+        return count;
+    });
+    return {std::accumulate(counts.begin(), counts.end(), std::int64_t{0}), static_cast<std::int64_t>(facets)};
+}
+
 }  // namespace
 
 Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
-    const auto count =
-        std::count_if(facets.begin(), facets.end(), [&](const Triangle& t) { return is_sliver(vertices, t); });
-    return {count, static_cast<std::int64_t>(facets.size())};
+    return count_slivers(facets.size(), [&](std::size_t f) { return is_sliver(vertices, facets[f]); });
+}
+
+Slivers find_slivers(const Complex& complex) {
+    return count_slivers(static_cast<std::size_t>(complex.facet_count()), [&](std::size_t f) {
+        const auto [a, b, c] = complex.vertices(static_cast<std::int32_t>(f));
+        return smallest_sine(complex.point(a), complex.point(b), complex.point(c)) < sine_of_10;
+    });
 }
 
 std::vector<char> facets_away_from_slivers(const SurfaceArrays& surface) {

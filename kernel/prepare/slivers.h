@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/surface.h"
+#include "surface/complex.h"
 
 namespace kerf {
 
@@ -21,6 +21,8 @@ struct Slivers {
     bool spoil_cells() const { return kerf::spoil_cells(count, facets); }
 };
 Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
+/// Those of all facets, without a copy of them.
+Slivers find_slivers(const Complex& complex);
 
 /// Which facets may stay where slivers are remeshed: those further than two rings of facets from any. Empty where that
 /// is less than half of them. O(#F).

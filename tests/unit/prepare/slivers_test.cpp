@@ -62,7 +62,9 @@ TEST(Slivers, FewAreRemeshedAloneAndManyWithAll) {
     for (const auto& [spacing, are_few] : {std::pair<std::size_t, bool>{400, true}, {150, true}, {5, false}}) {
         SCOPED_TRACE(spacing);
         const SurfaceArrays before = ball_with_needles(spacing);
-        ASSERT_TRUE(find_slivers(before.vertices, before.facets).spoil_cells());
+        const Slivers slivers = find_slivers(before.vertices, before.facets);
+        ASSERT_TRUE(slivers.spoil_cells());
+        EXPECT_EQ(find_slivers(input_of(before).complex).count, slivers.count);
         const std::vector<char> kept = facets_away_from_slivers(before);
         EXPECT_EQ(kept.empty(), !are_few);
         const Input result = remesh_where_asked(input_of(before), {});
