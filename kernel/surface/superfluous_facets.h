@@ -22,7 +22,10 @@ struct SuperfluousFacets {
     std::vector<std::vector<std::int32_t>> coincident_shells;
 };
 
-/// O(#F log #F); exact, as only numbers of vertices are compared.
+/// `partner`: edge_partners(facets). O(#F) on threads, and O(n log n) for the n facets that may be copies. Exact, as
+/// only numbers of vertices are compared.
+SuperfluousFacets find_superfluous_facets(const std::vector<Triangle>& facets,
+                                          const std::vector<std::int32_t>& partner);
 SuperfluousFacets find_superfluous_facets(const std::vector<Triangle>& facets);
 
 }  // namespace kerf
