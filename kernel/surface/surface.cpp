@@ -1,131 +1,18 @@
-// Half-edges from facets: those at one edge are partners (edge_corners.h), if they are two and opposite.
+// Half-edges from facets: those at one edge are partners, if they are two and opposite (manifold_defects.h).
 #include "surface/surface.h"
 
-#include <algorithm>
-#include <span>
+#include <numeric>
 #include <utility>
 
 #include "core/elements.h"
 #include "core/error.h"
+#include "core/threads.h"
 #include "surface/edge_corners.h"
+#include "surface/manifold_defects.h"
 
 namespace kerf {
 
 namespace {
-
-ManifoldDefect edge_defect(ManifoldDefect::Kind kind, std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
-    ManifoldDefect defect{kind, {low, corners[0].high}, {}};
-    for (const EdgeCorners::Corner& c : corners) defect.facets.push_back(c.corner / 3);
-    return defect;
-}
-
-enum class VertexCheck : char {
-    none,
-    fan,   // the facets around the vertex have to be one fan
-    open,  // an edge without partner ends here, which is a defect of its own; see is_pinched()
-};
-
-// Facets around a vertex that are joined over proper edges form one fan at a manifold vertex.
-void find_vertex_defects(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner,
-                         const std::vector<VertexCheck>& check, std::vector<ManifoldDefect>& defects) {
-    const std::size_t vertex_count = check.size();
-    std::vector<std::int32_t> degree(vertex_count, 0), fan_size(vertex_count, 0);
-    for (std::size_t c = 0; c < partner.size(); ++c) {
-        const std::int32_t v = facets[c / 3][c % 3];
-        if (check[v] != VertexCheck::fan || degree[v]++ > 0) continue;
-        auto turn = static_cast<std::int32_t>(c);
-        do {
-            ++fan_size[v];
-            turn = next_corner(partner[turn]);
-        } while (turn != static_cast<std::int32_t>(c));
-    }
-    std::vector<std::int32_t> slot(vertex_count, -1);
-    const std::size_t first_new = defects.size();
-    for (std::size_t v = 0; v < vertex_count; ++v)
-        if (fan_size[v] != degree[v]) {
-            slot[v] = static_cast<std::int32_t>(defects.size());
-            defects.push_back({ManifoldDefect::Kind::non_manifold_vertex, {static_cast<std::int32_t>(v)}, {}});
-        }
-    if (defects.size() == first_new) return;
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (std::int32_t v : facets[f])
-            if (slot[v] >= 0) defects[slot[v]].facets.push_back(static_cast<std::int32_t>(f));
-}
-
-// True if one of the fans at a vertex has neither gap nor defect towards the others: whatever closes or parts those,
-// the surface is pinched here. Fans with a gap may be parts of one fan with several gaps. `around`: the vertex's
-// facets.
-bool is_pinched(const std::vector<Triangle>& facets, std::int32_t vertex, std::span<const std::int32_t> around) {
-    std::vector<std::pair<std::int32_t, std::int32_t>> spokes;  // far end, place in `around`
-    for (std::size_t i = 0; i < around.size(); ++i)
-        for (std::int32_t v : facets[around[i]])
-            if (v != vertex) spokes.emplace_back(v, static_cast<std::int32_t>(i));
-    std::sort(spokes.begin(), spokes.end());
-    UnionFind fans(around.size());
-    std::vector<std::int32_t> at_gap;
-    for (std::size_t i = 0, j = 0; i < spokes.size(); i = j) {
-        while (j < spokes.size() && spokes[j].first == spokes[i].first) fans.join(spokes[j++].second, spokes[i].second);
-        if (j == i + 1) at_gap.push_back(spokes[i].second);
-    }
-    std::vector<char> has_gap(around.size(), 0);
-    for (const std::int32_t i : at_gap) has_gap[fans.root(i)] = 1;
-    std::size_t whole = 0;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(around.size()); ++i)
-        whole += fans.root(i) == i && !has_gap[i];
-    return whole + (at_gap.empty() ? 0 : 1) > 1;
-}
-
-void find_pinched_vertices(const std::vector<Triangle>& facets, const std::vector<VertexCheck>& check,
-                           std::vector<ManifoldDefect>& defects) {
-    std::vector<std::pair<std::int32_t, std::int32_t>> at;  // vertex, facet
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (std::int32_t v : facets[f])
-            if (check[v] == VertexCheck::open) at.emplace_back(v, static_cast<std::int32_t>(f));
-    std::sort(at.begin(), at.end());
-    for (std::size_t i = 0, j = 0; i < at.size(); i = j) {
-        std::vector<std::int32_t> around;
-        for (; j < at.size() && at[j].first == at[i].first; ++j) around.push_back(at[j].second);
-        if (is_pinched(facets, at[i].first, around))
-            defects.push_back({ManifoldDefect::Kind::non_manifold_vertex, {at[i].first}, std::move(around)});
-    }
-}
-
-struct Pairing {
-    std::vector<std::int32_t> partner;  // opposite corner per corner, -1 at a defect
-    std::vector<ManifoldDefect> defects;
-};
-
-// Pairs the corners that have no partner yet, and looks for defects at them.
-Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& facets, std::vector<std::int32_t> known) {
-    std::vector<VertexCheck> check(vertex_count, VertexCheck::none);
-    for (std::size_t c = 0; c < known.size(); ++c)
-        if (known[c] < 0) check[facets[c / 3][c % 3]] = check[facets[c / 3][(c + 1) % 3]] = VertexCheck::fan;
-    Pairing pairing{std::move(known), {}};
-    const auto note_defect = [&](ManifoldDefect::Kind kind, std::int32_t low,
-                                 std::span<const EdgeCorners::Corner> corners) {
-        pairing.defects.push_back(edge_defect(kind, low, corners));
-        check[low] = check[corners[0].high] = VertexCheck::open;
-    };
-    const EdgeCorners edges(facets, pairing.partner);
-    edges.for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
-        using Kind = ManifoldDefect::Kind;
-        if (corners.size() != 2) {
-            note_defect(corners.size() == 1 ? Kind::open_edge : Kind::non_manifold_edge, low, corners);
-        } else if (start_vertex(facets, corners[0].corner) == start_vertex(facets, corners[1].corner)) {
-            note_defect(Kind::edge_orientation, low, corners);
-        } else {
-            pairing.partner[corners[0].corner] = corners[1].corner;
-            pairing.partner[corners[1].corner] = corners[0].corner;
-        }
-    });
-    find_vertex_defects(facets, pairing.partner, check, pairing.defects);
-    if (!pairing.defects.empty()) find_pinched_vertices(facets, check, pairing.defects);
-    return pairing;
-}
-
-Pairing pair_corners(std::size_t vertex_count, const std::vector<Triangle>& facets) {
-    return pair_corners(vertex_count, facets, std::vector<std::int32_t>(3 * facets.size(), -1));
-}
 
 const char* name(ManifoldDefect::Kind kind) {
     constexpr std::array names = {"an open edge", "an edge with facets of opposite orientation", "a non-manifold edge",
@@ -133,33 +20,68 @@ const char* name(ManifoldDefect::Kind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
+// The numbers of the half-edges of corners: of two partners the first one has an even number, and these ascend.
+std::vector<std::int32_t> number_half_edges(std::vector<std::int32_t> partner) {
+    constexpr std::size_t grain = std::size_t{1} << 17;
+    const auto is_first = [&](std::size_t c) { return partner[c] > static_cast<std::int32_t>(c); };
+    std::vector<std::int32_t> edges = values_of_ranges(partner.size(), grain, [&](const IndexRange& range) {
+        std::int32_t count = 0;
+        for (std::size_t c = range.first; c < range.last; ++c) count += is_first(c);
+        return count;
+    });
+    std::exclusive_scan(edges.begin(), edges.end(), edges.begin(), 0);
+    std::vector<std::int32_t>& number = partner;  // a corner is not looked at again once its half-edge is numbered
+    for_ranges_on_threads(partner.size(), grain, [&](const IndexRange& range) {
+        std::int32_t edge = edges[range.first / grain];
+        for (std::size_t c = range.first; c < range.last; ++c)
+            if (is_first(c)) number[c] = ~(2 * edge++);  // below 0: is no partner
+    });
+    for_ranges_on_threads(partner.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t c = range.first; c < range.last; ++c)
+            if (partner[c] >= 0) number[c] = Surface::opposite(~number[partner[c]]);
+    });
+    for_ranges_on_threads(partner.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t c = range.first; c < range.last; ++c) number[c] = number[c] < 0 ? ~number[c] : number[c];
+    });
+    return partner;
+}
+
 // OpenMesh's own add_face searches for existing edges; with the partners known the connectivity is written directly.
 std::shared_ptr<const HalfEdgeMesh> build_half_edges(const std::vector<Vec3>& vertices,
                                                      const std::vector<Triangle>& facets,
                                                      std::vector<std::int32_t> partner) {
     using Mesh = HalfEdgeMesh;
+    constexpr std::size_t grain = std::size_t{1} << 16;
     const auto shared = std::make_shared<Mesh>();
     Mesh& mesh = *shared;
     mesh.resize(vertices.size(), partner.size() / 2, facets.size());
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-        mesh.set_point(Mesh::VertexHandle(static_cast<int>(v)), vertices[v]);
-    std::vector<std::int32_t>& half_edge = partner;  // a corner is not looked at again once its half-edge is numbered
-    std::int32_t edges = 0;
-    for (std::size_t c = 0; c < partner.size(); ++c)
-        half_edge[c] =
-            partner[c] < static_cast<std::int32_t>(c) ? Surface::opposite(half_edge[partner[c]]) : 2 * edges++;
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        const Mesh::FaceHandle facet(static_cast<int>(f));
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Mesh::HalfedgeHandle h(half_edge[3 * f + i]), next(half_edge[3 * f + (i + 1) % 3]);
-            mesh.set_face_handle(h, facet);
-            mesh.set_next_halfedge_handle(h, next);
-            mesh.set_vertex_handle(h, Mesh::VertexHandle(facets[f][(i + 1) % 3]));
-            mesh.set_halfedge_handle(Mesh::VertexHandle(facets[f][i]), h);
+    for_ranges_on_threads(vertices.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t v = range.first; v < range.last; ++v)
+            mesh.set_point(Mesh::VertexHandle(static_cast<int>(v)), vertices[v]);
+    });
+    const std::vector<std::int32_t> half_edge = number_half_edges(std::move(partner));
+    for_ranges_on_threads(facets.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t f = range.first; f < range.last; ++f) {
+            const Mesh::FaceHandle facet(static_cast<int>(f));
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Mesh::HalfedgeHandle h(half_edge[3 * f + i]), next(half_edge[3 * f + (i + 1) % 3]);
+                mesh.set_face_handle(h, facet);
+                mesh.set_next_halfedge_handle(h, next);
+                mesh.set_vertex_handle(h, Mesh::VertexHandle(facets[f][(i + 1) % 3]));
+            }
+            mesh.set_halfedge_handle(facet, Mesh::HalfedgeHandle(half_edge[3 * f]));
         }
-        mesh.set_halfedge_handle(facet, Mesh::HalfedgeHandle(half_edge[3 * f]));
-    }
+    });
+    for (std::size_t f = 0; f < facets.size(); ++f)  // facets share vertices: the last one of each counts
+        for (std::size_t i = 0; i < 3; ++i)
+            mesh.set_halfedge_handle(Mesh::VertexHandle(facets[f][i]), Mesh::HalfedgeHandle(half_edge[3 * f + i]));
     return shared;
+}
+
+ManifoldDefect first_defect(std::vector<ManifoldDefect>& defects, const std::vector<Vec3>& vertices) {
+    ManifoldDefect& first = defects.front();
+    first.where = vertices[first.vertices.front()];
+    return std::move(first);
 }
 
 // Whether the partners that are known are each other's, over the same edge in opposite directions.
@@ -183,14 +105,6 @@ bool is_well_formed(const SurfaceArrays& arrays) {
            have_distinct_corners(arrays.facets);
 }
 
-std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets) {
-    KERF_CHECK(are_in_range(facets, vertex_count) && have_distinct_corners(facets));
-    std::vector<ManifoldDefect> defects = pair_corners(vertex_count, facets).defects;
-    std::stable_sort(defects.begin(), defects.end(),
-                     [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
-    return defects;
-}
-
 Surface::Surface() : mesh_(std::make_shared<const HalfEdgeMesh>()) {}
 
 Surface::Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partner)
@@ -201,19 +115,17 @@ Surface::Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partn
       patch_(std::move(arrays.patch)) {}
 
 std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays arrays) {
-    std::vector<std::int32_t> none_known(3 * arrays.facets.size(), -1);
-    return build(std::move(arrays), std::move(none_known));
+    KERF_CHECK(is_well_formed(arrays));
+    CornerPairing pairing = pair_all_corners(arrays.vertices.size(), arrays.facets, edge_partners(arrays.facets));
+    if (!pairing.defects.empty()) return first_defect(pairing.defects, arrays.vertices);
+    return Surface(Paired(), std::move(arrays), std::move(pairing.partner));
 }
 
 std::variant<Surface, ManifoldDefect> Surface::build(SurfaceArrays arrays, std::vector<std::int32_t> partner) {
     KERF_CHECK(is_well_formed(arrays));
     KERF_CHECK(are_partners(arrays.facets, partner));
-    Pairing pairing = pair_corners(arrays.vertices.size(), arrays.facets, std::move(partner));
-    if (!pairing.defects.empty()) {
-        ManifoldDefect& first = pairing.defects.front();
-        first.where = arrays.vertices[first.vertices.front()];
-        return std::move(first);
-    }
+    CornerPairing pairing = pair_open_corners(arrays.vertices.size(), arrays.facets, std::move(partner));
+    if (!pairing.defects.empty()) return first_defect(pairing.defects, arrays.vertices);
     return Surface(Paired(), std::move(arrays), std::move(pairing.partner));
 }
 
