@@ -3,13 +3,16 @@
 #include "surface/mass_properties.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <Eigen/Geometry>
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "core/threads.h"
 #include "geometry/triangle.h"
 #include "surface/principal_axes.h"
 
@@ -92,9 +95,9 @@ bool is_outward(const std::vector<Vec3>& vertices, const std::vector<Triangle>& 
     return enclosed_volume(vertices, shell) > 0;
 }
 
-MassProperties mass_properties(const Surface& surface) {
-    MassProperties m;
-    if (surface.vertex_count() == 0) return m;
+namespace {
+
+void find_inertia(const Surface& surface, MassProperties& m) {
     const Vec3& base = surface.point(0);
     const double n = surface.vertex_count();
     Vec3 sum = Vec3::Zero();
@@ -107,22 +110,48 @@ MassProperties mass_properties(const Surface& surface) {
         moment += r * r.transpose();
     }
     m.inertia = moment.trace() * Eigen::Matrix3d::Identity() - moment;
-
-    VolumeSum volume;  // in the pass of the area: reaching the points costs more than all sums
-    VolumeErrorSum error;
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Triangle t = surface.vertices(f);
-        const Vec3 &a = surface.point(t[0]), &b = surface.point(t[1]), &c = surface.point(t[2]);
-        m.area += triangle_area(a, b, c);
-        volume.add(a - base, b - base, c - base);
-        error.add(a - base, b - base, c - base);
-    }
-    m.volume = volume.volume();
-    m.volume_error = error.error(m.volume);
-
     const PrincipalAxes principal = principal_axes(m.inertia);
     m.eigenvalues = principal.moments;
     m.axes = principal.axes;
+}
+
+// Calls add(a, b, c) for the corners of each facet.
+template <class Add>
+void for_each_facet(const Surface& surface, const Add& add) {
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        const Triangle t = surface.vertices(f);
+        add(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
+    }
+}
+
+}  // namespace
+
+// Each sum is added up in one order by one thread.
+MassProperties mass_properties(const Surface& surface) {
+    MassProperties m;
+    if (surface.vertex_count() == 0) return m;
+    const Vec3& base = surface.point(0);
+    VolumeErrorSum error;
+    const std::array<std::function<void()>, 2> sums = {
+        [&] {
+            for_each_facet(
+                surface, [&](const Vec3& a, const Vec3& b, const Vec3& c) { error.add(a - base, b - base, c - base); });
+        },
+        [&] {
+            VolumeSum volume;  // in the pass of the area: reaching the points costs more than all sums
+            for_each_facet(surface, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+                m.area += triangle_area(a, b, c);
+                volume.add(a - base, b - base, c - base);
+            });
+            m.volume = volume.volume();
+            find_inertia(surface, m);
+        }};
+    const bool is_large = surface.facet_count() > 10'000;  // a thread takes as long to start as some hundred facets
+    if (is_large)
+        for_each_on_threads(sums.size(), [&](std::size_t i) { sums[i](); });
+    else
+        for (const auto& sum : sums) sum();
+    m.volume_error = error.error(m.volume);
     return m;
 }
 
