@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -307,13 +308,16 @@ Complex make_complex(Soup soup) {
 }
 
 OrientationReport apply_repairs(CheckedSoup& checked) {
-    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    const Diagnosis diagnosis = std::exchange(checked.diagnosis, {});  // its numbers lose their meaning
+    const std::vector<char>& dropped = diagnosis.dropped;
     if (std::find(dropped.begin(), dropped.end(), char{1}) != dropped.end()) {
         drop_facets(checked.soup, dropped);
         checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
     }
-    checked.diagnosis = {};  // its numbers have lost their meaning
-    return checked.soup.sides.empty() ? orient(checked.soup) : OrientationReport();
+    if (!checked.soup.sides.empty()) return {};
+    if (!diagnosis.orientation) return orient(checked.soup);
+    turn_facets(checked.soup.facets, diagnosis.orientation->turned);
+    return diagnosis.orientation->report;
 }
 
 std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input) {

@@ -13,14 +13,16 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "core/threads.h"
 #include "geometry/angles.h"
 #include "geometry/box.h"
 #include "geometry/predicates.h"
+#include "surface/edge_corners.h"
 #include "surface/intersections.h"
+#include "surface/manifold_defects.h"
 #include "surface/open_loops.h"
-#include "surface/orientation.h"
+#include "surface/poor_shapes.h"
 #include "surface/superfluous_facets.h"
-#include "surface/surface.h"
 
 namespace kerf {
 
@@ -28,9 +30,9 @@ namespace {
 
 constexpr double largest_magnitude = 1e50;  // TetGen's predicates multiply five lengths
 constexpr double least_extent = 1e-50;
-constexpr double rounding_limit = 64;  // an edge of so many units in the last place of its coordinates is short
 constexpr std::size_t intersection_limit = 10'000;
 constexpr std::size_t warning_limit = 1000;
+constexpr std::size_t facets_at_once = std::size_t{1} << 15;
 
 class Examination {
  public:
@@ -45,13 +47,12 @@ class Examination {
     void find_superfluous();
     void find_degenerate();
     void select_facets();
-    void find_non_manifold(const ConsistentFacets& consistent);
-    void find_turned(const ConsistentFacets& consistent);
-    void find_shells(const ConsistentFacets& consistent);
+    void find_non_manifold(const std::vector<Triangle>& consistent, std::vector<std::int32_t> partner);
+    void find_turned(const FacetShells& shells);
+    void find_shells();
     void find_intersections();
-    void find_misplaced_shells();
-    void find_needles();
-    void find_short_edges();
+    void find_misplaced_shells(const std::vector<ShellPlace>& shells);
+    void find_poor_shapes();
 
     void add(Defect defect) {
         ++result_.counts[static_cast<std::size_t>(defect.kind)];
@@ -61,13 +62,17 @@ class Examination {
         const Triangle& t = soup_.facets[facets.front()];
         add({kind, severity, std::move(facets), {t.begin(), t.end()}, soup_.vertices[t[0]]});
     }
-    void add_worst(DefectKind kind, std::vector<Defect> found);
+    template <class ToDefect>
+    void add_worst(DefectKind kind, std::vector<PoorShape>&& found, const ToDefect& to_defect);
     void drop(std::int32_t facet) {
         result_.dropped.resize(soup_.facets.size(), 0);
         result_.dropped[facet] = ignored_[facet] = 1;
     }
+    // The facets that are left, and their numbers in the soup.
+    const std::vector<Triangle>& facets() const { return all_are_left_ ? soup_.facets : facets_; }
+    std::int32_t number(std::int32_t facet) const { return all_are_left_ ? facet : number_[facet]; }
     void number_as_in_soup(std::vector<std::int32_t>& facets) const {
-        for (std::int32_t& f : facets) f = number_[f];
+        for (std::int32_t& f : facets) f = number(f);
     }
 
     const Soup& soup_;
@@ -76,10 +81,10 @@ class Examination {
     std::vector<char> unbounded_;  // #V; coordinates that no predicate can work with
     std::vector<char> ignored_;    // #F; left out of the checks to come
     std::vector<char> no_area_;    // #F
-    // What is left of the facets, and their numbers in the soup.
+    bool all_are_left_ = true;     // no facet is ignored; else those that are left:
     std::vector<Triangle> facets_;
-    std::vector<std::int32_t> number_;
-    std::vector<ShellPlace> shells_;  // known where the surface is otherwise a closed manifold
+    std::vector<std::int32_t> number_;   // in the soup
+    std::vector<std::int32_t> partner_;  // of facets(), until their shells are known
 };
 
 void Examination::find_non_finite() {
@@ -140,7 +145,8 @@ void Examination::find_flat() {
 }
 
 void Examination::find_superfluous() {
-    const SuperfluousFacets found = find_superfluous_facets(soup_.facets);
+    partner_ = edge_partners(soup_.facets);
+    const SuperfluousFacets found = find_superfluous_facets(soup_.facets, partner_);
     for (const std::int32_t f : found.repeated_vertex) {
         add_at_facet(DefectKind::degenerate_facet, Severity::repaired, {f});
         drop(f);
@@ -161,29 +167,39 @@ void Examination::find_superfluous() {
 }
 
 void Examination::find_degenerate() {
-    for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
-        const Triangle& t = soup_.facets[f];
-        if (unbounded_[t[0]] || unbounded_[t[1]] || unbounded_[t[2]]) {
-            no_area_[f] = 1;
-        } else if (!ignored_[f] && are_collinear(soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]])) {
-            no_area_[f] = 1;
-            add_at_facet(DefectKind::degenerate_facet, Severity::error, {static_cast<std::int32_t>(f)});
+    const auto ranges = values_of_ranges(soup_.facets.size(), facets_at_once, [&](const IndexRange& range) {
+        std::vector<std::int32_t> flat;
+        for (std::size_t f = range.first; f < range.last; ++f) {
+            const auto& [a, b, c] = soup_.facets[f];
+            if (unbounded_[a] || unbounded_[b] || unbounded_[c]) {
+                no_area_[f] = 1;
+            } else if (!ignored_[f] && are_collinear(soup_.vertices[a], soup_.vertices[b], soup_.vertices[c])) {
+                no_area_[f] = 1;
+                flat.push_back(static_cast<std::int32_t>(f));
+            }
         }
-    }
+        return flat;
+    });
+    for (const std::vector<std::int32_t>& flat : ranges)
+        for (const std::int32_t f : flat) add_at_facet(DefectKind::degenerate_facet, Severity::error, {f});
 }
 
 void Examination::select_facets() {
+    all_are_left_ = std::find(ignored_.begin(), ignored_.end(), char{1}) == ignored_.end();
+    if (!all_are_left_ || !soup_.sides.empty()) partner_ = {};
+    if (all_are_left_) return;
     for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
         if (ignored_[f]) continue;
         facets_.push_back(soup_.facets[f]);
         number_.push_back(static_cast<std::int32_t>(f));
     }
+    if (soup_.sides.empty()) partner_ = edge_partners(facets_);
 }
 
-void Examination::find_non_manifold(const ConsistentFacets& consistent) {
+void Examination::find_non_manifold(const std::vector<Triangle>& consistent, std::vector<std::int32_t> partner) {
     using Kind = ManifoldDefect::Kind;
     bool open = false;
-    for (ManifoldDefect& found : find_manifold_defects(soup_.vertices.size(), consistent.facets)) {
+    for (ManifoldDefect& found : find_manifold_defects(soup_.vertices.size(), consistent, std::move(partner))) {
         open |= found.kind == Kind::open_edge;
         if (found.kind == Kind::edge_orientation || found.kind == Kind::open_edge) continue;
         const bool at_edge = found.kind == Kind::non_manifold_edge;
@@ -193,7 +209,7 @@ void Examination::find_non_manifold(const ConsistentFacets& consistent) {
              std::move(found.facets), std::move(found.vertices), where});
     }
     if (!open) return;
-    for (OpenLoop& loop : find_open_loops(soup_.vertices, consistent.facets)) {
+    for (OpenLoop& loop : find_open_loops(soup_.vertices, consistent)) {
         number_as_in_soup(loop.facets);
         const Vec3 where = soup_.vertices[loop.vertices.front()];
         add({DefectKind::open_edge, Severity::error, std::move(loop.facets), std::move(loop.vertices), where,
@@ -201,27 +217,24 @@ void Examination::find_non_manifold(const ConsistentFacets& consistent) {
     }
 }
 
-void Examination::find_turned(const ConsistentFacets& consistent) {
-    for (const std::int32_t f : consistent.contradictions)
-        add_at_facet(DefectKind::one_sided, Severity::error, {number_[f]});
-    if (!consistent.contradictions.empty() || consistent.turned.empty()) return;
-    std::vector<std::int32_t> turned = consistent.turned;
+void Examination::find_turned(const FacetShells& shells) {
+    for (const std::int32_t f : shells.contradictions)
+        add_at_facet(DefectKind::one_sided, Severity::error, {number(f)});
+    if (!shells.contradictions.empty() || shells.turned.empty()) return;
+    std::vector<std::int32_t> turned = shells.turned;
     number_as_in_soup(turned);
-    add({DefectKind::inconsistent_orientation,
-         Severity::repaired,
-         std::move(turned),
-         {},
-         soup_.vertices[facets_[consistent.turned.front()][0]]});
+    const Vec3 where = soup_.vertices[facets()[shells.turned.front()][0]];
+    add({DefectKind::inconsistent_orientation, Severity::repaired, std::move(turned), {}, where});
 }
 
-void Examination::find_misplaced_shells() {
-    for (const ShellPlace& shell : shells_) {
-        const std::vector<std::int32_t> facet = {number_[shell.first_facet]};
+void Examination::find_misplaced_shells(const std::vector<ShellPlace>& shells) {
+    for (const ShellPlace& shell : shells) {
+        const std::vector<std::int32_t> facet = {number(shell.first_facet)};
         if (shell.touches >= 0)
             add_at_facet(DefectKind::touching_shells, Severity::error, facet);
         else if (shell.parent < 0 && !shell.outward)
             add_at_facet(DefectKind::inverted_shell, Severity::repaired, facet);
-        else if (shell.ambiguous(shells_))
+        else if (shell.ambiguous(shells))
             add_at_facet(DefectKind::ambiguous_shell,
                          options_.voids == Voids::parity ? Severity::repaired : Severity::error, facet);
     }
@@ -233,88 +246,87 @@ Vec3 common_place(const Soup& soup, const Triangle& s, const Triangle& t) {
 }
 
 // Those around each shell are asked first: where they tell that all is apart, most pairs need not be looked at.
-bool are_apart(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
-               const std::vector<ShellPlace>& shells) {
+bool are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& consistent,
+               const std::vector<std::int32_t>& shell_of_facet, const std::vector<ShellPlace>& shells) {
     std::vector<std::int32_t> parent;
     for (const ShellPlace& shell : shells) {
         if (shell.touches >= 0) return false;
         parent.push_back(shell.parent);
     }
-    return nested_shells_are_apart(vertices, consistent.facets, consistent.shell, parent);
+    return nested_shells_are_apart(vertices, consistent, shell_of_facet, parent);
 }
 
 // What one body is bounded by: its shells and how they lie.
-void Examination::find_shells(const ConsistentFacets& consistent) {
-    find_non_manifold(consistent);
-    find_turned(consistent);
-    bool apart = false;
-    if (result_.clean()) {
-        shells_ = locate_shells(soup_.vertices, consistent, soup_.holes);
-        apart = are_apart(soup_.vertices, consistent, shells_);
+void Examination::find_shells() {
+    const FacetShells shells = find_facet_shells(facets(), partner_);
+    std::vector<Triangle> turned;  // a copy only where facets differ
+    if (!shells.turned.empty()) {
+        turned = facets();
+        turn_facets(turned, shells.turned);
+        partner_ = edge_partners(turned);  // corners have changed places
     }
-    if (!apart) find_intersections();
-    if (result_.clean()) find_misplaced_shells();
+    const std::vector<Triangle>& consistent = shells.turned.empty() ? facets() : turned;
+    find_non_manifold(consistent, std::exchange(partner_, {}));
+    find_turned(shells);
+    if (!result_.clean()) return find_intersections();
+    const std::vector<ShellPlace> places = locate_shells(soup_.vertices, consistent, shells, soup_.holes);
+    if (!are_apart(soup_.vertices, consistent, shells.shell, places)) find_intersections();
+    if (!result_.clean()) return;
+    find_misplaced_shells(places);
+    if (result_.clean() && all_are_left_) result_.orientation = find_orientation(shells, places);
 }
 
 void Examination::find_intersections() {
     std::vector<Triangle> solid;
-    std::vector<std::int32_t> number;
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
-        if (no_area_[number_[i]]) continue;
-        solid.push_back(facets_[i]);
-        number.push_back(number_[i]);
+    std::vector<std::int32_t> number_of_solid;
+    const bool all_are_solid = std::find(no_area_.begin(), no_area_.end(), char{1}) == no_area_.end();
+    for (std::int32_t i = 0; !all_are_solid && i < static_cast<std::int32_t>(facets().size()); ++i) {
+        if (no_area_[number(i)]) continue;
+        solid.push_back(facets()[i]);
+        number_of_solid.push_back(number(i));
     }
-    for (const auto& [f, g] : find_self_intersections(soup_.vertices, solid, intersection_limit)) {
-        const Triangle &s = solid[f], &t = solid[g];
+    const std::vector<Triangle>& searched = all_are_solid ? facets() : solid;
+    for (const auto& [f, g] : find_self_intersections(soup_.vertices, searched, intersection_limit)) {
+        const Triangle &s = searched[f], &t = searched[g];
         add({DefectKind::self_intersection,
              Severity::error,
-             {number[f], number[g]},
+             all_are_solid ? std::vector{number(f), number(g)} : std::vector{number_of_solid[f], number_of_solid[g]},
              {s[0], s[1], s[2], t[0], t[1], t[2]},
              common_place(soup_, s, t)});
     }
 }
 
-void Examination::add_worst(DefectKind kind, std::vector<Defect> found) {
-    const auto count = static_cast<std::int64_t>(found.size());
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Defect& a, const Defect& b) { return a.measure < b.measure; });
+template <class ToDefect>
+void Examination::add_worst(DefectKind kind, std::vector<PoorShape>&& found, const ToDefect& to_defect) {
+    result_.counts[static_cast<std::size_t>(kind)] = static_cast<std::int64_t>(found.size());
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.measure < b.measure; });
     if (found.size() > warning_limit) found.resize(warning_limit);
-    for (Defect& defect : found) result_.defects.push_back(std::move(defect));
-    result_.counts[static_cast<std::size_t>(kind)] = count;
+    for (const PoorShape& shape : found) {
+        Defect defect{kind, Severity::warning, {number(shape.facet)}, to_defect(facets()[shape.facet], shape)};
+        defect.where = soup_.vertices[defect.vertices.front()];
+        defect.measure = shape.measure;
+        result_.defects.push_back(std::move(defect));
+    }
 }
 
-void Examination::find_needles() {
-    std::vector<Defect> found;
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
-        if (no_area_[number_[i]]) continue;
-        const Triangle& t = facets_[i];
-        const double angle = smallest_angle_degrees({soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]});
-        if (angle < options_.needle_angle_deg)
-            found.push_back({DefectKind::needle,
-                             Severity::warning,
-                             {number_[i]},
-                             {t.begin(), t.end()},
-                             soup_.vertices[t[0]],
-                             angle});
+void Examination::find_poor_shapes() {
+    const PoorShapeSearch search(soup_.vertices, facets(), options_.needle_angle_deg);
+    const auto ranges = values_of_ranges(facets().size(), facets_at_once, [&](const IndexRange& range) {
+        PoorShapes found;
+        for (auto i = static_cast<std::int32_t>(range.first); i < static_cast<std::int32_t>(range.last); ++i)
+            if (!no_area_[number(i)]) search.look_at(i, found);
+        return found;
+    });
+    PoorShapes all;
+    for (const PoorShapes& found : ranges) {
+        all.needles.insert(all.needles.end(), found.needles.begin(), found.needles.end());
+        all.short_edges.insert(all.short_edges.end(), found.short_edges.begin(), found.short_edges.end());
     }
-    add_worst(DefectKind::needle, std::move(found));
-}
-
-void Examination::find_short_edges() {
-    std::vector<Defect> found;
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
-        if (no_area_[number_[i]]) continue;
-        for (std::size_t j = 0; j < 3; ++j) {
-            const std::int32_t a = facets_[i][j], b = facets_[i][(j + 1) % 3];
-            if (a > b) continue;  // the facet on the other side has it
-            const Vec3 &p = soup_.vertices[a], &q = soup_.vertices[b];
-            const double magnitude = std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
-            const double length = (q - p).norm();
-            if (length < rounding_limit * std::numeric_limits<double>::epsilon() * magnitude)
-                found.push_back({DefectKind::short_edge, Severity::warning, {number_[i]}, {a, b}, p, length});
-        }
-    }
-    add_worst(DefectKind::short_edge, std::move(found));
+    add_worst(DefectKind::needle, std::move(all.needles),
+              [](const Triangle& t, const PoorShape&) { return std::vector(t.begin(), t.end()); });
+    add_worst(DefectKind::short_edge, std::move(all.short_edges), [](const Triangle& t, const PoorShape& shape) {
+        return std::vector{t[shape.edge], t[(shape.edge + 1) % 3]};
+    });
 }
 
 Diagnosis Examination::run() {
@@ -333,11 +345,10 @@ Diagnosis Examination::run() {
     find_degenerate();
     select_facets();
     if (soup_.sides.empty())
-        find_shells(make_consistent(facets_));
+        find_shells();
     else
         find_intersections();
-    find_needles();
-    find_short_edges();
+    find_poor_shapes();
     sort_defects(result_.defects);
     return std::move(result_);
 }

@@ -1,4 +1,5 @@
-// A search over the edges of two facets turns facets until neighbours agree.
+// Where all neighbours agree, as they do in most files, shells are found by union-find; else a search over the edges of
+// two facets turns facets until they do.
 //
 // Nesting by parity: shells do not meet, so one vertex of a shell tells whether the whole shell lies within another
 // one. Of those around a shell each lies within the next, so that they have the order of their boxes: the innermost is
@@ -14,6 +15,8 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "core/error.h"
+#include "core/threads.h"
+#include "geometry/union_find.h"
 #include "surface/edge_corners.h"
 #include "surface/mass_properties.h"
 #include "surface/ray_parity.h"
@@ -27,13 +30,12 @@ void turn(Triangle& facet) { std::swap(facet[1], facet[2]); }
 // Breadth-first search over one shell at a time, relative to the orientation of its first facet.
 class Propagation {
  public:
-    explicit Propagation(const std::vector<Triangle>& facets)
-        : facets_(facets), partner_(edge_partners(facets)), turned_(facets.size(), 0) {
-        result_.facets = facets;
+    Propagation(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner)
+        : facets_(facets), partner_(partner), turned_(facets.size(), 0) {
         result_.shell.assign(facets.size(), -1);
     }
 
-    ConsistentFacets run() {
+    FacetShells run() {
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (result_.shell[f] < 0) {
                 search(static_cast<std::int32_t>(f));
@@ -70,20 +72,50 @@ class Propagation {
         const auto count = std::count_if(members_.begin(), members_.end(), [&](std::int32_t f) { return turned_[f]; });
         const auto size = static_cast<std::ptrdiff_t>(members_.size());
         const char minority = 2 * count <= size;
-        for (std::int32_t f : members_) {
-            if (turned_[f] != minority) continue;
-            turn(result_.facets[f]);
-            result_.turned.push_back(f);
-        }
+        for (std::int32_t f : members_)
+            if (turned_[f] == minority) result_.turned.push_back(f);
     }
 
     const std::vector<Triangle>& facets_;
-    std::vector<std::int32_t> partner_;
+    const std::vector<std::int32_t>& partner_;
     std::vector<char> turned_;  // relative to the first facet of the shell
     std::vector<std::int32_t> members_;
     std::int32_t contradiction_ = -1;  // of the shell that is searched
-    ConsistentFacets result_;
+    FacetShells result_;
 };
+
+// What the neighbours of a range of facets have shown.
+struct RangeOfShells {
+    bool agree = true;
+    std::vector<std::int32_t> crossing;  // corners whose partners lie in an earlier range
+};
+
+// Shells of facets that all agree; nothing where some do not.
+std::optional<FacetShells> shells_that_agree(const std::vector<Triangle>& facets,
+                                             const std::vector<std::int32_t>& partner) {
+    constexpr std::size_t grain = std::size_t{1} << 16;
+    UnionFind sets(facets.size());
+    const auto ranges = values_of_ranges(facets.size(), grain, [&](const IndexRange& range) {
+        RangeOfShells found;
+        const auto first = static_cast<std::int32_t>(3 * range.first), last = static_cast<std::int32_t>(3 * range.last);
+        for (std::int32_t c = first; c < last; ++c) {
+            const std::int32_t other = partner[c];
+            if (other < 0 || other > c) continue;
+            found.agree &= start_vertex(facets, c) != start_vertex(facets, other);
+            if (other >= first)
+                sets.join(c / 3, other / 3);  // of one range, as all that these two are joined to by now
+            else
+                found.crossing.push_back(c);
+        }
+        return found;
+    });
+    for (const RangeOfShells& range : ranges) {
+        if (!range.agree) return std::nullopt;
+        for (const std::int32_t c : range.crossing) sets.join(c / 3, partner[c] / 3);
+    }
+    Components components = sets.take();
+    return FacetShells{std::move(components.of), components.count, {}, {}};
+}
 
 // A vertex of a shell decides whether it lies in one whose box contains its own, unless it lies on that; then another
 // one does.
@@ -95,24 +127,34 @@ std::optional<bool> is_inner(const std::vector<Vec3>& vertices, const Shell& inn
     return std::nullopt;
 }
 
-// Sets depth and parent, or contact, of shell i, once those of the shells with larger boxes are known. `rank`: of the
-// shells, the smallest boxes last.
-void place_among(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, const BoxTree& boxes,
-                 const std::vector<std::int32_t>& rank, std::int32_t i, std::vector<ShellPlace>& places) {
-    std::vector<std::int32_t> candidates = boxes.around(shells[i].box);
-    std::erase(candidates, i);
-    std::sort(candidates.begin(), candidates.end(), [&](std::int32_t j, std::int32_t k) { return rank[j] > rank[k]; });
+// Sets parent, or contact, of a shell. `candidates`: the shells whose boxes are around its own, the smallest first.
+void place_among(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells,
+                 const std::vector<std::int32_t>& candidates, const Shell& shell, ShellPlace& place) {
     for (const std::int32_t j : candidates) {
-        const std::optional<bool> inner = is_inner(vertices, shells[i], shells[j]);
+        const std::optional<bool> inner = is_inner(vertices, shell, shells[j]);
         if (inner == false) continue;
-        if (inner) {
-            places[i].parent = j;
-            places[i].depth = places[j].depth + 1;
-        } else {
-            places[i].touches = j;
-        }
+        (inner ? place.parent : place.touches) = j;
         return;
     }
+}
+
+// Sets parent, or contact, and direction of all. `order`: of the shells, the smallest boxes last.
+void find_parents(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells,
+                  const std::vector<std::int32_t>& order, std::vector<ShellPlace>& places) {
+    constexpr std::size_t grain = 64;
+    std::vector<std::int32_t> rank(shells.size());
+    for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<std::int32_t>(k);
+    const BoxTree boxes = boxes_of(shells);
+    for_ranges_on_threads(shells.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t i = range.first; i < range.last; ++i) {
+            std::vector<std::int32_t> candidates = boxes.around(shells[i].box);
+            std::erase(candidates, static_cast<std::int32_t>(i));
+            std::sort(candidates.begin(), candidates.end(),
+                      [&](std::int32_t j, std::int32_t k) { return rank[j] > rank[k]; });
+            place_among(vertices, shells, candidates, shells[i], places[i]);
+            places[i].outward = is_outward(vertices, shells[i].facets);
+        }
+    });
 }
 
 void mark_shell_around(const std::vector<Vec3>& vertices, const std::vector<Shell>& shells, const Vec3& hole,
@@ -125,8 +167,7 @@ void mark_shell_around(const std::vector<Vec3>& vertices, const std::vector<Shel
     if (innermost) innermost->has_hole = true;
 }
 
-bool is_closed(const std::vector<Triangle>& facets) {
-    const std::vector<std::int32_t> partner = edge_partners(facets);
+bool is_closed(const std::vector<std::int32_t>& partner) {
     return std::find(partner.begin(), partner.end(), -1) == partner.end();
 }
 
@@ -141,55 +182,80 @@ bool is_closed(const std::vector<Triangle>& facets) {
 
 }  // namespace
 
-ConsistentFacets make_consistent(const std::vector<Triangle>& facets) {
-    KERF_CHECK(have_distinct_corners(facets));
-    return Propagation(facets).run();
+FacetShells find_facet_shells(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner) {
+    KERF_CHECK(have_distinct_corners(facets) && partner.size() == 3 * facets.size());
+    if (std::optional<FacetShells> shells = shells_that_agree(facets, partner)) return std::move(*shells);
+    return Propagation(facets, partner).run();
 }
 
-std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
-                                      const std::vector<Vec3>& holes) {
-    const std::vector<Shell> shells =
-        collect_shells(vertices, consistent.facets, consistent.shell, consistent.shell_count);
+ConsistentFacets make_consistent(const std::vector<Triangle>& facets) {
+    ConsistentFacets consistent{find_facet_shells(facets, edge_partners(facets)), facets};
+    turn_facets(consistent.facets, consistent.turned);
+    return consistent;
+}
+
+std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                      const FacetShells& of_facets, const std::vector<Vec3>& holes) {
+    const std::vector<Shell> shells = collect_shells(vertices, facets, of_facets.shell, of_facets.shell_count);
     std::vector<ShellPlace> places(shells.size());
-    for (std::size_t f = consistent.shell.size(); f-- > 0;)
-        places[consistent.shell[f]].first_facet = static_cast<std::int32_t>(f);
-    const BoxTree boxes = boxes_of(shells);
+    for (std::size_t f = facets.size(); f-- > 0;) places[of_facets.shell[f]].first_facet = static_cast<std::int32_t>(f);
     const std::vector<std::int32_t> order = by_falling_boxes(shells);
-    std::vector<std::int32_t> rank(shells.size());
-    for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<std::int32_t>(k);
-    for (const std::int32_t i : order) {
-        place_among(vertices, shells, boxes, rank, i, places);
-        places[i].outward = is_outward(vertices, shells[i].facets);
-    }
+    find_parents(vertices, shells, order, places);
+    for (const std::int32_t i : order)
+        if (places[i].parent >= 0) places[i].depth = places[places[i].parent].depth + 1;
     for (const Vec3& hole : holes) mark_shell_around(vertices, shells, hole, places);
     return places;
 }
 
+Orientation find_orientation(const FacetShells& shells, const std::vector<ShellPlace>& places) {
+    KERF_CHECK(shells.contradictions.empty() && places.size() == static_cast<std::size_t>(shells.shell_count));
+    Orientation orientation;
+    orientation.report.facets_flipped = static_cast<std::int64_t>(shells.turned.size());
+    orientation.report.shells = shells.shell_count;
+    std::vector<char> flip;
+    for (const ShellPlace& place : places) {
+        const bool is_void = place.depth % 2;
+        flip.push_back(place.outward == is_void);
+        orientation.report.shells_flipped += flip.back();
+    }
+    if (orientation.report.shells_flipped == 0) {
+        orientation.turned = shells.turned;
+        return orientation;
+    }
+    auto next = shells.turned.begin();
+    for (std::size_t f = 0; f < shells.shell.size(); ++f) {
+        const bool is_turned = next != shells.turned.end() && *next == static_cast<std::int32_t>(f);
+        next += is_turned;
+        if (is_turned != static_cast<bool>(flip[shells.shell[f]]))
+            orientation.turned.push_back(static_cast<std::int32_t>(f));
+    }
+    return orientation;
+}
+
+void turn_facets(std::vector<Triangle>& facets, const std::vector<std::int32_t>& turned) {
+    for (const std::int32_t f : turned) turn(facets[f]);
+}
+
 OrientationReport orient(Soup& soup) {
     KERF_CHECK(are_in_range(soup.facets, soup.vertices.size()));
-    KERF_CHECK(is_closed(soup.facets));
-    ConsistentFacets consistent = make_consistent(soup.facets);
-    if (!consistent.contradictions.empty())
-        refuse(soup, consistent.contradictions[0],
-               "is one-sided like a Moebius strip. It bounds no body: model it again.");
-    OrientationReport report;
-    report.facets_flipped = static_cast<std::int64_t>(consistent.turned.size());
-    report.shells = consistent.shell_count;
-    std::vector<char> flip;
-    for (const ShellPlace& shell : locate_shells(soup.vertices, consistent)) {
-        if (shell.touches >= 0)
+    std::vector<std::int32_t> partner = edge_partners(soup.facets);
+    KERF_CHECK(is_closed(partner));
+    const FacetShells shells = find_facet_shells(soup.facets, partner);
+    partner = {};
+    if (!shells.contradictions.empty())
+        refuse(soup, shells.contradictions[0], "is one-sided like a Moebius strip. It bounds no body: model it again.");
+    turn_facets(soup.facets, shells.turned);
+    const std::vector<ShellPlace> places = locate_shells(soup.vertices, soup.facets, shells);
+    for (const ShellPlace& place : places)
+        if (place.touches >= 0)
             refuse(
-                soup, shell.first_facet,
+                soup, place.first_facet,
                 "touches another one, so that inside and outside cannot be told apart. Unite the bodies or move them "
                 "apart.");
-        const bool is_void = shell.depth % 2;
-        flip.push_back(shell.outward == is_void);
-        report.shells_flipped += flip.back();
-    }
-    soup.facets = std::move(consistent.facets);
-    for (std::size_t f = 0; f < soup.facets.size(); ++f)
-        if (flip[consistent.shell[f]]) turn(soup.facets[f]);
-    return report;
+    Orientation orientation = find_orientation(shells, places);
+    turn_facets(soup.facets, shells.turned);  // back again
+    turn_facets(soup.facets, orientation.turned);
+    return orientation.report;
 }
 
 }  // namespace kerf

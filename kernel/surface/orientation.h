@@ -5,17 +5,26 @@
 
 namespace kerf {
 
-/// Facets made to agree with their neighbours over edges of exactly two facets: such an edge is ij in one and ji in the
-/// other. Facets that these edges connect form a shell; the orientation of its majority stays.
-struct ConsistentFacets {
-    std::vector<Triangle> facets;     ///< #F; corners 1 and 2 exchanged where turned
+/// Facets that edges of exactly two facets connect form a shell. Which of them have to be turned to agree with their
+/// neighbours over these edges, so that such an edge is ij in one and ji in the other: the orientation of the majority
+/// of a shell stays.
+struct FacetShells {
     std::vector<std::int32_t> shell;  ///< #F; numbered by smallest facet
     std::int32_t shell_count = 0;
-    std::vector<std::int32_t> turned;          ///< facets turned, ascending
+    std::vector<std::int32_t> turned;          ///< facets to be turned, ascending
     std::vector<std::int32_t> contradictions;  ///< per one-sided shell the first facet that disagrees for any choice
 };
 
-/// Requires indices in range and no facet with a repeated vertex; any number of facets at an edge. O(#F log #F).
+/// `partner`: edge_partners(facets). Requires indices in range and no facet with a repeated vertex; any number of
+/// facets at an edge. O(#F), on threads where all agree.
+FacetShells find_facet_shells(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner);
+
+/// Facets that agree with their neighbours.
+struct ConsistentFacets : FacetShells {
+    std::vector<Triangle> facets;  ///< #F; corners 1 and 2 exchanged where turned
+};
+
+/// Requirements and cost as above.
 ConsistentFacets make_consistent(const std::vector<Triangle>& facets);
 
 /// How a closed shell lies among the others.
@@ -33,12 +42,15 @@ struct ShellPlace {
     }
 };
 
-/// Places of the shells of `consistent`, in their order. Requires closed shells. `holes`: points in voids. The nesting
-/// depth is found by ray parity. O(#F log #F) plus, for every box in others, a question to that of the innermost shell
-/// around it and to those of smaller ones. Shells that meet get some place or other, but no
+/// Places of the shells of facets that agree, in their order. Requires closed shells. `holes`: points in voids. The
+/// nesting depth is found by ray parity. O(#F log #F) plus, for every box in others, a question to that of the
+/// innermost shell around it and to those of smaller ones, on threads. Shells that meet get some place or other, but no
 /// error. Deterministic.
-std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent,
-                                      const std::vector<Vec3>& holes = {});
+std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                                      const FacetShells& shells, const std::vector<Vec3>& holes = {});
+inline std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const ConsistentFacets& consistent) {
+    return locate_shells(vertices, consistent.facets, consistent);
+}
 
 /// What orient() turned.
 struct OrientationReport {
@@ -47,10 +59,20 @@ struct OrientationReport {
     std::int64_t shells = 0;
 };
 
-/// Turns facets until normals point out of the material everywhere.
-///
-/// Within a shell the orientation is propagated by make_consistent(). Between shells the nesting depth decides: even
-/// depth outward, odd depth (a void) inward. Requires every edge to have exactly two facets and shells that do not
+/// What turns the facets of a soup so that normals point out of the material everywhere.
+struct Orientation {
+    std::vector<std::int32_t> turned;  ///< corners 1 and 2 of these facets are to be exchanged; ascending
+    OrientationReport report;
+};
+
+/// Within a shell the majority decides. Between shells the nesting depth decides: even depth outward, odd depth (a
+/// void) inward. Requires shells without contradictions that do not meet. O(#F).
+Orientation find_orientation(const FacetShells& shells, const std::vector<ShellPlace>& places);
+
+/// Exchanges corners 1 and 2 of these facets.
+void turn_facets(std::vector<Triangle>& facets, const std::vector<std::int32_t>& turned);
+
+/// Turns facets as find_orientation() says. Requires every edge to have exactly two facets and shells that do not
 /// meet; throws Error(input) for a shell that is not orientable or that meets another, naming a facet. Cost as
 /// locate_shells().
 OrientationReport orient(Soup& soup);

@@ -45,18 +45,18 @@ Vec3 point_beyond(const Box& box, const Vec3& point, int attempt) {
 
 // Calls visit(facet) for the facets whose boxes meet the box, and perhaps for others.
 template <class Visit>
-void for_each_facet_near(const Shell& shell, const Box& box, Visit visit) {
-    if (shell.tree)
-        shell.tree->for_each_meeting(box, [&](std::int32_t f) { visit(shell.facets[f]); });
+void for_each_facet_near(const Shell& shell, const BoxTree* tree, const Box& box, Visit visit) {
+    if (tree)
+        tree->for_each_meeting(box, [&](std::int32_t f) { visit(shell.facets[f]); });
     else
         for (const Triangle& t : shell.facets) visit(t);
 }
 
-std::optional<bool> crosses_odd_times(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& s,
-                                      const Vec3& t) {
+std::optional<bool> crosses_odd_times(const std::vector<Vec3>& vertices, const Shell& shell, const BoxTree* tree,
+                                      const Vec3& s, const Vec3& t) {
     const Vec3 low = s.cwiseMin(t), high = s.cwiseMax(t);
     bool odd = false, touches = false;
-    for_each_facet_near(shell, Box(low, high), [&](const Triangle& facet) {
+    for_each_facet_near(shell, tree, Box(low, high), [&](const Triangle& facet) {
         const Vec3 &a = vertices[facet[0]], &b = vertices[facet[1]], &c = vertices[facet[2]];
         bool apart = touches;
         for (int x = 0; x < 3; ++x)
@@ -70,12 +70,16 @@ std::optional<bool> crosses_odd_times(const std::vector<Vec3>& vertices, const S
     return odd;
 }
 
-// A tree takes as long as some tens of questions without one.
-void prepare_for_questions(const std::vector<Vec3>& vertices, const Shell& shell) {
+// Of the facets of a shell that was asked often; null before. It takes as long as some tens of questions without one.
+const BoxTree* tree_for_question(const std::vector<Vec3>& vertices, const Shell& shell) {
     constexpr std::int32_t few = 32;
     constexpr std::size_t small = 64;
-    if (shell.tree || shell.facets.size() < small || ++shell.questions <= few) return;
-    shell.tree = std::make_shared<const BoxTree>(boxes_around(vertices, shell.facets));
+    if (shell.facets.size() < small) return nullptr;
+    Shell::Memory& memory = *shell.memory;
+    if (memory.questions <= few && ++memory.questions <= few) return nullptr;
+    std::call_once(memory.is_built,
+                   [&] { memory.tree = std::make_unique<const BoxTree>(boxes_around(vertices, shell.facets)); });
+    return memory.tree.get();
 }
 
 }  // namespace
@@ -85,8 +89,13 @@ std::vector<Shell> collect_shells(const std::vector<Vec3>& vertices, const std::
     KERF_CHECK(shell_of_facet.size() == facets.size());
     KERF_CHECK(are_in_range(facets, vertices.size()));
     std::vector<Shell> shells(count);
+    std::vector<std::int32_t> size(count, 0);
+    for (const std::int32_t shell : shell_of_facet) {
+        KERF_CHECK(shell >= 0 && shell < count);
+        ++size[shell];
+    }
+    for (std::int32_t i = 0; i < count; ++i) shells[i].facets.reserve(size[i]);
     for (std::size_t f = 0; f < facets.size(); ++f) {
-        KERF_CHECK(shell_of_facet[f] >= 0 && shell_of_facet[f] < count);
         Shell& shell = shells[shell_of_facet[f]];
         shell.facets.push_back(facets[f]);
         shell.box.extend(box_around(vertices, facets[f]));
@@ -114,9 +123,9 @@ std::vector<std::int32_t> by_falling_boxes(const std::vector<Shell>& shells) {
 
 std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point) {
     if (!shell.box.contains(point)) return false;
-    prepare_for_questions(vertices, shell);
+    const BoxTree* const tree = tree_for_question(vertices, shell);
     for (int attempt = 0; attempt < attempts; ++attempt)
-        if (const auto odd = crosses_odd_times(vertices, shell, point, point_beyond(shell.box, point, attempt)))
+        if (const auto odd = crosses_odd_times(vertices, shell, tree, point, point_beyond(shell.box, point, attempt)))
             return odd;
     return std::nullopt;
 }

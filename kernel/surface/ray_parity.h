@@ -1,8 +1,10 @@
 // Inside or outside of a closed shell, by exact counting.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -18,9 +20,13 @@ struct Shell {
     std::vector<Triangle> facets;
     Box box;
 
-    // What encloses() remembers: one that is asked often gets a tree of its facets. Not for several threads.
-    mutable std::int32_t questions = 0;
-    mutable std::shared_ptr<const BoxTree> tree;
+    // What encloses() remembers: one that is asked often gets a tree of its facets.
+    struct Memory {
+        std::atomic<std::int32_t> questions = 0;
+        std::once_flag is_built;
+        std::unique_ptr<const BoxTree> tree;
+    };
+    std::shared_ptr<Memory> memory = std::make_shared<Memory>();
 };
 
 /// Facets grouped by their shell number in [0, count), in ascending order of facets. `shell_of_facet`: #F.
@@ -37,7 +43,8 @@ std::vector<std::int32_t> by_falling_boxes(const std::vector<Shell>& shells);
 /// Whether the point lies inside of the shell: a segment from it to the outside crosses the shell an odd number of
 /// times. Crossings are decided by exact predicates; a segment that touches an edge or a vertex says nothing and is
 /// replaced by the next of a fixed sequence. Nothing is returned if none decides, as for a point on the shell. O(#F),
-/// and after some questions, which must have the same vertices, O(log #F) and the facets near the segment.
+/// and after some questions, which must have the same vertices, O(log #F) and the facets near the segment. Several
+/// threads may ask.
 std::optional<bool> encloses(const std::vector<Vec3>& vertices, const Shell& shell, const Vec3& point);
 
 }  // namespace kerf
