@@ -8,13 +8,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
 #include "core/check.h"
+#include "cut/ordered_terms.h"
 #include "geometry/triangle.h"
 
 namespace kerf {
+
+namespace {
+
+double count_up_to(std::span<const double> values, double bound) {
+    std::size_t count = 0;
+    for (const std::size_t of_range : values_of_ranges(values.size(), items_of_thread, [&](const IndexRange& range) {
+             std::size_t own = 0;
+             for (std::size_t i = range.first; i < range.last; ++i) own += values[i] <= bound;
+             return own;
+         }))
+        count += of_range;
+    return static_cast<double>(count);
+}
+
+}  // namespace
 
 double LoadModel::load(double vertices, double facets, double volume) const {
     switch (balance) {
@@ -55,24 +72,51 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
         for (std::size_t i = 1; i < samples_.size(); ++i) samples_[i].second += samples_[i - 1].second;
     }
     std::vector<double> height(surface.vertex_count());
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) height[v] = plane.distance(surface.point(v));
-    const auto [low, high] = std::minmax_element(height.begin(), height.end());
-    lowest_ = *low;
-    highest_ = *high;
-    if (model.balance == Balance::nodes) {
-        for (const double z : height) items_.push_back({z, z, z, 0, z, 0});
-    } else {
-        items_.reserve(surface.facet_count());
-        for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-            const Triangle t = surface.vertices(f);
+    std::tie(lowest_, highest_) = bounds_on_threads(height.size(), [&](std::size_t v) {
+        return height[v] = plane.distance(surface.point(static_cast<std::int32_t>(v)));
+    });
+    if (model_.needs_volume() && !model_.depends_on_place())
+        take_items(surface, plane, height);
+    else if (model_.balance == Balance::nodes)
+        centroids_ = std::move(height);
+    else
+        take_centroids(surface, height);
+    total_ =
+        items_.empty() ? load_of(count_up_to(centroids_, highest_), 0, highest_) : load_below(items_, {}, highest_);
+}
+
+void LoadProfile::take_items(const Surface& surface, const Plane& plane, const std::vector<double>& height) {
+    items_.resize(surface.facet_count());
+    for_ranges_on_threads(items_.size(), items_of_thread, [&](const IndexRange& range) {
+        for (std::size_t f = range.first; f < range.last; ++f) {
+            const Triangle t = surface.vertices(static_cast<std::int32_t>(f));
             const Vec3 normal_area = area_vector(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
             std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
             std::sort(z.begin(), z.end());
-            items_.push_back({z[0], z[1], z[2], normal_area.dot(plane.normal), (z[0] + z[1] + z[2]) / 3,
-                              mean_potential(z[0], z[1], z[2])});
+            items_[f] = {z[0],
+                         z[1],
+                         z[2],
+                         normal_area.dot(plane.normal),
+                         (z[0] + z[1] + z[2]) / 3,
+                         mean_potential(z[0], z[1], z[2])};
         }
-    }
-    total_ = load_below(items_, {}, highest_);
+    });
+}
+
+void LoadProfile::take_centroids(const Surface& surface, const std::vector<double>& height) {
+    centroids_.resize(surface.facet_count());
+    for_ranges_on_threads(centroids_.size(), items_of_thread, [&](const IndexRange& range) {
+        for (std::size_t f = range.first; f < range.last; ++f) {
+            const Triangle t = surface.vertices(static_cast<std::int32_t>(f));
+            std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
+            std::sort(z.begin(), z.end());  // the sum of three depends on their order
+            centroids_[f] = (z[0] + z[1] + z[2]) / 3;
+        }
+    });
+}
+
+double LoadProfile::load_of(double count, double integral, double height) const {
+    return model_.load(count, count, model_.depends_on_place() ? sampled_volume_below(height) : integral);
 }
 
 void LoadProfile::Below::add(const Item& item) {
@@ -115,10 +159,13 @@ double LoadProfile::load_below(std::span<const Item> items, const Below& below, 
             integral += whole - share * (mean_potential(f.high, height, height) - level) * f.area_z;
         }
     }
-    return model_.load(count, count, model_.depends_on_place() ? sampled_volume_below(height) : integral);
+    return load_of(count, integral, height);
 }
 
-double LoadProfile::fraction_below(double height) const { return load_below(items_, {}, height) / total_; }
+double LoadProfile::fraction_below(double height) const {
+    if (items_.empty()) return load_of(count_up_to(centroids_, height), 0, height) / total_;
+    return load_below(items_, {}, height) / total_;
+}
 
 void LoadProfile::settle(double low, double high, std::vector<Item>& open, Below& below) {
     std::size_t kept = 0;
@@ -133,7 +180,9 @@ void LoadProfile::settle(double low, double high, std::vector<Item>& open, Below
 
 std::vector<double> LoadProfile::fractions_below(const std::vector<double>& heights) const {
     std::vector<double> fractions;
-    if (heights.empty()) return fractions;
+    if (items_.empty())
+        for (const double height : heights) fractions.push_back(fraction_below(height));
+    if (heights.empty() || items_.empty()) return fractions;
     const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
     std::vector<Item> open = items_;
     Below below;
@@ -145,6 +194,7 @@ std::vector<double> LoadProfile::fractions_below(const std::vector<double>& heig
 // Items that fall out of the bracket are settled, so the work halves with every step.
 double LoadProfile::bisect(double fraction) const {
     KERF_CHECK(fraction >= 0 && fraction <= 1);
+    if (items_.empty()) return bisect_count(fraction);
     std::vector<Item> open = items_;
     Below below;
     double low = lowest_, high = highest_;
@@ -152,6 +202,24 @@ double LoadProfile::bisect(double fraction) const {
         const double middle = (low + high) / 2;
         (load_below(open, below, middle) < fraction * total_ ? low : high) = middle;
         settle(low, high, open, below);
+    }
+    return (low + high) / 2;
+}
+
+double LoadProfile::bisect_count(double fraction) const {
+    std::vector<double> open = centroids_;
+    double below = 0, low = lowest_, high = highest_;
+    for (int i = 0; i < 40 && high - low > 1e-9 * (highest_ - lowest_); ++i) {
+        const double middle = (low + high) / 2, up_to_middle = count_up_to(open, middle);
+        const bool is_low = load_of(below + up_to_middle, 0, middle) < fraction * total_;
+        (is_low ? low : high) = middle;
+        if (is_low) below += up_to_middle;
+        std::size_t kept = 0;
+        for (const double z : open) {
+            open[kept] = z;
+            kept += (z > middle) == is_low;
+        }
+        open.resize(kept);
     }
     return (low + high) / 2;
 }

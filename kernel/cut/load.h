@@ -46,7 +46,7 @@ class LoadProfile {
     /// not be empty.
     LoadProfile(const Surface& surface, const Plane& plane, const LoadModel& model);
 
-    /// Fraction of the whole load below the given height. O(#V + #F).
+    /// Fraction of the whole load below the given height. O(#F).
     double fraction_below(double height) const;
     /// The fractions below many heights. O(#V + #F + n m) with m facets between the lowest and the highest of n
     /// heights.
@@ -57,7 +57,7 @@ class LoadProfile {
     double highest() const { return highest_; }
 
  private:
-    // One facet, or one vertex if nodes are balanced.
+    // A facet whose part of the volume counts.
     struct Item {
         double low, mid, high;  // heights of the facet's vertices, ascending
         double area_z;          // area times the normal's height component
@@ -71,6 +71,10 @@ class LoadProfile {
         double integral = 0;  // of the potential over area_z
         void add(const Item& item);
     };
+    void take_items(const Surface& surface, const Plane& plane, const std::vector<double>& height);
+    void take_centroids(const Surface& surface, const std::vector<double>& height);
+    double load_of(double count, double integral, double height) const;
+    double bisect_count(double fraction) const;
     double potential(double height) const;
     double mean_potential(double a, double b, double c) const;
     double load_below(std::span<const Item> items, const Below& below, double height) const;
@@ -80,7 +84,8 @@ class LoadProfile {
     static void settle(double low, double high, std::vector<Item>& open, Below& below);
 
     LoadModel model_;
-    std::vector<Item> items_;
+    std::vector<Item> items_;        // none if their volume does not count
+    std::vector<double> centroids_;  // then: heights of the facets, or of the vertices if nodes are balanced
     std::vector<std::pair<double, double>> samples_;  // heights, ascending, and the sized volume up to there
     double lowest_ = 0, highest_ = 0, total_ = 0;
 };

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/check.h"
+#include "cut/ordered_terms.h"
 #include "cut/plane.h"
 #include "geometry/triangle.h"
 
@@ -32,30 +33,30 @@ struct SectionProfile {
     }
 };
 
-SectionProfile section_profile(const Surface& surface, const Vec3& direction, const LoadModel& model) {
-    double low = INFINITY, high = -INFINITY;
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
-        const double height = direction.dot(surface.point(v));
-        low = std::min(low, height);
-        high = std::max(high, height);
-    }
+// The facets along one direction.
+struct SectionBins {
+    Vec3 direction;
+    double low, bin_height;
     std::array<double, bins> count{}, area_z{};
-    const double bin_height = (high - low) / bins;
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Triangle t = surface.vertices(f);
-        const Vec3 &a = surface.point(t[0]), &b = surface.point(t[1]), &c = surface.point(t[2]);
-        const double height = direction.dot(a + b + c) / 3 - low;
-        const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, height / bin_height)));
-        count[bin] += 1;
-        area_z[bin] += doubled_area_vector(a, b, c).dot(direction) / 2;
+
+    SectionBins(const Surface& surface, const Vec3& along) : direction(along) {
+        const auto [lowest, highest] =
+            bounds_on_threads(static_cast<std::size_t>(surface.vertex_count()),
+                              [&](std::size_t v) { return along.dot(surface.point(static_cast<std::int32_t>(v))); });
+        low = lowest;
+        bin_height = (highest - lowest) / bins;
     }
+    std::size_t bin_of(double height) const {
+        return std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, (height - low) / bin_height)));
+    }
+    SectionProfile profile(const LoadModel& model) const;
+};
+
+SectionProfile SectionBins::profile(const LoadModel& model) const {
     std::array<double, bins> sampled{};  // volume, where that is not the area's integral
     if (model.depends_on_place())
-        for (const VolumeSample& sample : *model.samples) {
-            const double height = direction.dot(sample.point) - low;
-            sampled[std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, height / bin_height)))] +=
-                sample.sized_volume;
-        }
+        for (const VolumeSample& sample : *model.samples)
+            sampled[bin_of(direction.dot(sample.point))] += sample.sized_volume;
     SectionProfile profile;
     double facets = 0, area = 0, volume = 0;
     for (std::size_t i = 0; i < bins; ++i) {
@@ -66,6 +67,38 @@ SectionProfile section_profile(const Surface& surface, const Vec3& direction, co
         profile.area[i] = area;
     }
     return profile;
+}
+
+// All directions in one pass over the facets: to reach their corners costs more than the sums.
+std::vector<SectionProfile> section_profiles(const Surface& surface, const std::vector<Vec3>& directions,
+                                             const LoadModel& model) {
+    struct Term {
+        std::array<std::size_t, 3> bin;
+        std::array<double, 3> area_z;
+    };
+    std::vector<SectionBins> sections;
+    for (const Vec3& direction : directions) sections.emplace_back(surface, direction);
+    KERF_CHECK(sections.size() <= 3);
+    const auto term_of = [&](std::size_t f) {
+        const Triangle t = surface.vertices(static_cast<std::int32_t>(f));
+        const Vec3 &a = surface.point(t[0]), &b = surface.point(t[1]), &c = surface.point(t[2]);
+        const Vec3 sum = a + b + c, doubled_area = doubled_area_vector(a, b, c);
+        Term term;
+        for (std::size_t i = 0; i < sections.size(); ++i) {
+            term.bin[i] = sections[i].bin_of(sections[i].direction.dot(sum) / 3);
+            term.area_z[i] = doubled_area.dot(sections[i].direction) / 2;
+        }
+        return term;
+    };
+    add_in_order(static_cast<std::size_t>(surface.facet_count()), term_of, [&](const Term& term) {
+        for (std::size_t i = 0; i < sections.size(); ++i) {
+            sections[i].count[term.bin[i]] += 1;
+            sections[i].area_z[term.bin[i]] += term.area_z[i];
+        }
+    });
+    std::vector<SectionProfile> profiles;
+    for (const SectionBins& section : sections) profiles.push_back(section.profile(model));
+    return profiles;
 }
 
 }  // namespace
@@ -79,13 +112,11 @@ CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::i
     if (!free || options.axis >= 0 || leaves < least_leaves) return place;
     const double half = place.fraction;
     const std::vector<Vec3> directions = cut_directions(surface, mass, options);
-    double usual = 0, best = 0;
+    const std::vector<SectionProfile> profiles = section_profiles(surface, directions, options.bisected_load());
+    const double usual = profiles[0].area_at(half);
+    double best = (1 - least_gain) * usual;
     for (std::size_t axis = 0; axis < directions.size(); ++axis) {
-        const SectionProfile profile = section_profile(surface, directions[axis], options.bisected_load());
-        if (axis == 0) {
-            usual = profile.area_at(half);
-            best = (1 - least_gain) * usual;
-        }
+        const SectionProfile& profile = profiles[axis];
         for (std::int32_t below = 1; below < leaves; ++below) {
             const double fraction = static_cast<double>(below) / leaves;
             const double area = profile.area_at(fraction);
