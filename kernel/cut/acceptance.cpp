@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -15,9 +13,6 @@
 #include "geometry/angles.h"
 #include "geometry/closest_point.h"
 #include "surface/intersections.h"
-#include "surface/mass_properties.h"
-#include "surface/ray_parity.h"
-#include "surface/touching.h"
 
 namespace kerf {
 
@@ -60,7 +55,6 @@ class InterfaceJudge {
     const Band& band_;
     const Interface& interface_;
     std::int32_t contour_count_;
-    double rounding_;                 // bound of the error of a projection or a height
     std::vector<PlanarBox> boxes_;    // of the interface triangles
     std::vector<double> low_, high_;  // heights of the interface triangles
     std::vector<NearFacet> slab_;     // facets that share heights with the interface
@@ -74,20 +68,11 @@ std::vector<PlanarBox> triangle_boxes(const Interface& interface, const Plane& p
     return boxes;
 }
 
-// Lifting a point and projecting it again are each a few sums of products of coordinates.
-double rounding_of(const Surface& surface, const Plane& plane) {
-    double largest = plane.origin.cwiseAbs().maxCoeff();
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v)
-        largest = std::max(largest, surface.point(v).cwiseAbs().maxCoeff());
-    return 64 * std::numeric_limits<double>::epsilon() * largest;
-}
-
 InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface)
     : surface_(surface),
       band_(band),
       interface_(interface),
       contour_count_(static_cast<std::int32_t>(interface.contour.size())),
-      rounding_(rounding_of(surface, band.plane)),
       boxes_(triangle_boxes(interface, band.plane)),
       grid_(boxes_) {
     for (const Triangle& t : interface.triangles) {
@@ -101,8 +86,8 @@ InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const I
 }
 
 void InterfaceJudge::find_slab_facets() {
-    const double low = *std::min_element(low_.begin(), low_.end()) - rounding_;
-    const double high = *std::max_element(high_.begin(), high_.end()) + rounding_;
+    const double low = *std::min_element(low_.begin(), low_.end()) - band_.rounding;
+    const double high = *std::max_element(high_.begin(), high_.end()) + band_.rounding;
     band_.for_each_facet_between(surface_, low, high, [&](const SlabFacet& facet) {
         PlanarBox box;
         for (std::int32_t v : surface_.vertices(facet.facet)) box.extend(band_.plane.project(surface_.point(v)));
@@ -137,8 +122,8 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const CancellationCheck&
     };
     for (const NearFacet& f : slab_) {
         const Triangle t = surface_.vertices(f.facet);
-        grid_.for_each_overlap(grown(f.box, rounding_), [&](std::int32_t i) {
-            if (low_[i] > f.high + rounding_ || high_[i] < f.low - rounding_) return;
+        grid_.for_each_overlap(grown(f.box, band_.rounding), [&](std::int32_t i) {
+            if (low_[i] > f.high + band_.rounding || high_[i] < f.low - band_.rounding) return;
             const Triangle& s = interface_.triangles[i];
             if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
             keep(corners(s), facet_corners(t));
@@ -148,7 +133,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const CancellationCheck&
     }
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
         check_cancelled.at(i);
-        grid_.for_each_overlap(grown(boxes_[i], rounding_), [&](std::int32_t j) {
+        grid_.for_each_overlap(grown(boxes_[i], band_.rounding), [&](std::int32_t j) {
             if (static_cast<std::size_t>(j) <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
             if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
@@ -193,8 +178,12 @@ void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quali
 
 // Distances off the contour: surface vertices to interface triangles and interior interface points to facets.
 void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) {
-    std::vector<char> seen(surface_.vertex_count(), 0);
-    for (std::int32_t v : interface_.contour) seen[v] = 1;
+    std::vector<char> seen(band_.vertices.size(), 0);
+    for (std::int32_t v : interface_.contour) seen[band_.vertex_index_of[v]] = 1;
+    const auto on_contour = [&](std::int32_t v) {
+        const std::int32_t i = band_.vertex_index_of[v];
+        return i >= 0 && seen[i];
+    };
     std::vector<double> size(boxes_.size());
     for (std::size_t i = 0; i < size.size(); ++i) {
         const auto p = corners(interface_.triangles[i]);
@@ -216,7 +205,7 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
                 add_contour_corners(s, soft);
             };
             for (int k = 0; k < 3; ++k)
-                if (!seen[t[k]]) note(point_triangle_distance(facet[k], p[0], p[1], p[2]));
+                if (!on_contour(t[k])) note(point_triangle_distance(facet[k], p[0], p[1], p[2]));
             for (int k = 0; k < 3; ++k)
                 if (s[k] >= contour_count_) note(point_triangle_distance(p[k], facet[0], facet[1], facet[2]));
         });
@@ -234,34 +223,6 @@ InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<
 bool is_good(const InterfaceQuality& quality, const CutOptions& options) {
     return quality.angle_deg >= options.good_angle_deg && quality.dihedral_deg >= options.good_dihedral_deg &&
            quality.gap_rel >= options.good_gap_rel;
-}
-
-constexpr std::size_t most_centroids = 16;
-
-// Points of a shell that lie on no other one: a vertex without copies, or where there is none the middle of facets.
-std::vector<Vec3> points_of(const SurfaceArrays& arrays, const std::vector<char>& copied, const Shell& shell) {
-    for (const Triangle& t : shell.facets)
-        for (const std::int32_t v : t)
-            if (copied.empty() || !copied[v]) return {arrays.vertices[v]};
-    std::vector<Vec3> points;
-    for (std::size_t f = 0; f < std::min(most_centroids, shell.facets.size()); ++f) {
-        const Triangle& t = shell.facets[f];
-        points.push_back((arrays.vertices[t[0]] + arrays.vertices[t[1]] + arrays.vertices[t[2]]) / 3);
-    }
-    return points;
-}
-
-// How many of the other shells are around the point; nothing if it lies on one.
-std::optional<int> depth_of(const Vec3& point, const SurfaceArrays& arrays, const std::vector<Shell>& shells,
-                            const BoxTree& boxes, std::int32_t self) {
-    int depth = 0;
-    for (const std::int32_t s : boxes.around(Eigen::AlignedBox3d(point, point))) {
-        if (s == self) continue;
-        const std::optional<bool> inside = encloses(arrays.vertices, shells[s], point);
-        if (!inside) return std::nullopt;
-        depth += *inside;
-    }
-    return depth;
 }
 
 }  // namespace
@@ -288,26 +249,6 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
     options.check_cancelled();
     if (!is_good(verdict.quality, options)) verdict.refusal = Refusal::soft;  // at a vertex of the surface or within
     return verdict;
-}
-
-std::int32_t find_misplaced_shell(const Surface& half) {
-    KERF_CHECK(half.facet_count() > 0);
-    const Components components = find_shells(half);
-    if (components.count == 1) return enclosed_volume(half) > 0 ? -1 : 0;
-    const SurfaceArrays arrays = half.arrays();
-    const std::vector<Shell> shells = collect_shells(arrays.vertices, arrays.facets, components.of, components.count);
-    const BoxTree boxes = boxes_of(shells);
-    const std::vector<char> copied = copied_vertices(half);
-    for (std::size_t i = 0; i < shells.size(); ++i) {
-        const std::int32_t vertex = shells[i].facets[0][0];
-        std::optional<int> depth;
-        for (const Vec3& point : points_of(arrays, copied, shells[i]))
-            if (!depth) depth = depth_of(point, arrays, shells, boxes, static_cast<std::int32_t>(i));
-        if (!depth) return vertex;  // it touches another shell
-        const bool is_void = *depth % 2 == 1;
-        if (is_outward(arrays.vertices, shells[i].facets) == is_void) return vertex;
-    }
-    return -1;
 }
 
 }  // namespace kerf

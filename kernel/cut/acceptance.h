@@ -1,4 +1,4 @@
-// The proof that a cut is valid, and the measures that make it a good one.
+// The proof that an interface is valid, and the measures that make it a good one.
 #pragma once
 
 #include <vector>
@@ -22,10 +22,5 @@ struct Verdict {
 /// soft). Cost follows the number of triangles near the interface.
 Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
                         const CutOptions& options);
-
-/// Every shell of a half must enclose positive volume if it lies outside of all others, negative inside of the
-/// material. Returns a vertex (of the half) of the first shell for which this fails, or -1. O(#F) plus, for every box
-/// in another one, the facets of that.
-std::int32_t find_misplaced_shell(const Surface& half);
 
 }  // namespace kerf

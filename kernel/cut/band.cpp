@@ -1,13 +1,15 @@
 // The area of the section is the sum over crossing facets of the signed triangles that their cut line forms with the
-// plane's origin: no loops have to be traced.
+// plane's origin: no loops have to be traced. What is added up is found on threads and added in its order.
 #include "cut/band.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
 #include "core/check.h"
+#include "cut/ordered_terms.h"
 
 namespace kerf {
 
@@ -19,20 +21,31 @@ bool crosses(double d_from, double d_to) { return (d_from < 0) != (d_to < 0); }
 
 std::vector<double> vertex_distances(const Surface& surface, const Plane& plane) {
     std::vector<double> distance(surface.vertex_count());
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) distance[v] = plane.distance(surface.point(v));
+    for_ranges_on_threads(distance.size(), items_of_thread, [&](const IndexRange& range) {
+        for (std::size_t v = range.first; v < range.last; ++v)
+            distance[v] = plane.distance(surface.point(static_cast<std::int32_t>(v)));
+    });
     return distance;
 }
 
 double mean_crossing_length(const Surface& surface, const std::vector<double>& distance) {
+    const std::vector<double> lengths =
+        selected_on_threads<double>(surface.mesh().n_edges(), [&](std::size_t edge, std::vector<double>& selected) {
+            const auto h = static_cast<std::int32_t>(2 * edge);
+            const std::int32_t a = surface.from_vertex(h), b = surface.to_vertex(h);
+            if (crosses(distance[a], distance[b])) selected.push_back((surface.point(b) - surface.point(a)).norm());
+        });
     double sum = 0;
-    std::int64_t count = 0;
-    for (std::int32_t h = 0; h < 2 * static_cast<std::int32_t>(surface.mesh().n_edges()); h += 2) {
-        const std::int32_t a = surface.from_vertex(h), b = surface.to_vertex(h);
-        if (!crosses(distance[a], distance[b])) continue;
-        sum += (surface.point(b) - surface.point(a)).norm();
-        ++count;
-    }
-    return count ? sum / static_cast<double>(count) : 0;
+    for (const double length : lengths) sum += length;
+    return lengths.empty() ? 0 : sum / static_cast<double>(lengths.size());
+}
+
+// Lifting a point and projecting it again are each a few sums of products of coordinates.
+double rounding_of(const Surface& surface, const Plane& plane) {
+    const double largest = bounds_on_threads(static_cast<std::size_t>(surface.vertex_count()), [&](std::size_t v) {
+                               return surface.point(static_cast<std::int32_t>(v)).cwiseAbs().maxCoeff();
+                           }).second;
+    return 64 * std::numeric_limits<double>::epsilon() * std::max(largest, plane.origin.cwiseAbs().maxCoeff());
 }
 
 // The body lies on the left of the cut line seen from above: it enters the facet where the boundary passes downwards.
@@ -49,33 +62,62 @@ double section_triangle(const Surface& surface, const Band& band, const std::arr
     return (in.x() * out.y() - in.y() * out.x()) / 2;
 }
 
+// A facet of the slab, and whether it belongs to the band.
+struct SlabItem {
+    SlabFacet reach;
+    bool in_band;
+};
+
+// The slab and its band; fills the labels of all facets.
+std::vector<SlabItem> find_slab(const Surface& surface, Band& band) {
+    band.majority.resize(surface.facet_count());
+    return selected_on_threads<SlabItem>(band.majority.size(), [&](std::size_t f, std::vector<SlabItem>& slab) {
+        const auto half_edges = surface.half_edges(static_cast<std::int32_t>(f));
+        double low = INFINITY, high = -INFINITY, sum = 0;
+        int above = 0;
+        for (const std::int32_t h : half_edges) {
+            const double d = band.distance[surface.to_vertex(h)];
+            low = std::min(low, d);
+            high = std::max(high, d);
+            sum += d;
+            above += d >= 0;
+        }
+        band.majority[f] = above >= 2 ? Side::above : Side::below;
+        if (low > band.half_width || high < -band.half_width) return;
+        const bool meets_plane = low <= 0 && high >= 0;
+        const bool in_band = meets_plane || std::abs(sum) < 3 * width * band.edge_length;
+        slab.push_back({{static_cast<std::int32_t>(f), low, high}, in_band});
+    });
+}
+
+void add_facet(const Surface& surface, const SlabFacet& facet, Band& band) {
+    const auto half_edges = surface.half_edges(facet.facet);
+    band.index_of[facet.facet] = static_cast<std::int32_t>(band.facets.size());
+    band.facets.push_back(facet.facet);
+    band.half_edges.push_back(half_edges);
+    for (const std::int32_t v : surface.vertices(facet.facet))
+        if (band.vertex_index_of[v] < 0) {
+            band.vertex_index_of[v] = static_cast<std::int32_t>(band.vertices.size());
+            band.vertices.push_back(v);
+        }
+    if (facet.low < 0 && facet.high >= 0) band.section_area += section_triangle(surface, band, half_edges);
+}
+
 }  // namespace
 
 Band make_band(const Surface& surface, const Plane& plane) {
-    KERF_CHECK(plane.is_orthonormal());
+    KERF_CHECK(plane.is_orthonormal() && surface.facet_count() > 0);
     Band band;
     band.plane = plane;
+    band.rounding = rounding_of(surface, plane);
     band.distance = vertex_distances(surface, plane);
     band.edge_length = mean_crossing_length(surface, band.distance);
     band.half_width = width * band.edge_length;
     band.index_of.assign(surface.facet_count(), -1);
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const auto half_edges = surface.half_edges(f);
-        double low = band.distance[surface.to_vertex(half_edges[0])], high = low, sum = low;
-        for (int i = 1; i < 3; ++i) {
-            const double d = band.distance[surface.to_vertex(half_edges[i])];
-            low = std::min(low, d);
-            high = std::max(high, d);
-            sum += d;
-        }
-        if (low > band.half_width || high < -band.half_width) continue;
-        band.slab.push_back({f, low, high});
-        const bool meets_plane = low <= 0 && high >= 0;
-        if (!meets_plane && std::abs(sum) >= 3 * width * band.edge_length) continue;
-        band.index_of[f] = static_cast<std::int32_t>(band.facets.size());
-        band.facets.push_back(f);
-        band.half_edges.push_back(half_edges);
-        if (low < 0 && high >= 0) band.section_area += section_triangle(surface, band, half_edges);
+    band.vertex_index_of.assign(surface.vertex_count(), -1);
+    for (const SlabItem& item : find_slab(surface, band)) {
+        band.slab.push_back(item.reach);
+        if (item.in_band) add_facet(surface, item.reach, band);
     }
     return band;
 }

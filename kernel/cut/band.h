@@ -24,11 +24,16 @@ struct Band {
     std::vector<std::int32_t> facets;    ///< ascending
     std::vector<std::int32_t> index_of;  ///< per facet of the surface: its index in `facets`, or -1
     std::vector<std::array<std::int32_t, 3>> half_edges;  ///< per band facet
+    std::vector<std::int32_t> vertices;                   ///< of the band's facets, in the order in which they are met
+    std::vector<std::int32_t> vertex_index_of;            ///< per vertex of the surface: its index in `vertices`, or -1
+    std::vector<Side> majority;   ///< per facet of the surface: the side of most vertices (Ivanov)
     std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; all of the band do
+    double rounding = 0;          ///< bound of the error of a projection or a height
 
     /// Whether it has the sizes of a band of this surface: required wherever both are taken together.
     bool fits(const Surface& surface) const {
         return distance.size() == static_cast<std::size_t>(surface.vertex_count()) &&
+               vertex_index_of.size() == distance.size() && majority.size() == index_of.size() &&
                index_of.size() == static_cast<std::size_t>(surface.facet_count());
     }
     /// Mean of the distances of the facet's vertices.
@@ -60,7 +65,7 @@ inline bool fit(const std::vector<Side>& side, const Surface& surface) {
     return side.size() == static_cast<std::size_t>(surface.facet_count());
 }
 
-/// O(#V + #F).
+/// O(#V + #F), on threads.
 Band make_band(const Surface& surface, const Plane& plane);
 
 /// Mean length of the edges that cross a plane, 0 if none does. O(#V + #F).

@@ -26,11 +26,7 @@ constexpr double ear_size = 0.5;         // largest area x distance of an ear th
 class LabelCleaner {
  public:
     LabelCleaner(const Surface& surface, const Band& band, std::vector<Side>& side)
-        : surface_(surface),
-          band_(band),
-          side_(side),
-          degree_(surface.vertex_count(), 0),
-          mark_(band.facets.size(), 0) {}
+        : surface_(surface), band_(band), side_(side), degree_(band.vertices.size(), 0), mark_(band.facets.size(), 0) {}
 
     bool turn_ears();
     bool absorb_islands();
@@ -39,6 +35,10 @@ class LabelCleaner {
 
  private:
     bool in_band(std::int32_t facet) const { return band_.index_of[facet] >= 0; }
+    std::int32_t& degree(std::int32_t contour_vertex) { return degree_[band_.vertex_index_of[contour_vertex]]; }
+    bool on_contour_vertex(std::int32_t vertex) const {
+        return band_.vertex_index_of[vertex] >= 0 && degree_[band_.vertex_index_of[vertex]] > 0;
+    }
     void turn(std::int32_t facet) { side_[facet] = other(side_[facet]); }
     std::int32_t across(std::int32_t half_edge) const { return surface_.facet_of(Surface::opposite(half_edge)); }
     bool on_contour(std::int32_t half_edge) const {
@@ -57,7 +57,7 @@ class LabelCleaner {
     const Surface& surface_;
     const Band& band_;
     std::vector<Side>& side_;
-    std::vector<std::int32_t> degree_;  // contour edges per vertex; zero outside of contour_vertices()
+    std::vector<std::int32_t> degree_;  // contour edges per band vertex; zero outside of contour_vertices()
     std::vector<std::int32_t> mark_;    // per band facet, scratch of the floods
     std::int32_t stamp_ = 0;
 };
@@ -124,7 +124,7 @@ std::vector<std::int32_t> LabelCleaner::contour_vertices() {
     std::vector<std::int32_t> vertices;
     for (const SurfaceEdge& edge : contour_edges(surface_, band_, side_))
         for (std::int32_t v : edge)
-            if (degree_[v]++ == 0) vertices.push_back(v);
+            if (degree(v)++ == 0) vertices.push_back(v);
     return vertices;
 }
 
@@ -162,7 +162,7 @@ bool LabelCleaner::open_pinches() {
     bool changed = false;
     const std::vector<std::int32_t> vertices = contour_vertices();
     for (std::int32_t v : vertices) {
-        if (degree_[v] <= 2) continue;
+        if (degree(v) <= 2) continue;
         const auto fans = fans_around(v);  // earlier turns may have opened this vertex too
         if (fans.size() <= 2) continue;
         std::vector<double> costs;
@@ -172,7 +172,7 @@ bool LabelCleaner::open_pinches() {
         for (std::int32_t facet : fans[cheapest - costs.begin()]) turn(facet);
         changed = true;
     }
-    for (std::int32_t v : vertices) degree_[v] = 0;
+    for (std::int32_t v : vertices) degree(v) = 0;
     return changed;
 }
 
@@ -201,7 +201,7 @@ bool LabelCleaner::close_pockets() {
     for (std::int32_t v : vertices) {
         for (const auto h : surface_.around(v)) {
             const std::int32_t half_edge = h.idx();
-            if (degree_[surface_.to_vertex(half_edge)] > 0 && !on_contour(half_edge)) {
+            if (on_contour_vertex(surface_.to_vertex(half_edge)) && !on_contour(half_edge)) {
                 std::vector<std::int32_t> pocket = pocket_behind(half_edge);
                 const std::vector<std::int32_t> behind = pocket_behind(Surface::opposite(half_edge));
                 if (pocket.empty() || (!behind.empty() && behind.size() < pocket.size())) pocket = behind;
@@ -210,8 +210,26 @@ bool LabelCleaner::close_pockets() {
             }
         }
     }
-    for (std::int32_t v : vertices) degree_[v] = 0;
+    for (std::int32_t v : vertices) degree(v) = 0;
     return changed;
+}
+
+constexpr std::int32_t repeated_start = -2;
+
+// Per edge the one that starts where it ends, -1 where none does; repeated_start for edges that start where an earlier
+// one does.
+std::vector<std::int32_t> followers(const std::vector<SurfaceEdge>& edges) {
+    std::vector<std::array<std::int32_t, 2>> starts;  // vertex, edge
+    for (std::size_t i = 0; i < edges.size(); ++i) starts.push_back({edges[i][0], static_cast<std::int32_t>(i)});
+    std::sort(starts.begin(), starts.end());
+    std::vector<std::int32_t> follower;
+    for (const SurfaceEdge& edge : edges) {
+        const auto found = std::lower_bound(starts.begin(), starts.end(), std::array{edge[1], 0});
+        follower.push_back(found != starts.end() && (*found)[0] == edge[1] ? (*found)[1] : -1);
+    }
+    for (std::size_t i = 1; i < starts.size(); ++i)
+        if (starts[i][0] == starts[i - 1][0]) follower[starts[i][1]] = repeated_start;
+    return follower;
 }
 
 }  // namespace
@@ -249,21 +267,20 @@ ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>&
                          const std::vector<char>& copied) {
     KERF_CHECK(are_in_range(edges, static_cast<std::size_t>(surface.vertex_count())));
     ContourLoops result;
-    std::vector<std::int32_t> next(surface.vertex_count(), -1);
-    for (const SurfaceEdge& edge : edges) {
-        const bool touches = (!copied.empty() && copied[edge[0]]) || has_touching_edge(surface, edge[0]);
-        if (touches || next[edge[0]] >= 0) result.pinched.push_back(edge[0]);
-        next[edge[0]] = edge[1];
+    const std::vector<std::int32_t> follower = followers(edges);
+    std::vector<char> is_traced(edges.size(), 0);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const std::int32_t v = edges[i][0];
+        if ((!copied.empty() && copied[v]) || has_touching_edge(surface, v) || follower[i] == repeated_start)
+            result.pinched.push_back(v);
     }
     if (!result.pinched.empty()) return result;
-    for (const SurfaceEdge& edge : edges) {
-        if (next[edge[0]] < 0) continue;  // on a loop already traced
+    for (std::size_t first = 0; first < edges.size(); ++first) {
+        if (is_traced[first]) continue;
         std::vector<std::int32_t> loop;
-        for (std::int32_t v = edge[0]; next[v] >= 0;) {
-            loop.push_back(v);
-            const std::int32_t following = next[v];
-            next[v] = -1;
-            v = following;
+        for (auto i = static_cast<std::int32_t>(first); i >= 0 && !is_traced[i]; i = follower[i]) {
+            loop.push_back(edges[i][0]);
+            is_traced[i] = 1;
         }
         result.loops.push_back(std::move(loop));
     }

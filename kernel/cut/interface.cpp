@@ -31,13 +31,15 @@ struct VertexRing {
     bool touches_contour = false;
 };
 
-VertexRing ring_of(const Surface& surface, std::int32_t vertex, const std::vector<char>& on_contour) {
+// `on_contour`: per vertex of the band.
+VertexRing ring_of(const Surface& surface, const Band& band, std::int32_t vertex, const std::vector<char>& on_contour) {
     VertexRing ring;
     int count = 0;
     for (const auto h : surface.around(vertex)) {
         const std::int32_t neighbour = h.to().idx();
         ring.mean_edge += (surface.point(neighbour) - surface.point(vertex)).norm();
-        ring.touches_contour |= on_contour[neighbour] != 0;
+        const std::int32_t i = band.vertex_index_of[neighbour];
+        ring.touches_contour |= i >= 0 && on_contour[i];
         ++count;
     }
     ring.mean_edge /= count;
@@ -53,12 +55,14 @@ std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, c
     std::vector<char> seen = on_contour;
     for (std::size_t i = 0; i < band.facets.size(); ++i)
         for (std::int32_t v : surface.vertices(band.facets[i])) {
-            if (seen[v]) continue;
-            seen[v] = 1;
-            const VertexRing ring = ring_of(surface, v, on_contour);
+            const std::int32_t index = band.vertex_index_of[v];
+            if (seen[index]) continue;
+            seen[index] = 1;
+            const VertexRing ring = ring_of(surface, band, v, on_contour);
             if (depth(band.distance[v], side[band.facets[i]]) >= obstacle_depth * ring.mean_edge) continue;
-            if (ring.touches_contour && !hits[v]) continue;  // its facets leave the contour at an angle that is checked
-            const double wanted = (ring.touches_contour ? hit_clearance : clearance) + clearance_per_hit * hits[v];
+            if (ring.touches_contour && !hits[index])
+                continue;  // its facets leave the contour at an angle that is checked
+            const double wanted = (ring.touches_contour ? hit_clearance : clearance) + clearance_per_hit * hits[index];
             obstacles.push_back(
                 {band.plane.project(surface.point(v)), band.distance[v], ring.mean_edge, side[band.facets[i]], wanted});
         }
@@ -78,16 +82,16 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
                                  const std::vector<std::int32_t>& hits, const CutOptions& options,
                                  ContourLayout layout) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));
-    KERF_CHECK(hits.size() == static_cast<std::size_t>(surface.vertex_count()));
+    KERF_CHECK(hits.size() == band.vertices.size());
     KERF_CHECK(
         std::all_of(loops.begin(), loops.end(), [&](const auto& loop) { return is_closed_path(surface, loop); }));
     InterfaceAttempt attempt;
     std::vector<std::int32_t>& contour = attempt.interface.contour;
     std::vector<double> contour_height;
-    std::vector<char> on_contour(surface.vertex_count(), 0);
+    std::vector<char> on_contour(band.vertices.size(), 0);
     for (const auto& loop : loops) contour.insert(contour.end(), loop.begin(), loop.end());
     for (const std::int32_t v : contour) {
-        on_contour[v] = 1;
+        on_contour[band.vertex_index_of[v]] = 1;
         contour_height.push_back(band.distance[v]);
     }
     ContourInPlane planar_contour = project_contour(surface, band.plane, loops);

@@ -17,9 +17,9 @@ struct InterfaceAttempt {
 };
 
 /// Spans the contour's loops, each a closed path of edges of the surface, with triangles as small as a volume bound of
-/// `options` asks for. `hits` (#V) counts how often an interface has run into a surface vertex before: its clearance
-/// grows with it. A contour that needs no unfolding is refused (crossing_projection, at no vertex) if that is asked
-/// for: the interface would be that of its projection.
+/// `options` asks for. `hits` (per vertex of the band) counts how often an interface has run into it before: its
+/// clearance grows with it. A contour that needs no unfolding is refused (crossing_projection, at no vertex) if that is
+/// asked for: the interface would be that of its projection.
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
                                  const std::vector<std::int32_t>& hits, const CutOptions& options,

@@ -33,17 +33,6 @@ FacetTerms facet_terms(const Surface& surface, const Band& band, std::int32_t fa
 
 }  // namespace
 
-std::vector<Side> majority_labels(const Surface& surface, const Band& band) {
-    KERF_CHECK(band.fits(surface));
-    std::vector<Side> side(surface.facet_count());
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        int above = 0;
-        for (std::int32_t v : surface.vertices(f)) above += band.distance[v] >= 0;
-        side[f] = above >= 2 ? Side::above : Side::below;
-    }
-    return side;
-}
-
 bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
                         std::vector<Side>& side, std::int64_t& step_budget) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));

@@ -7,9 +7,6 @@
 
 namespace kerf {
 
-/// A facet goes to the side on which most of its vertices lie (Ivanov's contour of crossed edges). O(#F).
-std::vector<Side> majority_labels(const Surface& surface, const Band& band);
-
 /// Relabels the facets of the band by a minimum cut: a short contour near the plane that avoids facets parallel to it.
 ///
 /// An edge costs its length, times 1 + (distance / h)^2, times 1 + 3 |n_z|^4, times the larger `penalty` of its facets

@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "core/threads.h"
 #include "cut/band.h"
 
 namespace kerf {
@@ -95,8 +96,11 @@ std::array<Half, 2> split(const Surface& surface, const std::vector<Side>& side,
     KERF_CHECK(fit(side, surface) && node >= 1);
     KERF_CHECK(interface.contour.size() <= interface.points.size());
     KERF_CHECK(are_in_range(interface.triangles, interface.points.size()));
-    return {build_half(surface, side, Side::below, interface, node),
-            build_half(surface, side, Side::above, interface, node)};
+    std::array<Half, 2> halves;
+    for_each_on_threads(2, [&](std::size_t i) {
+        halves[i] = build_half(surface, side, i == 0 ? Side::below : Side::above, interface, node);
+    });
+    return halves;
 }
 
 }  // namespace kerf

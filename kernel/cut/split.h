@@ -15,7 +15,8 @@ struct Half {
 };
 
 /// The halves below and above. Facets keep their order, key and patch; the interface follows, its facet i with the key
-/// (node, i) in both halves and opposite orientations, its interior point i with the key (node, i). O(#V + #F).
+/// (node, i) in both halves and opposite orientations, its interior point i with the key (node, i). O(#V + #F), a
+/// half on each of two threads.
 std::array<Half, 2> split(const Surface& surface, const std::vector<Side>& side, const Interface& interface,
                           NodeId node);
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cut/contour.h"
-#include "cut/labels.h"
+#include "cut/shell_placement.h"
 #include "cut/split.h"
 #include "support/voxels.h"
 #include "surface/intersections.h"
@@ -25,10 +25,10 @@ struct Section {
     Section(const Soup& soup, double z)
         : surface(test::to_arrays(soup)),
           band(make_band(surface, Plane(Vec3(0, 0, z), Vec3::UnitZ()))),
-          side(majority_labels(surface, band)) {
+          side(band.majority) {
         clean_labels(surface, band, side, nullptr);
         const ContourLoops contour = trace_loops(surface, contour_edges(surface, band, side));
-        const std::vector<std::int32_t> hits(surface.vertex_count(), 0);
+        const std::vector<std::int32_t> hits(band.vertices.size(), 0);
         InterfaceAttempt attempt = build_interface(surface, band, side, contour.loops, hits, CutOptions());
         EXPECT_EQ(attempt.refusal, Refusal::none);
         interface = std::move(attempt.interface);

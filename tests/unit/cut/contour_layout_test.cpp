@@ -10,7 +10,6 @@
 #include "cut/contour.h"
 #include "cut/interface.h"
 #include "cut/interface_smoothing.h"
-#include "cut/labels.h"
 #include "support/shapes.h"
 
 namespace kerf {
@@ -21,7 +20,7 @@ struct SlantedSection {
     SlantedSection(const Soup& soup, double z)
         : surface(test::to_arrays(soup)),
           band(make_band(surface, Plane(Vec3(0, 0, z), Vec3::UnitZ()))),
-          side(majority_labels(surface, band)) {
+          side(band.majority) {
         clean_labels(surface, band, side, nullptr);
         loops = trace_loops(surface, contour_edges(surface, band, side)).loops;
         for (const auto& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
@@ -31,7 +30,7 @@ struct SlantedSection {
         return kerf::unfold(surface, vertices, CutOptions().good_dihedral_deg, contour);
     }
     InterfaceAttempt interface(ContourLayout layout) const {
-        const std::vector<std::int32_t> hits(surface.vertex_count(), 0);
+        const std::vector<std::int32_t> hits(band.vertices.size(), 0);
         return build_interface(surface, band, side, loops, hits, CutOptions(), layout);
     }
 

@@ -52,7 +52,7 @@ class Contours : public testing::TestWithParam<std::string> {
                 planes_.push_back(PlaneSequence(surface_, mass, direction, 0, fraction, {}).at(0)->plane);
     }
     std::vector<Side> minimum_cut(const Band& band) const {
-        std::vector<Side> side = majority_labels(surface_, band);
+        std::vector<Side> side = band.majority;
         std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
         EXPECT_TRUE(minimum_cut_labels(surface_, band, std::vector<double>(band.facets.size(), 1), side, unlimited));
         return side;
@@ -85,7 +85,7 @@ TEST_P(Contours, BandHoldsWhatThePlaneMeets) {
 TEST_P(Contours, EdgesAreTheBoundaryOfTheLabels) {
     for (const Plane& plane : planes_) {
         const Band band = make_band(surface_, plane);
-        for (const std::vector<Side>& side : {majority_labels(surface_, band), minimum_cut(band)}) {
+        for (const std::vector<Side>& side : {band.majority, minimum_cut(band)}) {
             const std::vector<SurfaceEdge> edges = contour_edges(surface_, band, side);
             const std::set<SurfaceEdge> expected = boundary_of_labels(surface_, side);
             EXPECT_EQ(edges.size(), expected.size());
@@ -136,7 +136,7 @@ TEST_P(Contours, MinimumCutIsShorterThanTheMajority) {
     double majority = 0, minimum = 0;
     for (const Plane& plane : planes_) {
         const Band band = make_band(surface_, plane);
-        majority += length(surface_, contour_edges(surface_, band, majority_labels(surface_, band)));
+        majority += length(surface_, contour_edges(surface_, band, band.majority));
         minimum += length(surface_, contour_edges(surface_, band, minimum_cut(band)));
     }
     EXPECT_LT(minimum, majority);
@@ -218,7 +218,7 @@ TEST(Contour, PinchedVertexIsNamed) {
 TEST(Contour, LoopsOfAHollowBodyAreTwo) {
     const Surface body = test::to_surface(test::nested_boxes(2, 8));
     const Band band = make_band(body, Plane(Vec3(0, 0, 0.03), Vec3::UnitZ()));
-    std::vector<Side> side = majority_labels(body, band);
+    std::vector<Side> side = band.majority;
     clean_labels(body, band, side, nullptr);
     EXPECT_EQ(trace_loops(body, contour_edges(body, band, side)).loops.size(), 2u);
 }
@@ -227,7 +227,7 @@ TEST(Contour, IslandIsAbsorbedButAWholeShellIsNot) {
     const Surface body = test::to_surface(test::join(test::box(Vec3(0, 0, 0), Vec3(1, 1, 1), 10),
                                                      test::box(Vec3(2, 0, 0.45), Vec3(2.05, 0.05, 0.49), 1)));
     const Band band = make_band(body, Plane(Vec3(0, 0, 0.52), Vec3::UnitZ()));
-    std::vector<Side> side = majority_labels(body, band), clean = side;
+    std::vector<Side> side = band.majority, clean = side;
     clean_labels(body, band, clean, nullptr);
     std::vector<Side> spotted = clean;
     std::int32_t island = -1;
