@@ -8,10 +8,12 @@
 // them. A few that do not meet look as if they did, by a ten millionth of the whole.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "geometry/box.h"
@@ -30,9 +32,9 @@ inline FloatFour four(float x) { return FloatFour{x, x, x, x}; }
 template <class Mask>
 unsigned bits_of(const Mask& mask) {
 #ifdef __SSE2__
-    return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<const FloatFour&>(mask)));
+    return static_cast<unsigned>(__builtin_ia32_movmskps(std::bit_cast<FloatFour>(mask)));
 #else
-    return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+    return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
 }
 

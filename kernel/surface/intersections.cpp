@@ -10,6 +10,8 @@
 //
 // Most pairs of neighbours are plainly apart. A separating plane with a margin beyond rounding proves that in a few
 // multiplications and spares the exact predicates, which are slow where all points lie in one plane.
+//
+// Pairs whose boxes meet come from an OverlapTree, in ranges of its leaves, each with pairs of its own.
 #include "surface/intersections.h"
 
 #include <algorithm>
