@@ -5,6 +5,7 @@
 #include "surface/edge_corners.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "core/check.h"
 #include "core/threads.h"
@@ -27,9 +28,17 @@ void for_each_open_corner(const std::vector<Triangle>& facets, const std::vector
 }
 
 std::size_t vertex_count_of(const std::vector<Triangle>& facets) {
-    std::int32_t largest = -1;
-    for (const Triangle& t : facets) largest = std::max({largest, t[0], t[1], t[2]});
-    return static_cast<std::size_t>(largest) + 1;
+    constexpr std::size_t grain = std::size_t{1} << 16;
+    const auto largest_of = [&](const IndexRange& range) {
+        std::int32_t largest = -1;
+        for (std::size_t f = range.first; f < range.last; ++f)
+            largest = std::max({largest, facets[f][0], facets[f][1], facets[f][2]});
+        return largest;
+    };
+    std::size_t count = 0;
+    for (const std::int32_t largest : values_of_ranges(facets.size(), grain, largest_of))
+        count = std::max(count, static_cast<std::size_t>(largest) + 1);
+    return count;
 }
 
 using CornerIterator = std::vector<EdgeCorners::Corner>::iterator;
@@ -52,56 +61,60 @@ void sort_bucket(CornerIterator begin, CornerIterator end) {
 class PartnerSearch {
  public:
     explicit PartnerSearch(const std::vector<Triangle>& facets)
-        : facets_(facets), blocks_(values_of_ranges(facets.size(), facets_of_block, [&](const IndexRange& range) {
-              return smaller_ends(range);
-          })) {}
+        : facets_(facets), vertex_count_(vertex_count_of(facets)) {
+        while (vertex_count_ > most_buckets << shift_) ++shift_;
+        blocks_ = values_of_ranges(facets.size(), facets_of_block,
+                                   [&](const IndexRange& range) { return buckets_of(range); });
+    }
 
     std::vector<std::int32_t> run() {
         partner_.assign(3 * facets_.size(), -1);
-        std::size_t vertex_count = 0;
-        for (const Ends& ends : blocks_) vertex_count = std::max(vertex_count, ends.last + 1);
-        for_ranges_on_threads(vertex_count, grain(vertex_count), [&](const IndexRange& range) { pair_at(range); });
+        const std::size_t grain = buckets_at_once() << shift_;
+        for_ranges_on_threads(vertex_count_, grain, [&](const IndexRange& range) { pair_at(range); });
         return std::move(partner_);
     }
 
  private:
-    static constexpr std::size_t facets_of_block = 4096, least_grain = 1 << 15;
+    static constexpr std::size_t facets_of_block = 4096, most_buckets = 64;
 
-    // Between which vertices the smaller ends of the edges of a block lie.
-    struct Ends {
-        std::size_t first = 0, last = 0;
-
-        bool meet(const IndexRange& range) const { return first < range.last && last >= range.first; }
-    };
     struct Entry {
         std::int32_t low, high, corner;
     };
 
-    Ends smaller_ends(const IndexRange& range) const {
-        std::int32_t first = facets_[range.first][0], last = 0;
+    // A bit for each bucket of vertices in which smaller ends of the edges of a block lie.
+    std::uint64_t buckets_of(const IndexRange& range) const {
+        std::uint64_t buckets = 0;
         for (std::size_t f = range.first; f < range.last; ++f) {
             const auto& [a, b, c] = facets_[f];
-            first = std::min({first, a, b, c});
-            last = std::max({last, std::min(a, b), std::min(b, c), std::min(c, a)});
+            const std::int32_t least = std::min({a, b, c});
+            const std::int32_t middle = std::max({std::min(a, b), std::min(b, c), std::min(c, a)});
+            buckets |= std::uint64_t{1} << (least >> shift_) | std::uint64_t{1} << (middle >> shift_);
         }
-        return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
+        return buckets;
     }
-    // So many vertices of a range that blocks are read four times at most, wherever their vertices are.
-    std::size_t grain(std::size_t vertex_count) const {
-        std::size_t grain = least_grain;
-        for (; grain < vertex_count; grain *= 2) {
+    static bool has_bucket_of(std::uint64_t buckets, std::size_t first, std::size_t last) {
+        const std::uint64_t from_first = buckets >> first;
+        return (last - first == most_buckets ? from_first : from_first & ((std::uint64_t{1} << (last - first)) - 1)) !=
+               0;
+    }
+    // So many that blocks are read four times at most, wherever their vertices are.
+    std::size_t buckets_at_once() const {
+        for (std::size_t count = 1; count < most_buckets / 4; count *= 2) {
             std::size_t visits = 0;
-            for (const Ends& ends : blocks_) visits += ends.last / grain - ends.first / grain + 1;
-            if (visits <= 4 * blocks_.size()) break;
+            for (const std::uint64_t buckets : blocks_)
+                for (std::size_t first = 0; first < most_buckets; first += count)
+                    visits += has_bucket_of(buckets, first, first + count);
+            if (visits <= 4 * blocks_.size()) return count;
         }
-        return grain;
+        return most_buckets / 4;
     }
     std::vector<Entry> entries_at(const IndexRange& range) const {
         const auto first = static_cast<std::int32_t>(range.first), last = static_cast<std::int32_t>(range.last);
+        const std::size_t first_bucket = range.first >> shift_, last_bucket = ((range.last - 1) >> shift_) + 1;
         std::vector<Entry> entries;
         entries.reserve(7 * (range.last - range.first));  // six of a closed surface
         for (std::size_t block = 0; block < blocks_.size(); ++block) {
-            if (!blocks_[block].meet(range)) continue;
+            if (!has_bucket_of(blocks_[block], first_bucket, last_bucket)) continue;
             const std::size_t end = std::min(facets_.size(), (block + 1) * facets_of_block);
             for (std::size_t f = block * facets_of_block; f < end; ++f)
                 for (std::size_t i = 0; i < 3; ++i) {
@@ -137,7 +150,9 @@ class PartnerSearch {
     }
 
     const std::vector<Triangle>& facets_;
-    std::vector<Ends> blocks_;
+    std::size_t vertex_count_;
+    int shift_ = 12;  // a bucket is 2^shift_ vertices
+    std::vector<std::uint64_t> blocks_;
     std::vector<std::int32_t> partner_;
 };
 

@@ -45,8 +45,9 @@ class EdgeCorners {
 bool has_edge_of_many(const std::vector<Triangle>& facets);
 
 /// For every corner that of the facet on the other side of its edge, in whatever direction it has it; -1 where an edge
-/// does not have exactly two corners. Requirements and cost as EdgeCorners, on threads; beside the result memory for
-/// some thousand facets a thread where vertices are numbered as facets come, else for a quarter of 60 B a facet each.
+/// does not have exactly two corners. Requirements and cost as EdgeCorners, on threads. Beside the result each of them
+/// has 60 B for a facet of its share: a sixty-fourth of all where vertices are numbered as facets come, at worst a
+/// quarter.
 std::vector<std::int32_t> edge_partners(const std::vector<Triangle>& facets);
 
 }  // namespace kerf
