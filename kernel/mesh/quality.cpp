@@ -174,13 +174,9 @@ TriangleAngles triangle_angles(const Vec3& a, const Vec3& b, const Vec3& c) {
     return {angles[0], angles[1]};
 }
 
+// Bins are there once there is something to count: what is told of many parts stays small.
 Distribution::Distribution(Scale scale, double low, double high)
-    : scale_(scale),
-      low_(low),
-      high_(high),
-      log2_low_(low > 0 ? std::log2(low) : 0),
-      bins_per_unit_(1),
-      bins_(bin_count, 0) {
+    : scale_(scale), low_(low), high_(high), log2_low_(low > 0 ? std::log2(low) : 0), bins_per_unit_(1) {
     KERF_CHECK(low < high && (scale == Scale::linear || low > 0));
     bins_per_unit_ = bin_count / position(high);
 }
@@ -197,7 +193,9 @@ double Distribution::value_at(double position) const {
 }
 
 void Distribution::add(double value, std::int64_t times) {
-    KERF_CHECK(!bins_.empty() && !std::isnan(value) && times > 0);
+    KERF_CHECK(!std::isnan(value) && times > 0);
+    if (bins_.empty()) [[unlikely]]
+        bins_.resize(bin_count);
     min_ = std::min(min_, value);
     max_ = std::max(max_, value);
     count_ += times;
@@ -221,7 +219,7 @@ int Distribution::logarithmic_bin(double value) const {
 }
 
 bool Distribution::has_range_of(const Distribution& other) const {
-    return scale_ == other.scale_ && low_ == other.low_ && high_ == other.high_ && bins_.size() == other.bins_.size();
+    return scale_ == other.scale_ && low_ == other.low_ && high_ == other.high_;
 }
 
 void Distribution::add(const Distribution& other) {
@@ -229,7 +227,8 @@ void Distribution::add(const Distribution& other) {
     min_ = std::min(min_, other.min_);
     max_ = std::max(max_, other.max_);
     count_ += other.count_;
-    for (int k = 0; k < bin_count; ++k) bins_[k] += other.bins_[k];
+    bins_.resize(std::max(bins_.size(), other.bins_.size()));
+    for (std::size_t k = 0; k < other.bins_.size(); ++k) bins_[k] += other.bins_[k];
 }
 
 double Distribution::percentile(double fraction) const {
@@ -261,6 +260,10 @@ Distribution::Histogram Distribution::histogram(int first, int group, int groups
     KERF_CHECK(first >= 0 && group > 0 && groups >= 0 && first + group * groups <= bin_count);
     Histogram histogram;
     for (int i = 0; i <= groups; ++i) histogram.edges.push_back(value_at(first + i * group));
+    if (bins_.empty()) {
+        histogram.counts.assign(static_cast<std::size_t>(groups), 0);
+        return histogram;
+    }
     for (auto bin = bins_.begin() + first; bin != bins_.begin() + first + group * groups; bin += group)
         histogram.counts.push_back(std::accumulate(bin, bin + group, std::int64_t{0}));
     return histogram;

@@ -266,6 +266,24 @@ TEST(Distribution, AValueCountsSeveralTimes) {
     EXPECT_EQ(to_bytes(all), to_bytes(one));
 }
 
+// Of many parts nothing is known yet, and reports of all of them are told to every rank.
+TEST(Distribution, TakesNoRoomUntilItCounts) {
+    for (const Distribution::Scale scale : scales) {
+        const Distribution empty = make(scale);
+        EXPECT_LT(to_bytes(empty).size(), 100u);
+        EXPECT_EQ(empty.histogram(36).counts, std::vector<std::int64_t>(36, 0));
+        Distribution counted = empty, sum = empty;
+        counted.add(2.5);
+        const Bytes before = to_bytes(counted);
+        counted.add(empty);
+        EXPECT_EQ(to_bytes(counted), before);
+        sum.add(counted);
+        EXPECT_EQ(to_bytes(sum), before);
+        EXPECT_TRUE(from_bytes<Distribution>(to_bytes(empty)).has_range_of(counted));
+        EXPECT_THROW(sum.add(Distribution(scale, 1, 2)), Error);
+    }
+}
+
 TEST(Distribution, PercentilesAreThoseOfTheSortedValues) {
     for (unsigned seed = 1; seed <= 50; ++seed)
         for (const auto scale : scales) {

@@ -105,5 +105,11 @@ TEST(PrepareParts, CostsARankLessWhereThereAreMore) {
     EXPECT_LT(static_cast<double>(most_bytes[8]), 0.6 * static_cast<double>(most_bytes[2]));
 }
 
+// Every rank has those of all parts.
+TEST(PrepareParts, ReportsOfPartsTakeAFewKilobytes) {
+    const auto read = [] { return read_input(test::asset_path("cube")); };
+    for (const Bytes& report : prepare_on(1, read, in_parts(2)).reports) EXPECT_LT(report.size(), 4096u);
+}
+
 }  // namespace
 }  // namespace kerf
