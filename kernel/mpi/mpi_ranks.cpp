@@ -242,7 +242,7 @@ bool MpiRanks::is_done(MPI_Request& request) const {
     }
 }
 
-void MpiRanks::send_piece(const char* data, int size, int rank, int tag) {
+void MpiRanks::send_piece(const void* data, int size, int rank, int tag) {
     MPI_Request request = MPI_REQUEST_NULL;
     check_mpi(MPI_Isend(data, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Isend");
     if (is_done(request)) return;
@@ -250,7 +250,7 @@ void MpiRanks::send_piece(const char* data, int size, int rank, int tag) {
     begin_collective(0);  // throws, when nobody receives any more
 }
 
-void MpiRanks::receive_piece(char* data, int size, int rank, int tag) {
+void MpiRanks::receive_piece(void* data, int size, int rank, int tag) {
     MPI_Request request = MPI_REQUEST_NULL;
     check_mpi(MPI_Irecv(data, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Irecv");
     if (is_done(request)) return;
@@ -263,18 +263,18 @@ void MpiRanks::receive_piece(char* data, int size, int rank, int tag) {
 void MpiRanks::send(int rank, const Bytes& message) {
     const std::uint64_t size = message.size();
     std::int32_t has_room = 0;
-    send_piece(reinterpret_cast<const char*>(&size), sizeof size, rank, send_tag);
-    receive_piece(reinterpret_cast<char*>(&has_room), sizeof has_room, rank, answer_tag);
+    send_piece(&size, sizeof size, rank, send_tag);
+    receive_piece(&has_room, sizeof has_room, rank, answer_tag);
     if (!has_room) return;
     for_pieces(message, [&](const char* piece, int piece_size) { send_piece(piece, piece_size, rank, send_tag); });
 }
 
 Bytes MpiRanks::receive(int rank) {
     std::uint64_t size = 0;
-    receive_piece(reinterpret_cast<char*>(&size), sizeof size, rank, send_tag);
+    receive_piece(&size, sizeof size, rank, send_tag);
     Bytes message;
     const std::int32_t has_room = has_room_for([&] { message.resize(size); });
-    send_piece(reinterpret_cast<const char*>(&has_room), sizeof has_room, rank, answer_tag);
+    send_piece(&has_room, sizeof has_room, rank, answer_tag);
     if (!has_room) throw std::bad_alloc();
     for_pieces(message, [&](char* piece, int piece_size) { receive_piece(piece, piece_size, rank, send_tag); });
     return message;

@@ -116,8 +116,8 @@ class MpiRanks : public Communicator {
     void end_together(LastWords& words);
     void take_messages();
     bool is_done(MPI_Request& request) const;
-    void send_piece(const char* data, int size, int rank, int tag);
-    void receive_piece(char* data, int size, int rank, int tag);
+    void send_piece(const void* data, int size, int rank, int tag);
+    void receive_piece(void* data, int size, int rank, int tag);
 
     // A message on its way, which MPI reads until it has left.
     struct Posted {

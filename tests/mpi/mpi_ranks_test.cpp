@@ -119,6 +119,8 @@ TEST(MpiRanks, AreAllOutOfMemoryIfOneIs) {
     expect_no_room("all_gather", [&] { ranks.all_gather(message); });
     expect_no_room("broadcast", [&] { ranks.broadcast(message, 0); });
     expect_no_room("exchange", [&] { ranks.exchange(to_rank); });
+    if (ranks.rank() == 0) ranks.send(ranks.size() - 1, message);
+    if (is_last) expect_no_room("receive", [&] { ranks.receive(0); });
     test::expect_collectives(ranks, 1000);
 }
 #endif

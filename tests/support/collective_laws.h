@@ -1,6 +1,7 @@
 // What every communicator promises, whatever carries its messages.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -49,6 +50,12 @@ inline void expect_collectives(Communicator& ranks, std::size_t largest) {
         EXPECT_EQ(ranks.receive(before), words_of(before, own, message));
         if (own != 0) ranks.send(next, words_of(own, next, message));
     }
+    if (own != 0) return ranks.send(0, words_of(own, 0, largest));
+    std::vector<Bytes> of_others;
+    while (std::ssize(of_others) < size - 1)
+        if (std::optional<Bytes> message = ranks.receive_any()) of_others.push_back(*std::move(message));
+    for (int r = 1; r < size; ++r)
+        EXPECT_EQ(std::count(of_others.begin(), of_others.end(), words_of(r, 0, largest)), 1) << "of " << r;
 }
 
 /// Collective: sums of none, one and many words.
