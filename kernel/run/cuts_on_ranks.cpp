@@ -188,9 +188,11 @@ void CutsOnRanks::begin(Complex& complex) {
         begin([this, &complex] { return decompose_regions(complex, options_, range_, *this, this); });
         return;
     }
-    if (!range_.contains(0)) return;
-    begin([this, surface = complex.take_only_region()]() mutable {
-        return decompose_branch(std::move(surface), {1, 0, options_.parts, {}}, options_, range_, *this, this);
+    if (ranks_.rank() != first_rank) return;
+    const Branch whole{1, 0, options_.parts, {}};
+    if (!range_.contains(0)) return take(whole, complex.take_only_region());  // of fewer parts than ranks it has none
+    begin([this, whole, surface = complex.take_only_region()]() mutable {
+        return decompose_branch(std::move(surface), whole, options_, range_, *this, this);
     });
 }
 

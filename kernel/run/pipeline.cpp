@@ -1,6 +1,7 @@
-// Every rank reads the input and descends its own branches of the tree. The ranks talk to bring both sides of the
-// interfaces together, to share the parts out, to number the vertices, and to report. Surfaces and meshes travel as
-// files only: a part goes from the rank that cut it to the worker that takes it, and from there to its place.
+// The first rank reads the input, and each node of the tree is cut by one rank, which sends a half that is another's
+// there. The ranks talk to bring both sides of the interfaces together, to share the parts out, to number the vertices,
+// and to report. Surfaces of parts and meshes travel as files only: a part goes from the rank that cut it to the worker
+// that takes it, and from there to its place.
 #include "run/pipeline.h"
 
 #include <algorithm>
