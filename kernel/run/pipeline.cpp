@@ -1,7 +1,6 @@
-// The first rank reads the input, and each node of the tree is cut by one rank, which sends a half that is another's
-// there. The ranks talk to bring both sides of the interfaces together, to share the parts out, to number the vertices,
-// and to report. Surfaces of parts and meshes travel as files only: a part goes from the rank that cut it to the worker
-// that takes it, and from there to its place.
+// The first rank reads the input, and each node of the tree is cut by one rank, which passes halves on. The ranks talk to
+// match interfaces, to share the parts out, to number the vertices, and to report. Parts and meshes travel as files: from
+// the rank that cut them to the worker that takes them, and from there to their place.
 #include "run/pipeline.h"
 
 #include <algorithm>
