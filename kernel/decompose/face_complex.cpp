@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "surface/edge_corners.h"
 #include "surface/touching.h"
@@ -70,31 +71,83 @@ FaceComplex::FaceComplex(const std::vector<Leaf>& leaves) {
                           f.key,
                           leaf.surface.patch[f.index]});
     }
+    index_faces();
+}
+
+void FaceComplex::index_faces() {
+    faces_of_.clear();
+    at_vertex_.clear();
+    last_at_vertex_.assign(points_.size(), -1);
+    for (std::size_t f = 0; f < faces_.size(); ++f) list_face(static_cast<std::int32_t>(f));
+}
+
+// The face must be the last one.
+void FaceComplex::list_face(std::int32_t face) {
+    for (const NodeId part : faces_[face].owner)
+        if (part != 0) faces_of_[part].push_back(face);
+    for (const std::int32_t v : faces_[face].corners) {
+        at_vertex_.push_back({face, last_at_vertex_[v]});
+        last_at_vertex_[v] = static_cast<std::int32_t>(at_vertex_.size()) - 1;
+    }
+}
+
+void FaceComplex::add_face(const ComplexFace& face) {
+    faces_.push_back(face);
+    list_face(static_cast<std::int32_t>(faces_.size()) - 1);
+}
+
+// By one with the same owners, or whose lists the caller mends.
+void FaceComplex::replace_face(std::int32_t at, const ComplexFace& face) {
+    const Triangle before = std::exchange(faces_[at], face).corners;
+    for (const std::int32_t v : face.corners) {
+        if (std::find(before.begin(), before.end(), v) != before.end()) continue;
+        at_vertex_.push_back({at, last_at_vertex_[v]});
+        last_at_vertex_[v] = static_cast<std::int32_t>(at_vertex_.size()) - 1;
+    }
+}
+
+// Ascending; all that have one of the vertices, and perhaps some that had.
+std::vector<std::int32_t> FaceComplex::faces_at(std::vector<std::int32_t> vertices) const {
+    const auto make_unique = [](std::vector<std::int32_t>& items) {
+        std::sort(items.begin(), items.end());
+        items.erase(std::unique(items.begin(), items.end()), items.end());
+    };
+    make_unique(vertices);
+    std::vector<std::int32_t> faces;
+    for (const std::int32_t v : vertices)
+        for (std::int32_t i = last_at_vertex_[v]; i >= 0; i = at_vertex_[i].earlier)
+            faces.push_back(at_vertex_[i].face);
+    make_unique(faces);
+    return faces;
 }
 
 FaceComplex::Part FaceComplex::part(NodeId id) const {
+    KERF_CHECK(faces_of_.contains(id));
     Part part;
-    std::vector<std::int32_t> number(points_.size(), -1);
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
+    part.face = faces_of_.at(id);
+    std::vector<std::int32_t> own;  // vertices, ascending
+    for (const std::int32_t f : part.face) own.insert(own.end(), faces_[f].corners.begin(), faces_[f].corners.end());
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    std::vector<std::int32_t> number(own.size(), -1);
+    for (const std::int32_t f : part.face) {
         const ComplexFace& face = faces_[f];
-        if (!face.bounds(id)) continue;
         Triangle t = face.owner[0] == id ? face.corners : turned(face.corners);
         for (std::int32_t& v : t) {
-            if (number[v] < 0) {
-                number[v] = static_cast<std::int32_t>(part.vertex.size());
+            std::int32_t& own_number = number[std::lower_bound(own.begin(), own.end(), v) - own.begin()];
+            if (own_number < 0) {
+                own_number = static_cast<std::int32_t>(part.vertex.size());
                 part.vertex.push_back(v);
                 part.arrays.vertices.push_back(points_[v]);
                 part.arrays.vertex_key.push_back(vertex_key_[v]);
             }
-            v = number[v];
+            v = own_number;
         }
         part.arrays.facets.push_back(t);
         part.arrays.facet_key.push_back(face.key);
         part.arrays.patch.push_back(face.patch);
-        part.face.push_back(static_cast<std::int32_t>(f));
         part.untested.push_back(face.untested[face.owner[0] == id ? 0 : 1]);
     }
-    KERF_CHECK(!part.face.empty());
     if (!touches_) return part;
     SeparatedSurface separated = separate_touching(std::move(part.arrays));
     part.arrays = std::move(separated.arrays);
@@ -108,6 +161,7 @@ std::int32_t FaceComplex::add_point(const Vec3& point, NodeId cut) {
     points_.push_back(point);
     vertex_key_.push_back(make_key(cut, vertex));  // until assign_keys()
     is_new_.push_back(1);
+    last_at_vertex_.push_back(-1);
     return vertex;
 }
 
@@ -143,32 +197,36 @@ void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
             face.corners = {vertex[t[0]], vertex[t[1]], vertex[t[2]]};
             if (own == 1) face.corners = turned(face.corners);
             face.owner[own] = children[split.side[piece] == Side::above ? 1 : 0];
-            if (piece == i)
-                faces_[whole.face[split.parent[i]]] = face;
-            else
-                faces_.push_back(face);
+            if (piece > i) {
+                add_face(face);
+                continue;
+            }
+            const std::int32_t at = whole.face[split.parent[i]];
+            replace_face(at, face);
+            faces_of_[face.owner[own]].push_back(at);
         }
     }
+    faces_of_.erase(id);
+    for (const NodeId child : children) std::sort(faces_of_[child].begin(), faces_of_[child].end());
     planes_.emplace_back(id, cut.cut.plane);
     const Interface& cap = cut.cut.interface;
     for (const Triangle& t : cap.triangles) {
         const auto corner = [&](int i) { return vertex[cap.contour[t[i]]]; };
-        faces_.push_back({{corner(0), corner(1), corner(2)}, children, make_key(id, 0), -1, id});
+        add_face({{corner(0), corner(1), corner(2)}, children, make_key(id, 0), -1, id});
     }
 }
 
 void FaceComplex::split_others(NodeId id, std::vector<SplitEdge> edges) {
     const auto ends = [](const SplitEdge& e) { return undirected(e.below, e.above); };
     std::sort(edges.begin(), edges.end(), [&](auto& a, auto& b) { return ends(a) < ends(b); });
-    std::vector<char> touched(points_.size(), 0);
-    for (const SplitEdge& e : edges) touched[e.below] = touched[e.above] = 1;
+    std::vector<std::int32_t> below;
+    for (const SplitEdge& e : edges) below.push_back(e.below);
     const auto vertex_on = [&](std::int32_t a, std::int32_t b) {
-        if (!touched[a] || !touched[b]) return -1;
         const auto it = std::lower_bound(edges.begin(), edges.end(), undirected(a, b),
                                          [&](const SplitEdge& e, const UndirectedEdge& key) { return ends(e) < key; });
         return it != edges.end() && ends(*it) == undirected(a, b) ? it->vertex : -1;
     };
-    for (std::size_t f = 0, count = faces_.size(); f < count; ++f) {
+    for (const std::int32_t f : faces_at(std::move(below))) {
         if (faces_[f].bounds(id)) continue;
         ComplexFace face = faces_[f];
         const Triangle t = face.corners;
@@ -181,9 +239,9 @@ void FaceComplex::split_others(NodeId id, std::vector<SplitEdge> edges) {
         for (int i = 0; i < pieces.count; ++i) {
             face.corners = pieces.pieces[i];
             if (i == 0)
-                faces_[f] = face;
+                replace_face(f, face);
             else
-                faces_.push_back(face);
+                add_face(face);
         }
     }
 }
@@ -197,6 +255,7 @@ const Plane& FaceComplex::plane(NodeId cut) const {
 void FaceComplex::replace_caps(const std::vector<ComplexFace>& caps) {
     std::erase_if(faces_, [](const ComplexFace& face) { return face.cap != 0; });
     faces_.insert(faces_.end(), caps.begin(), caps.end());
+    index_faces();
 }
 
 Contacts FaceComplex::find_contacts() const {

@@ -1,6 +1,7 @@
 // All facets of a decomposition in one place, each once, so that a straight cut can split those of the neighbours too.
 #pragma once
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -37,11 +38,12 @@ class FaceComplex {
         std::vector<std::int32_t> face;
         std::vector<char> untested;  ///< per facet, as ComplexFace::untested
     };
-    Part part(NodeId id) const;  ///< which must be one of the parts
+    /// `id` must be one of the parts. O(n log n), n: faces of the part.
+    Part part(NodeId id) const;
 
     /// Replaces part `id` by 2 id and 2 id + 1. `whole` is what part(id) returned, `cut` a straight cut of its surface.
     /// Pieces of a split facet have the owners of the facet; faces of other parts that hold a crossed edge are split
-    /// too. O(#faces).
+    /// too. O(n log n), n: faces of the part and those at the crossed edges.
     void divide(NodeId id, const Part& whole, const StraightCut& cut);
 
     const Vec3& point(std::int32_t vertex) const {
@@ -56,7 +58,7 @@ class FaceComplex {
 
     /// A new vertex, made by a straight cut.
     std::int32_t add_point(const Vec3& point, NodeId cut);
-    /// Replaces all faces that lie in the planes of straight cuts.
+    /// Replaces all faces that lie in the planes of straight cuts. O(#faces).
     void replace_caps(const std::vector<ComplexFace>& caps);
 
     /// Gives the caps and the vertices of straight cuts dense keys in the order of their numbers; vertices without
@@ -66,6 +68,11 @@ class FaceComplex {
     Contacts find_contacts() const;
 
  private:
+    void index_faces();
+    void list_face(std::int32_t face);
+    void add_face(const ComplexFace& face);
+    void replace_face(std::int32_t at, const ComplexFace& face);
+    std::vector<std::int32_t> faces_at(std::vector<std::int32_t> vertices) const;
     void split_others(NodeId id, std::vector<SplitEdge> edges);
     void note_division(const ComplexFace& face);
 
@@ -73,6 +80,13 @@ class FaceComplex {
     std::vector<Key> vertex_key_;
     std::vector<char> is_new_;  // per vertex: made by a straight cut
     std::vector<ComplexFace> faces_;
+    std::map<NodeId, std::vector<std::int32_t>> faces_of_;  // per part, ascending
+    struct AtVertex {
+        std::int32_t face;
+        std::int32_t earlier;  // of the same vertex in at_vertex_, or -1
+    };
+    std::vector<AtVertex> at_vertex_;  // also what has been at a vertex before it was split
+    std::vector<std::int32_t> last_at_vertex_;
     std::vector<std::pair<NodeId, Plane>> planes_;  // in the order of the cuts
     std::vector<DividedFacet> divided_facets_;
     bool touches_ = false;  // a part touches itself; cuts do not make others do so

@@ -25,14 +25,16 @@ class StraightDivision {
         for (const Leaf& leaf : whole.leaves) regions_.emplace(leaf.id, leaf.region);
     }
 
-    void divide(NodeId id);
+    void divide(NodeId id) { divide(id, complex_.part(id)); }
     void finish_interfaces();
     Decomposition take(LeafRange range);
 
  private:
     void add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves);
     RegionIndex region_of(NodeId leaf) const;
-    bool cut(TreeNode& node);
+    // `part` is that of the complex, as it is now.
+    void divide(NodeId id, const FaceComplex::Part& part);
+    bool cut(TreeNode& node, const FaceComplex::Part& part);
     double load(NodeId id) const;
 
     const DecomposeOptions& options_;
@@ -52,16 +54,16 @@ double StraightDivision::load(NodeId id) const {
 }
 
 void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves) {
-    const Surface surface = separated_surface(complex_.part(id).arrays);
+    const FaceComplex::Part part = complex_.part(id);
+    const Surface surface = separated_surface(part.arrays);
     TreeNode node = describe_node(id, first_leaf, leaves, surface, mass_properties(surface));
     node.region = region_of(id);
     nodes_.emplace(id, std::move(node));
-    divide(id);
+    divide(id, part);
 }
 
-bool StraightDivision::cut(TreeNode& node) {
+bool StraightDivision::cut(TreeNode& node, const FaceComplex::Part& part) {
     const Stopwatch stopwatch;
-    const FaceComplex::Part part = complex_.part(node.id);
     std::vector<CutTry> tries;
     const Surface surface = separated_surface(part.arrays);
     std::optional<StraightCut> made =
@@ -88,10 +90,10 @@ bool StraightDivision::cut(TreeNode& node) {
     return true;
 }
 
-void StraightDivision::divide(NodeId id) {
+void StraightDivision::divide(NodeId id, const FaceComplex::Part& part) {
     if (listener_ && listener_->cancelled()) throw Error(ErrorCode::cancelled, "The run was cancelled.");
     TreeNode& node = nodes_.at(id);
-    if (node.leaves == 1 || !cut(node)) {
+    if (node.leaves == 1 || !cut(node, part)) {
         leaves_.push_back(id);
         return;
     }

@@ -11,7 +11,7 @@ namespace kerf {
 /// two parts, so the parts are not independent here: every rank does all of it, on one complex of faces, in the order
 /// of the tree. Interfaces are triangulated after the last cut. The result depends on `whole` and the options only.
 /// Contacts are those of `whole`, as straight cuts have divided them.
-/// A part that no plane divides stays whole. O(n) per cut, n: facets of all parts.
+/// A part that no plane divides stays whole. O(n log n) per cut, n: facets of the part and those beside its section.
 Decomposition divide_straight(Decomposition whole, const DecomposeOptions& options, LeafRange range,
                               CutListener* listener = nullptr);
 
