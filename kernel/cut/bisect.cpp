@@ -1,4 +1,4 @@
-// The ladder of planes.
+// Planes are tried in their order, those that unbalance the load last, until one gives a good cut.
 #include "cut/bisect.h"
 
 #include <algorithm>

@@ -33,6 +33,8 @@ double goodness(const InterfaceQuality& quality, const CutOptions& options);
 /// One plane and its rounds of local repair.
 class PlaneTrial {
  public:
+    /// `copied`: copied_vertices() of the surface; `step_budget`: of the minimum cuts of all planes. What is given must
+    /// outlive it. O(#V + #F).
     PlaneTrial(const Surface& surface, const std::vector<char>& copied, const PlaneCandidate& candidate, NodeId node,
                const CutOptions& options, bool record, std::int64_t& step_budget)
         : surface_(surface),

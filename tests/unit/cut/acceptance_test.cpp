@@ -172,6 +172,39 @@ TEST(Acceptance, ShellsMayTouchOneAnother) {
     }
 }
 
+// Voids near the plane, some of which get the label of the wrong half.
+TEST(ShellPlacement, ShellsThatAreNotAskedAreInTheirPlace) {
+    std::mt19937 random(11);
+    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
+    int misplaced = 0, unasked = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        SCOPED_TRACE(trial);
+        Soup soup = bodies()[0];
+        for (int i = 0; i <= trial % 3; ++i) {
+            const double depth = 0.1 + 0.5 * uniform(), height = uniform() < 0.5 ? depth : -depth;
+            const Vec3 centre(0.4 * (i - 1), 0.5 * uniform() - 0.25, height);
+            soup = test::join(soup, test::inside_out(test::icosphere(1, 0.06, centre)));
+        }
+        Section s(soup, 0.01);
+        const Components shells = find_shells(s.surface);
+        std::vector<char> is_turned(static_cast<std::size_t>(shells.count), 0);
+        for (std::size_t shell = 1; shell < is_turned.size(); ++shell) is_turned[shell] = uniform() < 0.3;
+        for (std::size_t f = 0; f < s.side.size(); ++f)
+            if (is_turned[shells.of[f]]) s.side[f] = other(s.side[f]);
+        const HeightSpan shared = shared_heights(s.band, s.side, s.interface);
+        const bool in_doubt = may_misplace_shells(s.surface, s.band, s.side, shared);
+        unasked += !in_doubt;
+        for (Half& half : split(s.surface, s.side, s.interface, cut_node)) {
+            const Surface surface(std::move(half.arrays));
+            const std::int32_t found = find_misplaced_shell(surface);
+            EXPECT_EQ(in_doubt ? find_misplaced_shell(surface, s.band.plane, shared) : -1, found);
+            misplaced += found >= 0;
+        }
+    }
+    EXPECT_GT(misplaced, 10);
+    EXPECT_GT(unasked, 10);
+}
+
 TEST(Split, FacetsArePartitionedAndInterfacesOpposite) {
     for (const Soup& soup : bodies()) {
         const Section s(soup, 0.03);
