@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "core/threads.h"
 #include "cut/place.h"
 #include "cut/plane.h"
 #include "decompose/decomposition.h"
@@ -55,6 +57,23 @@ void Bisections::expect_valid(const Bisection& result) const {
     EXPECT_EQ(contour, static_cast<std::size_t>(cut.contour_edges));
     EXPECT_EQ(contour, cut.interface.contour.size());
     EXPECT_FALSE(cut.tries.empty());
+}
+
+TEST(Bisect, IsTheSameOnAnyNumberOfThreads) {
+    const Surface surface = test::to_surface(test::icosphere(5));  // more facets than one thread takes at once
+    CutOptions options;
+    std::vector<FileHash> hashes;
+    for (const double max_volume : {0.0, 0.001}) {  // loads without and with volume
+        options.size = options.load.size = SizeField(max_volume);
+        for (const int threads : {1, 2, 7}) {
+            set_thread_limit(threads);
+            const Bisection result = bisect(surface, mass_properties(surface), 1, {0.4}, options, false);
+            ASSERT_TRUE(result.cut.made());
+            hashes.push_back(result.cut.hash);
+            EXPECT_EQ(hashes.back(), hashes[hashes.size() < 4 ? 0 : 3]) << threads;
+        }
+    }
+    set_thread_limit(static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 // Who puts a plane where the kernel would, gets the kernel's cut.
