@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include <fcntl.h>
@@ -139,6 +140,7 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
     argv.push_back(nullptr);
     pid_t pid = -1;
     const int error = posix_spawn(&pid, program.c_str(), setup.actions(), setup.attributes(), argv.data(), environ);
+    if (error == ENOMEM) throw std::bad_alloc();
     if (error != 0)
         throw_system_error(fmt::format("The program {} cannot be started (check that it is installed)", program),
                            error);

@@ -38,7 +38,8 @@ class ChildPool {
     ChildPool& operator=(const ChildPool&) = delete;
     ~ChildPool();
 
-    /// `tag` comes back with the result. `timeout_seconds` 0: none. Throws Error(io) if the program cannot be started.
+    /// `tag` comes back with the result. `timeout_seconds` 0: none. Throws Error(io) if the program cannot be started,
+    /// std::bad_alloc if there is no memory for it.
     void start(int tag, const std::string& program, const std::vector<std::string>& arguments, Bytes input,
                double timeout_seconds);
     std::size_t running() const;

@@ -67,7 +67,8 @@ class PartQueue {
         PartOutcome outcome;
     };
     /// Starts what can be started, and waits until a part is finished, at most `wait_seconds`: nothing then. Sleeps
-    /// while it waits. Throws Error(io) if a worker cannot be started. The destructor ends all workers.
+    /// while it waits. Throws Error(io) if a worker cannot be started, std::bad_alloc if there is no memory for it. The
+    /// destructor ends all workers.
     std::optional<Finished> step(double wait_seconds);
 
     /// Whether no part is under way or waits.

