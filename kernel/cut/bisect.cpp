@@ -21,10 +21,22 @@ constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is go
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
 
 // Bound of the steps of all minimum cuts of a node: well-shaped surfaces rarely need a hundredth of it, slivers would
-// take minutes. It halves from level to level, so that the levels together take no more than twice the first.
+// take minutes. It halves from level to level, so that the levels together take no more than twice the first, and does
+// not grow with surfaces of millions of facets, whose bands do not.
 std::int64_t flow_step_budget(NodeId node, std::int32_t facets) {
+    constexpr std::int64_t most_steps = 2'000'000'000;
     const int level = std::bit_width(static_cast<std::uint32_t>(node)) - 1;
-    return 5'000'000 + (3'000 * static_cast<std::int64_t>(facets) >> level);
+    return 5'000'000 + (std::min(3'000 * static_cast<std::int64_t>(facets), most_steps) >> level);
+}
+
+// Bound of the places of all tries of a node where an interface met the surface, a few of each try not counted. A plane
+// through hundreds of voids meets all of them that bulge through it: repairs do not end, and the next plane is no
+// better.
+constexpr std::int64_t ordinary_collisions = 64, most_collisions = 3'000;
+
+std::int64_t extra_collisions(const Attempt& attempt) {
+    if (attempt.record.refusal != Refusal::intersection) return 0;
+    return std::max<std::int64_t>(0, std::ssize(attempt.failed) - ordinary_collisions);
 }
 
 CutStrategy strategy_of(const CutTry& record) {
@@ -62,7 +74,7 @@ class Ladder {
     const CutPlace& place_;
     const CutOptions& options_;
     bool record_;
-    std::int64_t step_budget_;
+    std::int64_t step_budget_, collision_budget_ = most_collisions;
     std::unique_ptr<Attempt> best_;
     double best_goodness_ = least_goodness;
 };
@@ -73,6 +85,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
     for (std::int32_t repair = 0, soft = 0; repair <= rounds && soft < soft_rounds; ++repair) {
         options_.check_cancelled();
         auto attempt = std::make_unique<Attempt>(trial.attempt(repair));
+        collision_budget_ -= extra_collisions(*attempt);
         const double value = attempt->valid() ? goodness(attempt->record.quality, options_) : 0;
         const bool wanted = attempt->record.refusal == Refusal::none || value > best_goodness_;
         if (attempt->valid() && wanted) trial.complete(*attempt);
@@ -89,7 +102,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
                 best_ = std::move(attempt);
             }
         }
-        if (!more) return false;
+        if (!more || collision_budget_ <= 0) return false;
     }
     return false;
 }
@@ -107,7 +120,8 @@ std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
         for (PlaneSequence& sequence : sequences)
             for (std::size_t i = 0; const PlaneCandidate* candidate = sequence.at(i); ++i) {
                 if (candidate->inside_load_window != inside) continue;
-                if (step_budget_ <= 0 || (best_ && planes >= planes_before_soft)) return std::move(best_);
+                if (step_budget_ <= 0 || collision_budget_ <= 0 || (best_ && planes >= planes_before_soft))
+                    return std::move(best_);
                 ++planes;
                 if (try_plane(*candidate, tries)) return std::move(best_);
             }

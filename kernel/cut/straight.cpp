@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include <Eigen/Geometry>
 
 #include "core/check.h"
+#include "core/threads.h"
 #include "cut/contour.h"
 #include "cut/triangulation.h"
 #include "surface/intersections.h"
@@ -35,40 +37,76 @@ Plane coordinate_plane(int axis, double height) {
     return plane;
 }
 
-std::vector<double> sorted_coordinates(const Surface& surface, int axis) {
-    std::vector<double> x(surface.vertex_count());
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) x[v] = surface.point(v)[axis];
-    std::sort(x.begin(), x.end());
-    x.erase(std::unique(x.begin(), x.end()), x.end());
-    return x;
+struct Window {
+    double low, wanted, high;
+};
+
+// The coordinates of vertices along an axis: those within the window and the next on either side, each once, ascending,
+// and the least and largest of all.
+struct Heights {
+    std::vector<double> sorted;
+    double lowest = 0, highest = 0;
+};
+
+Heights heights_of(const Surface& surface, int axis, const Window& window) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double before = -infinity, after = infinity;
+    Heights heights{{}, infinity, -infinity};
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+        const double x = surface.point(v)[axis];
+        heights.lowest = std::min(heights.lowest, x);
+        heights.highest = std::max(heights.highest, x);
+        if (x < window.low)
+            before = std::max(before, x);
+        else if (x > window.high)
+            after = std::min(after, x);
+        else
+            heights.sorted.push_back(x);
+    }
+    if (before > -infinity) heights.sorted.push_back(before);
+    if (after < infinity) heights.sorted.push_back(after);
+    sort_on_threads(heights.sorted);
+    heights.sorted.erase(std::unique(heights.sorted.begin(), heights.sorted.end()), heights.sorted.end());
+    return heights;
 }
 
-// How many facets a plane across one axis crosses.
+// How many facets a plane across one axis crosses, within a window and up to the next vertices beside it.
 class CrossingCount {
  public:
-    CrossingCount(const Surface& surface, int axis) {
+    CrossingCount(const Surface& surface, int axis, const Window& window) : facets_(surface.facet_count()) {
         for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
             const Triangle t = surface.vertices(f);
             const auto [low, high] =
                 std::minmax({surface.point(t[0])[axis], surface.point(t[1])[axis], surface.point(t[2])[axis]});
-            low_.push_back(low);
-            high_.push_back(high);
+            low_.add(low, window);
+            high_.add(high, window);
         }
-        std::sort(low_.begin(), low_.end());
-        std::sort(high_.begin(), high_.end());
+        sort_on_threads(low_.within);
+        sort_on_threads(high_.within);
     }
     double share(double height) const {
-        const auto begun = std::lower_bound(low_.begin(), low_.end(), height) - low_.begin();
-        const auto ended = std::lower_bound(high_.begin(), high_.end(), height) - high_.begin();
-        return static_cast<double>(begun - ended) / static_cast<double>(low_.size());
+        return static_cast<double>(low_.below(height) - high_.below(height)) / static_cast<double>(facets_);
     }
 
  private:
-    std::vector<double> low_, high_;  // each sorted by itself
-};
+    // What lies beyond the window has no place among the heights that are asked for.
+    struct Ends {
+        std::int64_t before = 0;
+        std::vector<double> within;
 
-struct Window {
-    double low, wanted, high;
+        void add(double x, const Window& window) {
+            if (x < window.low)
+                ++before;
+            else if (x <= window.high)
+                within.push_back(x);
+        }
+        std::int64_t below(double height) const {
+            return before + (std::lower_bound(within.begin(), within.end(), height) - within.begin());
+        }
+    };
+
+    std::int32_t facets_;
+    Ends low_, high_;
 };
 
 Window load_window(const Surface& surface, int axis, double fraction, const CutOptions& options) {
@@ -92,14 +130,14 @@ struct RatedPlane {
 
 void rate_planes(const Surface& surface, int axis, double largest_extent, double fraction, const CutOptions& options,
                  std::vector<RatedPlane>& rated) {
-    const std::vector<double> x = sorted_coordinates(surface, axis);
-    const double extent = x.back() - x.front();
-    if (extent == 0) return;
     const Window window = load_window(surface, axis, fraction, options);
-    const CrossingCount crossing(surface, axis);
+    const Heights heights = heights_of(surface, axis, window);
+    const std::vector<double>& x = heights.sorted;
+    const double extent = heights.highest - heights.lowest;
+    if (extent == 0) return;
+    const CrossingCount crossing(surface, axis, window);
     const double half_window = std::max(window.high - window.low, wide_gap * extent) / 2;
     for (std::size_t i = 1; i < x.size(); ++i) {
-        if (x[i] < window.low || x[i - 1] > window.high) continue;
         const double margin = std::min(x[i] - x[i - 1], wide_gap * extent) / 2;
         // Rounding may exchange the two bounds, which std::clamp() does not allow.
         const double height = std::min(std::max(window.wanted, x[i - 1] + margin), x[i] - margin);

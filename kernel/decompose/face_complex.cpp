@@ -125,29 +125,26 @@ FaceComplex::Part FaceComplex::part(NodeId id) const {
     KERF_CHECK(faces_of_.contains(id));
     Part part;
     part.face = faces_of_.at(id);
-    std::vector<std::int32_t> own;  // vertices, ascending
-    for (const std::int32_t f : part.face) own.insert(own.end(), faces_[f].corners.begin(), faces_[f].corners.end());
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
-    std::vector<std::int32_t> number(own.size(), -1);
+    number_in_part_.resize(points_.size(), -1);
     for (const std::int32_t f : part.face) {
         const ComplexFace& face = faces_[f];
         Triangle t = face.owner[0] == id ? face.corners : turned(face.corners);
         for (std::int32_t& v : t) {
-            std::int32_t& own_number = number[std::lower_bound(own.begin(), own.end(), v) - own.begin()];
-            if (own_number < 0) {
-                own_number = static_cast<std::int32_t>(part.vertex.size());
+            std::int32_t& number = number_in_part_[v];
+            if (number < 0) {
+                number = static_cast<std::int32_t>(part.vertex.size());
                 part.vertex.push_back(v);
                 part.arrays.vertices.push_back(points_[v]);
                 part.arrays.vertex_key.push_back(vertex_key_[v]);
             }
-            v = own_number;
+            v = number;
         }
         part.arrays.facets.push_back(t);
         part.arrays.facet_key.push_back(face.key);
         part.arrays.patch.push_back(face.patch);
         part.untested.push_back(face.untested[face.owner[0] == id ? 0 : 1]);
     }
+    for (const std::int32_t v : part.vertex) number_in_part_[v] = -1;
     if (!touches_) return part;
     SeparatedSurface separated = separate_touching(std::move(part.arrays));
     part.arrays = std::move(separated.arrays);

@@ -38,7 +38,7 @@ class FaceComplex {
         std::vector<std::int32_t> face;
         std::vector<char> untested;  ///< per facet, as ComplexFace::untested
     };
-    /// `id` must be one of the parts. O(n log n), n: faces of the part.
+    /// `id` must be one of the parts. One call at a time. O(n), n: faces of the part, where no part touches itself.
     Part part(NodeId id) const;
 
     /// Replaces part `id` by 2 id and 2 id + 1. `whole` is what part(id) returned, `cut` a straight cut of its surface.
@@ -87,7 +87,8 @@ class FaceComplex {
     };
     std::vector<AtVertex> at_vertex_;  // also what has been at a vertex before it was split
     std::vector<std::int32_t> last_at_vertex_;
-    std::vector<std::pair<NodeId, Plane>> planes_;  // in the order of the cuts
+    mutable std::vector<std::int32_t> number_in_part_;  // per vertex, while a part is read; -1 otherwise
+    std::vector<std::pair<NodeId, Plane>> planes_;      // in the order of the cuts
     std::vector<DividedFacet> divided_facets_;
     bool touches_ = false;  // a part touches itself; cuts do not make others do so
 };

@@ -30,12 +30,13 @@ class StraightDivision {
     Decomposition take(LeafRange range);
 
  private:
-    void add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves);
+    // `part` as below.
+    void add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves, FaceComplex::Part part);
     RegionIndex region_of(NodeId leaf) const;
     // `part` is that of the complex, as it is now.
     void divide(NodeId id, const FaceComplex::Part& part);
     bool cut(TreeNode& node, const FaceComplex::Part& part);
-    double load(NodeId id) const;
+    double load(NodeId id, const SurfaceArrays& part) const;
 
     const DecomposeOptions& options_;
     CutListener* listener_;
@@ -46,15 +47,13 @@ class StraightDivision {
     std::vector<NodeId> leaves_;             // in the order of the tree
 };
 
-double StraightDivision::load(NodeId id) const {
-    const SurfaceArrays part = complex_.part(id).arrays;
+double StraightDivision::load(NodeId id, const SurfaceArrays& part) const {
     const LoadModel model = options_.cut_in(region_of(id)).bisected_load();
     return model.load(static_cast<double>(part.vertices.size()), static_cast<double>(part.facets.size()),
                       model.volume_of(part, enclosed_volume(part.vertices, part.facets)));
 }
 
-void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves) {
-    const FaceComplex::Part part = complex_.part(id);
+void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves, FaceComplex::Part part) {
     const Surface surface = separated_surface(part.arrays);
     TreeNode node = describe_node(id, first_leaf, leaves, surface, mass_properties(surface));
     node.region = region_of(id);
@@ -98,10 +97,12 @@ void StraightDivision::divide(NodeId id, const FaceComplex::Part& part) {
         return;
     }
     const auto [lower, upper] = children_of(id);
-    const std::int32_t below = leaves_below({load(lower), load(upper)}, node.leaves, options_.cut);
-    add_to_cut_hash(node, std::span(&below, 1));
-    add_child(lower, node.first_leaf, below);
-    add_child(upper, node.first_leaf + below, node.leaves - below);
+    FaceComplex::Part below = complex_.part(lower);
+    const std::int32_t leaves =
+        leaves_below({load(lower, below.arrays), load(upper, complex_.part(upper).arrays)}, node.leaves, options_.cut);
+    add_to_cut_hash(node, std::span(&leaves, 1));
+    add_child(lower, node.first_leaf, leaves, std::move(below));
+    add_child(upper, node.first_leaf + leaves, node.leaves - leaves, complex_.part(upper));
 }
 
 void StraightDivision::finish_interfaces() {
