@@ -1,6 +1,8 @@
 #include "run/told_plan.h"
 
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace kerf {
 
@@ -25,6 +27,7 @@ class PlanArchive {
         archive_(input.path, input.file_hash, input.vertices, input.facets, input.components, input.genus);
         archive_(input.volume, input.volume_error, input.area, input.largest_coordinate, input.diagonal);
         archive_(input.weld_tolerance, input.patch_names, input.patch_colours, input.notes, input.is_cad);
+        regions(input.regions);
     }
 
  private:
@@ -39,6 +42,13 @@ class PlanArchive {
         length(sizes.chord_error);
         archive_(sizes.max_volume, sizes.cells, sizes.fineness, sizes.inside, sizes.on, sizes.near, sizes.in_region);
         archive_(sizes.growth, sizes.segments_per_turn, sizes.cells_across);
+    }
+    void regions(std::vector<InputRegion>& regions) {
+        auto count = static_cast<std::uint64_t>(regions.size());
+        archive_(count);
+        regions.resize(count);
+        for (InputRegion& region : regions)
+            archive_(region.facets, region.components, region.volume, region.volume_error, region.area);
     }
     void found(std::optional<FoundSize>& found) {
         FoundSize size = found.value_or(FoundSize());

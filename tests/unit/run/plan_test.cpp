@@ -50,6 +50,9 @@ void expect_same(const PlanOfRank& a, const PlanOfRank& b) {
     EXPECT_EQ(a.plan.surface_nodes.points, b.plan.surface_nodes.points);
     EXPECT_EQ(a.input.file_hash, b.input.file_hash);
     EXPECT_EQ(a.input.patch_names, b.input.patch_names);
+    ASSERT_EQ(a.input.regions.size(), b.input.regions.size());
+    for (std::size_t r = 0; r < a.input.regions.size(); ++r)
+        EXPECT_EQ(a.input.regions[r].volume, b.input.regions[r].volume) << r;
     EXPECT_EQ(a.input.notes, b.input.notes);
     EXPECT_EQ(std::pair(a.input.facets, a.input.diagonal), std::pair(b.input.facets, b.input.diagonal));
     const bool has_regions = a.input.complex.region_count() > 1;
