@@ -22,6 +22,11 @@ bool is_beyond_numbers(const Diagnosis& diagnosis) {
                        [](const Defect& defect) { return defect.kind == DefectKind::absurd_magnitude; });
 }
 
+bool is_too_much_to_try(const CheckedSoup& checked) {
+    const std::int64_t crossings = checked.diagnosis.count(DefectKind::self_intersection);
+    return checked.soup.facets.size() > most_tried || crossings >= most_crossings_tried;
+}
+
 Remedy wrap_remedy(const Soup& soup) {
     try {
         return {RepairLevel::none, false, 0, estimated_wrap_distance(soup)};
@@ -38,7 +43,7 @@ std::optional<Remedy> find_remedy(const std::string& path, const InputOptions& o
     if (!checked.soup.sides.empty() || checked.soup.is_of_model || checked.soup.facets.empty()) return Remedy{};
     const RepairLevel needed = level_for(checked.diagnosis);
     const RepairPlan done = repair_plan_of(options);
-    if (checked.soup.facets.size() > most_tried) {
+    if (is_too_much_to_try(checked)) {
         const bool is_more = needed != RepairLevel::none && !has_all_steps(done, needed);
         return is_more ? Remedy{needed, false, 0, 0} : wrap_remedy(checked.soup);
     }

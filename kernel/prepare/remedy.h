@@ -1,6 +1,7 @@
 // What would make a surface that can be meshed of a file that has none.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -19,11 +20,12 @@ struct Remedy {
 
 /// Repairs a copy of the file by one level after another, from the least on, unless `options` ask for as
 /// much already, and checks it. None: coordinates are too large to compute with. Of surfaces of more facets
-/// than `most_tried`, only the kinds of defects decide. `checked`: of the file with `options`, not clean. Costs up to
-/// three times check_input() with repairs.
+/// than `most_tried`, or of so many crossings as `most_crossings_tried`, only the kinds of defects decide. `checked`:
+/// of the file with `options`, not clean. Costs up to three times check_input() with repairs.
 std::optional<Remedy> find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
                                   StageListener* listener = nullptr);
 
-inline constexpr std::size_t most_tried = 200'000;  ///< facets that find_remedy() repairs, some seconds
+inline constexpr std::size_t most_tried = 200'000;            ///< facets that find_remedy() repairs, some seconds
+inline constexpr std::int64_t most_crossings_tried = 10'000;  ///< pairs of facets; more take minutes to resolve
 
 }  // namespace kerf
