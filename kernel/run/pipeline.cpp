@@ -1,6 +1,6 @@
-// The first rank reads the input, and each node of the tree is cut by one rank, which passes halves on. The ranks talk to
-// match interfaces, to share the parts out, to number the vertices, and to report. Parts and meshes travel as files: from
-// the rank that cut them to the worker that takes them, and from there to their place.
+// The first rank reads the input, and each node of the tree is cut by one rank, which passes halves on. The ranks talk
+// to match interfaces, to share the parts out, to number the vertices, and to report. Parts and meshes travel as files:
+// from the rank that cut them to the worker that takes them, and from there to their place.
 #include "run/pipeline.h"
 
 #include <algorithm>
