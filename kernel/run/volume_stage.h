@@ -30,7 +30,6 @@ class VolumeStage {
           folder_(folder),
           plan_(plan),
           listener_(listener),
-          length_scale_(length_scale),
           own_{{}, PartQuality(length_scale), {}} {}
 
     /// The job of `part` waits in the folder when this returns, unless an interrupted run has finished it: then
@@ -59,7 +58,6 @@ class VolumeStage {
     RunFolder& folder_;
     const RunPlan& plan_;
     RunListener* listener_;
-    double length_scale_;
     MeshedParts own_;  // the parts that this rank has meshed; the sums are of those that it has found finished, too
 };
 
