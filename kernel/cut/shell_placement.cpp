@@ -82,8 +82,8 @@ bool may_misplace_shells(const Surface& surface, const Band& band, const std::ve
     KERF_CHECK(band.fits(surface) && fit(side, surface));
     if (shared.low <= -band.half_width || shared.high >= band.half_width) return true;
     const auto is_within = [&](std::int32_t facet) {
-        const SlabFacet reach = band.reach_of(surface, facet);
-        return contains(shared, reach.low, reach.high);
+        const SlabFacet own = band.reach_of(surface, facet);
+        return contains(shared, own.low, own.high);
     };
     std::vector<char> is_seen(band.facets.size(), 0);
     std::vector<std::int32_t> patch;  // of equal labels
