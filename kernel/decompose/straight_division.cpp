@@ -31,7 +31,7 @@ class StraightDivision {
 
  private:
     // `part` as below.
-    void add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves, FaceComplex::Part part);
+    void add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves, const FaceComplex::Part& part);
     RegionIndex region_of(NodeId leaf) const;
     // `part` is that of the complex, as it is now.
     void divide(NodeId id, const FaceComplex::Part& part);
@@ -53,7 +53,8 @@ double StraightDivision::load(NodeId id, const SurfaceArrays& part) const {
                       model.volume_of(part, enclosed_volume(part.vertices, part.facets)));
 }
 
-void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves, FaceComplex::Part part) {
+void StraightDivision::add_child(NodeId id, std::int32_t first_leaf, std::int32_t leaves,
+                                 const FaceComplex::Part& part) {
     const Surface surface = separated_surface(part.arrays);
     TreeNode node = describe_node(id, first_leaf, leaves, surface, mass_properties(surface));
     node.region = region_of(id);
@@ -97,11 +98,11 @@ void StraightDivision::divide(NodeId id, const FaceComplex::Part& part) {
         return;
     }
     const auto [lower, upper] = children_of(id);
-    FaceComplex::Part below = complex_.part(lower);
+    const FaceComplex::Part below = complex_.part(lower);
     const std::int32_t leaves =
         leaves_below({load(lower, below.arrays), load(upper, complex_.part(upper).arrays)}, node.leaves, options_.cut);
     add_to_cut_hash(node, std::span(&leaves, 1));
-    add_child(lower, node.first_leaf, leaves, std::move(below));
+    add_child(lower, node.first_leaf, leaves, below);
     add_child(upper, node.first_leaf + leaves, node.leaves - leaves, complex_.part(upper));
 }
 
