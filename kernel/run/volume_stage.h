@@ -26,11 +26,7 @@ class VolumeStage {
  public:
     /// `length_scale`: of the distributions of the quality.
     VolumeStage(Communicator& ranks, RunFolder& folder, const RunPlan& plan, double length_scale, RunListener* listener)
-        : ranks_(ranks),
-          folder_(folder),
-          plan_(plan),
-          listener_(listener),
-          own_{{}, PartQuality(length_scale), {}} {}
+        : ranks_(ranks), folder_(folder), plan_(plan), listener_(listener), own_{{}, PartQuality(length_scale), {}} {}
 
     /// The job of `part` waits in the folder when this returns, unless an interrupted run has finished it: then
     /// `part` gets its outcome. Throws Error(io).
