@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdlib>
 #include <new>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "parallel/failure_deadline.h"
+#include "parallel/patience.h"
 
 namespace kerf {
 
@@ -232,13 +231,12 @@ void MpiRanks::sum(std::span<std::uint64_t> words) {
 // Returns true when the message has left or arrived, false when a rank has left. Who waits for long leaves the
 // processor to others.
 bool MpiRanks::is_done(MPI_Request& request) const {
-    constexpr int looks_without_sleep = 1000;
-    for (int looks = 0, is_over = 0, has_rank_left = 0;; ++looks) {
+    int is_over = 0, has_rank_left = 0;
+    for (Patience patience;; patience.pause()) {
         check_mpi(MPI_Test(&request, &is_over, MPI_STATUS_IGNORE), "MPI_Test");
         if (is_over) return true;
         check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm_, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
         if (has_rank_left) return false;
-        if (looks > looks_without_sleep) std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
 }
 

@@ -17,6 +17,7 @@
 
 #include "core/check.h"
 #include "parallel/patience.h"
+#include "parallel/shares.h"
 #include "run/range_of_rank.h"
 
 namespace kerf {
@@ -176,7 +177,7 @@ void CutsOnRanks::hear(const CutNote& note) {
 // Ranks after this one wait for some of its leaves.
 void CutsOnRanks::tell_of_whole_part(const LeafRange& leaves) {
     for (std::int32_t leaf = range_.last; leaf < leaves.last;) {
-        const int rank = rank_of_item(leaf, options_.parts, ranks_);
+        const int rank = rank_in_range(options_.parts, leaf, ranks_);
         const std::int32_t end = std::min(leaves.last, range_of_rank(options_.parts, rank, ranks_).last);
         tell(rank, Kind::accounted, end - leaf);
         leaf = end;
@@ -233,7 +234,7 @@ bool CutsOnRanks::pass_on() {
         TravellingBranch leaving{half.branch, half.surface.arrays(), partners_of(half.surface)};
         half.surface = Surface();
         const Bytes message = to_bytes(std::exchange(leaving, {}));
-        ranks_.send(rank_of_item(half.branch.first_leaf, options_.parts, ranks_), message);
+        ranks_.send(rank_in_range(options_.parts, half.branch.first_leaf, ranks_), message);
     }
     return !halves.empty();
 }

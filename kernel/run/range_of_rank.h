@@ -15,9 +15,4 @@ inline LeafRange range_of_rank(std::int32_t count, const Communicator& ranks) {
     return range_of_rank(count, ranks.rank(), ranks);
 }
 
-/// The rank that has number `item` of them.
-inline int rank_of_item(std::int32_t item, std::int32_t count, const Communicator& ranks) {
-    return static_cast<int>(((item + std::int64_t{1}) * ranks.size() - 1) / count);
-}
-
 }  // namespace kerf

@@ -174,7 +174,7 @@ TEST(RangeOfRank, NamesTheRankOfEachItem) {
         for (const std::int32_t count : {1, 2, 6, 7, 8, 13, 1000, 2147483647}) {
             const LeafRange range = range_of_rank(count, ranks);
             for (const std::int32_t item : {0, count / 3, count / 2, count - 1})
-                EXPECT_EQ(range.contains(item), rank_of_item(item, count, ranks) == ranks.rank()) << count;
+                EXPECT_EQ(range.contains(item), rank_in_range(count, item, ranks) == ranks.rank()) << count;
         }
     });
 }
