@@ -56,15 +56,16 @@ void Session::Impl::show_checked() {
     std::erase(document_.notes, shown_note_);
     shown_note_ = state.note;
     if (!state.note.empty() && !is_set(document_.options, *advised_option(state.note))) add_note(state.note);
-    TreeRow* root = document_.tree.find(1);
-    if (document_.trace || !document_.folder.empty() || !root || !root->leaf()) return;
+    const TreeRow* uncut = document_.tree.find(1);
+    if (document_.trace || !document_.folder.empty() || !uncut || !uncut->leaf()) return;
     show_its_surface();
     if (!state.oriented) return;
     const OrientedSurface& oriented = *state.oriented;
-    root->vertices = oriented.vertices;
-    root->facets = oriented.facets;
-    root->volume = document_.volume = oriented.volume;
-    if (oriented.mass) describe_surface(oriented.vertices, oriented.facets, *oriented.mass, *root);
+    TreeRow& root = document_.tree.at(1);  // the tree may be a new one
+    root.vertices = oriented.vertices;
+    root.facets = oriented.facets;
+    root.volume = document_.volume = oriented.volume;
+    if (oriented.mass) describe_surface(oriented.vertices, oriented.facets, *oriented.mass, root);
     document_.region_names = oriented.region_names;
 }
 
