@@ -111,7 +111,7 @@ TEST(Mutation, MutationsOfAssetsNeverDoHarm) {
     std::vector<SurfaceFile> files;
     for (const char* name : {"hollow_box", "cube"})
         files.push_back({"asset.stl", test::bytes_of_file(test::asset_path(name))});
-    const unsigned seeds = test::in_slices() ? 6 : 60;
+    const unsigned seeds = test::in_slices() ? 6 : 24;
     check_mutations(files, seeds, false, outcomes);
     EXPECT_GT(outcomes.refused, seeds / 6);
     EXPECT_GT(outcomes.defective, seeds / 6);
