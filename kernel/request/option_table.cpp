@@ -121,7 +121,8 @@ constexpr OptionRow<InputOptions> input_rows[] = {
     {"keep-largest", "", option_group::input, "", "Keep only the connected component of the largest area.",
      place<&InputOptions::keep_largest>},
     {"voids", "", option_group::input, "",
-     "A shell inside another and turned like it: refused, or by parity a void. Default as-given.",
+     "A shell inside another one, turned the same way, may be a void or a second body: as-given refuses it, parity "
+     "takes it for a void. Default as-given.",
      [](InputOptions& o) -> OptionField::Value {
          return choice(o.voids, {"as-given", "parity"});
      }},
@@ -200,8 +201,8 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
     {"size-near", "", option_group::sizes, "NAME=H:D",
      "Edge length H up to the distance D from a patch, as NAME=H:D. Repeatable.", place<&SizeOptions::near>},
     {"growth", "", option_group::sizes, "G",
-     "Growth of edge lengths per distance; if given, from the edges of the surface, too. Default 0: 0.3 from "
-     "others.",
+     "How fast edges may lengthen away from where a size is asked for: by G for each unit of distance. If given, cells "
+     "grow inwards from the edges of the surface, too. Default 0: 0.3, and not from the surface.",
      place<&SizeOptions::growth>, true, size_range::growth},
     {"size-field", "", option_group::sizes, "FILE",
      "Mesh of tetrahedra, .vtu or .msh, with the edge length as a scalar at its nodes.",
