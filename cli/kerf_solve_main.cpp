@@ -114,7 +114,8 @@ std::optional<Answer> parse_solve_line(int argc, const char* const* argv, SolveL
         "mpirun -n P kerf solve ... shares the parts out among P ranks.",
         "kerf");
     use_help_text(app);
-    CLI::App* solve = app.add_subcommand("solve", "Displacements and stresses of a body under loads (docs/solve.md).");
+    CLI::App* solve =
+        app.add_subcommand("solve", "Displacements and stresses of a body under loads (docs/solvers.md).");
     app.require_subcommand(1);
     add_options(*solve, line);
     if (const auto answer = answer_before_parsing(app, argc, argv, version)) return answer;

@@ -55,7 +55,7 @@ class ClosedSurface {
 
 /// One thing that is wrong with a surface, or will give bad cells.
 struct SurfaceDefect {
-    std::string kind;                    ///< "open edge loop", ... (docs/output.md)
+    std::string kind;                    ///< "open edge loop", ... as kerf check names it
     std::string severity;                ///< "error", "repaired": before meshing, or "warning": cells may be bad there
     std::vector<std::int64_t> facets;    ///< numbers as the input has them, counted from 0
     std::vector<std::int64_t> vertices;  ///< likewise; of a loop in the order of going around

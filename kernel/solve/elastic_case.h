@@ -126,7 +126,7 @@ struct ElasticCase {
 /// Whether what is said for `of` (empty: for all cases) counts in the case.
 inline bool is_in_case(const std::string& of, const std::string& load_case) { return of.empty() || of == load_case; }
 
-/// Reads a file of TOML (docs/solve.md). Unknown tables and keys, wrong types, and values out of their ranges are
+/// Reads a file of TOML (docs/solvers.md). Unknown tables and keys, wrong types, and values out of their ranges are
 /// refused with the line and the list of what there is. Throws Error(io) for a file that cannot be read, else
 /// Error(usage).
 ElasticCase read_case(const std::string& path);

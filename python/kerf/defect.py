@@ -11,7 +11,7 @@ import numpy as np
 class Defect:
     """One thing that is wrong with a surface, or will give bad cells. str() of it is a sentence.
 
-    kind       "open edge loop", "self-intersection", "needle", ...: docs/output.md lists them
+    kind       "open edge loop", "self-intersection", "needle", ...; kerf check names them
     severity   "error": it cannot be meshed; "repaired": mended before meshing, without a change of the geometry;
                "warning": cells may be bad there
     text       what it is, where, and what to do about it

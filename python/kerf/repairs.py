@@ -12,7 +12,7 @@ import numpy as np
 class Repair:
     """One thing that a step of a repair has done, or refused to do. str() of it is a line.
 
-    step             "weld", "stitch", "holes", ...: docs/repair.md has all
+    step             "weld", "stitch", "holes", ...: docs/options.md has all
     what             what there was so often: "holes filled"
     count            how often
     done             False: it was left as it is

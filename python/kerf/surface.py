@@ -243,7 +243,7 @@ def repair(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLi
     surface    the path of a file, a Surface, or points (n, 3) with `triangles`, and their `patches` and `names`
     steps      "exact": points move only to part what touches; "near": points move within a bound, holes are filled;
                "full": what crosses is divided, too; or steps by name, as "weld,stitch,holes=200,bound=0.1%"
-               (docs/repair.md)
+               (docs/options.md)
     options    others of the surface: cap=True, thicken=0.2, scale, voids, ...
 
     What is clean stays as it is. Raises UsageError for steps, and InputError where something is left that keeps the

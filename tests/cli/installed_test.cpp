@@ -131,9 +131,9 @@ std::string build_consumer(const std::string& name, const std::string& tree, con
     return "";
 }
 
-// The program that docs/library.md shows.
+// The program that docs/developing.md shows.
 TEST_F(Installed, LibraryServesProgramsOfOthers) {
-    EXPECT_NE(test::bytes_of_file(KERF_SOURCE "/docs/library.md")
+    EXPECT_NE(test::bytes_of_file(KERF_SOURCE "/docs/developing.md")
                   .find(test::bytes_of_file(KERF_SOURCE "/tests/install/consumer/main.cpp")),
               std::string::npos);
     const ChildResult run = test::run_program(build_consumer("consumer", file("a copy"), file("consumer")), {});

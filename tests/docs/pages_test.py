@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What the pages say without being run: links and pictures lead somewhere, options and commands in the text exist, the
-README is short and leads to every page, and computed columns are right.
+README is short and leads to every page, the pages are few and short, and computed columns are right.
 
 pages_test.py SOURCE KERF
 """
@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 WORDS_OF_README = 900
+PAGES, WORDS_OF_PAGES = 10, 9000  # of docs, blocks and tables included
 
 OPTIONS_OF_OTHERS = {  # as the text has them
     "--bind-to": "mpirun",
@@ -68,9 +69,13 @@ def check_front(pages):
     words = len(pages.texts[readme].split())
     if words > WORDS_OF_README:
         yield f"README.md has {words} words; {WORDS_OF_README} are the limit"
+    docs = [path for path in pages.texts if pages.source / "docs" in path.parents]
+    words = sum(len(pages.texts[path].split()) for path in docs)
+    if len(docs) > PAGES or words > WORDS_OF_PAGES:
+        yield f"docs has {len(docs)} pages and {words} words; {PAGES} and {WORDS_OF_PAGES} are the limits"
     led_to = {file for _, file, _ in links(pages, readme)}
-    for path in pages.texts:
-        if path.parent == pages.source / "docs" and path not in led_to:
+    for path in docs:
+        if path not in led_to:
             yield f"README.md does not lead to {pages.name(path)}"
 
 
@@ -136,7 +141,7 @@ def check_versions(pages, kerf):
     version = text.split()[-1]
     for name, form in (("CHANGELOG.md", rf"^## {re.escape(version)} - "),
                        ("CITATION.cff", rf"^version: {re.escape(version)}$"),
-                       ("docs/promises.md", rf"prints `kerf {re.escape(version)}`")):
+                       ("docs/output.md", rf"prints `kerf {re.escape(version)}`")):
         if not re.search(form, (pages.source / name).read_text(), re.M):
             yield f"{name} does not speak of version {version}"
 
