@@ -3,8 +3,8 @@
 
 usage: readme.py [--json FILE] [--from FILE]
 
-The bearing cap with 3.5 million tetrahedra, as meshers.py measures it. The table takes the place of that below the
-line `<!-- figures: ./run bench readme -->`. With --from the figures of an earlier run are written again.
+The bearing cap with 3.5 million tetrahedra, as meshers.py measures it. The table takes the place of what lies between
+README's lines BEGIN and END. With --from the figures of an earlier run are written again.
 """
 
 import argparse
@@ -16,35 +16,39 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
-MARK = "<!-- figures: ./run bench readme -->\n"
+BEGIN, END = "<!-- figures: ./run bench readme -->\n", "<!-- end of figures -->\n"
 CASE = "bearing_cap_52k 3.5 M"
-NAMES = {"auto": "Kerf", "tetgen": "TetGen", "HXT raw": "gmsh HXT", "HXT optimised": "gmsh HXT, optimised"}
+COLUMNS = {"auto": "Kerf", "tetgen": "TetGen", "HXT raw": "gmsh HXT", "HXT optimised": "HXT, optimised"}
+ROWS = {
+    "tetrahedra": lambda result: f"{result['tets'] / 1e6:.2f} M",
+    "meshing, one core": lambda result: f"{result['seconds']:.1f} s",
+    "memory": lambda result: f"{result['peak_bytes'] / 1e6:,.0f} MB",
+    "smallest dihedral angle": lambda result: f"{result['dihedral_0']:.1f}°",
+    "1 % of the angles are below": lambda result: f"{result['dihedral_1']:.1f}°",
+}
 
 
-def row_of(result):
-    name = NAMES[result["mesher"]]
-    if "failure" in result:
-        return f"| {name} | {result['failure']} | | | | |"
-    return (f"| {name} | {result['tets'] / 1e6:.2f} M | {result['seconds']:.1f} s | {result['peak_bytes'] / 1e6:,.0f} MB "
-            f"| {result['dihedral_0']:.1f}° | {result['dihedral_1']:.1f}° |")
+def line_of(cells):
+    return f"| {' | '.join(cells)} |"
 
 
 def table_of(measured):
     case = next(case for case in measured["cases"] if case["case"] == CASE)
-    lines = ["| one core, one surface | tetrahedra | meshing | memory | smallest angle | 1 % are below |",
-             "|---|---|---|---|---|---|", *map(row_of, case["rows"])]
-    return "\n".join(lines) + f"\n\nMeasured on {measured['date']}, medians of {measured['repetitions']}."
+    results = {row["mesher"]: row for row in case["rows"]}
+    lines = [line_of([f"bearing cap, {case['facets']:,} facets", *COLUMNS.values(), "fTetWild"]),
+             "|---|" + "---:|" * (len(COLUMNS) + 1)]
+    for name, value in ROWS.items():
+        found = [results.get(mesher, {"failure": "not run"}) for mesher in COLUMNS]
+        lines.append(line_of([name, *(each.get("failure") or value(each) for each in found), "not run"]))
+    return "\n".join(lines) + f"\n\nMedians of {measured['repetitions']} on {measured['date']}.\n"
 
 
 def with_table(readme, table):
-    """README with another table: it ends with the paragraph behind it, which says when it was measured."""
-    before, mark, rest = readme.partition(MARK)
-    if not mark:
-        sys.exit(f"{README}: no line {MARK.strip()!r}, below which the table belongs")
-    paragraphs = rest.split("\n\n")
-    if paragraphs[0].startswith("|"):
-        paragraphs = paragraphs[2:]
-    return before + mark + "\n\n".join([table, *paragraphs]).replace("\n\n\n", "\n\n")
+    before, begin, rest = readme.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not end:
+        sys.exit(f"{README}: no lines {BEGIN.strip()!r} and {END.strip()!r}, between which the table belongs")
+    return before + begin + table + end + after
 
 
 def measure(file):
