@@ -1,0 +1,2 @@
+// What the page of kerf report uses of three.js; make_bundle.sh makes three.min.js of it.
+export {AmbientLight, BackSide, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, FrontSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, OrthographicCamera, Plane, PlaneGeometry, Quaternion, Raycaster, Scene, Vector2, Vector3, WebGLRenderer} from 'three';
