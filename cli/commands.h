@@ -12,13 +12,14 @@ namespace kerf {
 using AddCommand = void(CLI::App& kerf, int& exit_code);
 
 AddCommand add_check_command, add_decompose_command, add_export_command, add_help_command, add_merge_command,
-    add_mesh_command, add_quality_command, add_remesh_command, add_repair_command, add_verify_command, add_wrap_command;
+    add_mesh_command, add_quality_command, add_remesh_command, add_repair_command, add_report_command,
+    add_verify_command, add_wrap_command;
 
 /// In the order of the help.
 inline constexpr AddCommand* own_commands[] = {
     add_mesh_command,   add_decompose_command, add_check_command,   add_verify_command,
-    add_export_command, add_merge_command,     add_quality_command, add_repair_command,
-    add_remesh_command, add_wrap_command,      add_help_command,
+    add_export_command, add_merge_command,     add_quality_command, add_report_command,
+    add_repair_command, add_remesh_command,    add_wrap_command,    add_help_command,
 };
 
 }  // namespace kerf

@@ -150,6 +150,16 @@ std::string inflate_block(std::string_view block, std::size_t size, const std::s
     return content;
 }
 
+std::string deflate_block(std::string_view content) {
+    auto written = compressBound(static_cast<uLong>(content.size()));
+    std::string block(written, '\0');
+    if (compress2(reinterpret_cast<Bytef*>(block.data()), &written, reinterpret_cast<const Bytef*>(content.data()),
+                  static_cast<uLong>(content.size()), Z_BEST_COMPRESSION) != Z_OK)
+        throw std::bad_alloc();  // the only reason that is left
+    block.resize(written);
+    return block;
+}
+
 std::string name_in_archive(const std::string& path) {
     const std::filesystem::path file(path);
     const bool is_archive = file.extension() == ".gz" || file.extension() == ".zst";

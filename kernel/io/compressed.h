@@ -27,6 +27,9 @@ std::string decompress(std::string bytes, const std::string& path);
 /// a size that no such block can have, before memory is taken for it.
 std::string inflate_block(std::string_view block, std::size_t size, const std::string& path);
 
+/// One block of zlib's format, as small as it makes it; what inflate_block() takes.
+std::string deflate_block(std::string_view content);
+
 /// The name of what is in an archive: "part.poly" for "part.poly.gz" or "part.poly.zst"; other names as they are.
 std::string name_in_archive(const std::string& path);
 

@@ -77,8 +77,8 @@ std::vector<HelpPage> help_pages() {
         EXPECT_EQ(help.exit_code, 0) << command << ": " << help.log;
         pages.push_back({command, test::lines_of(test::output_of(help))});
     }
-    // kerf, mesh, decompose, check, verify, export, merge, quality, repair, remesh, wrap, help
-    constexpr std::size_t always = 12;
+    // kerf, mesh, decompose, check, verify, export, merge, quality, report, repair, remesh, wrap, help
+    constexpr std::size_t always = 13;
     EXPECT_EQ(pages.size(), always + (KERF_HAS_VIEWER ? 2 : 0) + (KERF_HAS_SOLVER ? 1 : 0));
     return pages;
 }

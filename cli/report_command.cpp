@@ -1,0 +1,66 @@
+// kerf report: a finished run as one page that can be sent by mail.
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "cli/answer.h"
+#include "cli/commands.h"
+#include "core/error.h"
+#include "html/report_page.h"
+#include "io/output_file.h"
+#include "io/standard_streams.h"
+
+namespace kerf {
+
+namespace {
+
+struct ReportRequest {
+    std::string folder;
+    std::string output;
+    bool quiet = false;
+};
+
+// A run's folder holds nothing else: a page in it would be in the way of the next run.
+void refuse_inside(const ReportRequest& request) {
+    if (!lies_inside(request.output, request.folder)) return;
+    throw Error(ErrorCode::io, fmt::format("{} would lie in the folder of the run, which would not be known as one of "
+                                           "Kerf's any more. Name a file beside it, as {}.html.",
+                                           request.output, request.folder));
+}
+
+std::string summary(const ReportPage& page, const std::string& output) {
+    const std::string coarser =
+        page.triangles == page.triangles_of_run
+            ? ""
+            : fmt::format(", of {} that the run has: the page's surface is coarser", page.triangles_of_run);
+    return fmt::format("kerf: {}: {} parts, {} boundary triangles{}, {:.1f} MB\n", output, page.parts, page.triangles,
+                       coarser, static_cast<double>(page.html.size()) * 1e-6);
+}
+
+int write_report(const ReportRequest& request) {
+    refuse_inside(request);
+    require_writable("--output", request.output);
+    const ReportPage page = report_page(request.folder);
+    write_output_file(request.output, page.html);
+    if (!request.quiet) tell(summary(page, request.output));
+    return 0;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& kerf, int& exit_code) {
+    const auto request = std::make_shared<ReportRequest>();
+    CLI::App* command =
+        kerf.add_subcommand("report", "Write a finished run as one page of HTML, with its surface to be turned.");
+    command->add_option("folder", request->folder, "Folder of the run.")->required()->type_name("DIR");
+    command
+        ->add_option("-o,--output", request->output,
+                     "The page: one file, which needs no network; any browser shows it.")
+        ->required()
+        ->type_name("FILE.html");
+    command->add_flag("-q,--quiet", request->quiet, "Print nothing but errors.");
+    command->callback([=, &exit_code] { exit_code = run_on_first_rank([&] { return write_report(*request); }); });
+}
+
+}  // namespace kerf

@@ -1,0 +1,198 @@
+// The page is assets/report/page.html with its style, its scripts, and two blocks of data: JSON, and the triangles
+// (html/packed_surface.h), compressed and as base64. No other file or address is named in it.
+#include "html/report_page.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "html/packed_surface.h"
+#include "html/page_files.h"
+#include "html/page_surface.h"
+#include "io/compressed.h"
+#include "io/file_bytes.h"
+#include "io/run_folder.h"
+#include "io/run_manifest.h"
+#include "part/vtu_reader.h"
+
+namespace kerf {
+
+namespace {
+
+namespace fs = std::filesystem;
+using PageJson = nlohmann::ordered_json;
+
+// Parts that a page shows have their surface in the folder; those that failed do not.
+void require_parts(const PageJson& report, const std::string& folder) {
+    if (report.at("exit_code") != static_cast<int>(ErrorCode::subdomain)) return;
+    std::string failed;
+    for (const PageJson& part : report.at("parts"))
+        if (part.at("tets") == 0)
+            failed += fmt::format("{}{}", failed.empty() ? "" : ", ", part.at("id").get<NodeId>());
+    throw Error(ErrorCode::io,
+                fmt::format("{} is a run with parts that could not be meshed: {}. The files in {}/failed say why; kerf "
+                            "mesh --resume {} tries them again.",
+                            folder, failed, folder, folder));
+}
+
+PageJson read_sealed_report(const std::string& folder) {
+    const std::string path = folder + "/report.json";
+    std::error_code ignored;
+    if (!fs::exists(path, ignored))
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is not a finished run: it holds no report.json. Name the folder that kerf mesh -o "
+                                "was given; a run that has not ended goes on by kerf mesh --resume {}.",
+                                folder, folder));
+    const std::string text = read_file(path);
+    if (!is_sealed(text))
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is not as Kerf has written it, so that nobody knows what of it is true. Copy the "
+                                "run again, or run kerf mesh again.",
+                                path));
+    return PageJson::parse(text);
+}
+
+template <std::size_t count>
+PageJson chosen(const PageJson& from, const std::array<const char*, count>& names) {
+    PageJson to = PageJson::object();
+    for (const char* name : names)
+        if (from.contains(name)) to[name] = from[name];
+    return to;
+}
+
+// What the page has no use for would be most of a large run's report.
+PageJson shortened(PageJson report) {
+    constexpr std::array of_node = {"id", "leaves", "faces", "volume", "cut"};
+    constexpr std::array of_part = {
+        "id",         "rank",   "tets", "vertices", "volume",  "surface_volume", "surface_faces", "interface_area",
+        "neighbours", "mesher", "way",  "attempts", "seconds", "peak_rss_bytes"};
+    for (PageJson& node : report.at("tree")) node = chosen(node, of_node);
+    for (PageJson& part : report.at("parts")) part = chosen(part, of_part);
+    std::string input = report.at("input").at("path");
+    report["input"]["path"] = input.substr(input.find_last_of('/') + 1);  // whose folders are nobody's business
+    for (const char* name : {"files", "report_hash"}) report.erase(name);
+    return report;
+}
+
+Box box_of_run(const PageJson& report, const std::string& folder) {
+    Box box;
+    for (const PageJson& part : report.at("parts"))
+        box.extend(
+            box_around(read_part(folder + "/parts/" + part_surface_file_name(part.at("id")), PartContent::vertices)
+                           .mesh.vertices));
+    return box;
+}
+
+struct ReadSurface {
+    PageSurface surface;
+    std::vector<std::string> patch_names, region_names;
+};
+
+ReadSurface read_surfaces(const PageJson& report, const std::string& folder, std::int64_t limit) {
+    ReadSurface read{PageSurface(box_of_run(report, folder), limit), {}, {}};
+    for (const PageJson& of_part : report.at("parts")) {
+        Part part = read_part(folder + "/parts/" + part_surface_file_name(of_part.at("id")), PartContent::surface);
+        read.surface.add(part);
+        read.patch_names = std::move(part.patch_names);
+        read.region_names = std::move(part.region_names);
+    }
+    return read;
+}
+
+// Triangles are sorted by what they have in common: [neighbour, patch, how many] for each run of them.
+PageJson groups_of(const PagePart& part) {
+    PageJson groups = PageJson::array();
+    for (const PageTriangle& t : part.triangles) {
+        if (groups.empty() || groups.back()[0] != t.neighbour || groups.back()[1] != t.patch)
+            groups.push_back({t.neighbour, t.patch, 0});
+        PageJson& count = groups.back()[2];
+        count = count.get<std::int64_t>() + 1;
+    }
+    return groups;
+}
+
+PageJson json_of(const ReadSurface& read) {
+    const PageSurface& surface = read.surface;
+    PageJson parts = PageJson::array();
+    for (const PagePart& part : surface.parts())
+        parts.push_back({{"id", part.id},
+                         {"region", part.region.value()},
+                         {"vertices", part.cells.size()},
+                         {"triangles", part.triangles.size()},
+                         {"groups", groups_of(part)}});
+    const Vec3& low = surface.low();
+    return {{"low", {low.x(), low.y(), low.z()}},
+            {"step", surface.step()},
+            {"joins", surface.joins()},
+            {"triangles", surface.triangles()},
+            {"triangles_of_run", surface.triangles_of_run()},
+            {"patches", read.patch_names},
+            {"regions", read.region_names},
+            {"parts", parts}};
+}
+
+// Text that ends no script and begins no comment of HTML.
+std::string as_script(const PageJson& json) {
+    std::string text;
+    for (const char c : json.dump(-1, ' ', false, PageJson::error_handler_t::replace))
+        text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+    return text;
+}
+
+std::string as_text(std::string_view name) {
+    std::string text;
+    for (const char c : name) text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
+    return text;
+}
+
+using Blanks = std::vector<std::pair<std::string_view, std::string>>;
+
+// The page with each {{name}} filled in. What fills one is not looked at again.
+std::string filled(std::string_view page, const Blanks& blanks) {
+    std::string text;
+    while (!page.empty()) {
+        const std::size_t begin = page.find("{{"), end = page.find("}}", begin);
+        text += page.substr(0, begin);
+        if (begin == page.npos) break;
+        const std::string_view name = page.substr(begin + 2, end - begin - 2);
+        text +=
+            std::find_if(blanks.begin(), blanks.end(), [&](const auto& blank) { return blank.first == name; })->second;
+        page.remove_prefix(end + 2);
+    }
+    return text;
+}
+
+}  // namespace
+
+ReportPage report_page(const std::string& folder, std::int64_t limit) {
+    try {
+        PageJson report = read_sealed_report(folder);
+        require_parts(report, folder);
+        const ReadSurface read = read_surfaces(report, folder, limit);
+        report = shortened(std::move(report));
+        const std::string title = report.at("input").at("path");
+        const PageJson data = {{"report", std::move(report)}, {"surface", json_of(read)}};
+        return {filled(page_files::page_html, {{"title", as_text(title)},
+                                               {"style", std::string(page_files::page_css)},
+                                               {"data", as_script(data)},
+                                               {"surface", base64(deflate_block(packed_surface(read.surface)))},
+                                               {"library", std::string(page_files::three_min_js)},
+                                               {"view", std::string(page_files::view_js)},
+                                               {"figures", std::string(page_files::figures_js)},
+                                               {"script", std::string(page_files::page_js)}}),
+                std::ssize(read.surface.parts()), read.surface.triangles(), read.surface.triangles_of_run()};
+    } catch (const nlohmann::json::exception& e) {
+        throw Error(ErrorCode::io, fmt::format("{}/report.json is not one of this version of Kerf: {}. Run kerf mesh "
+                                               "again.",
+                                               folder, e.what()));
+    }
+}
+
+}  // namespace kerf
