@@ -61,7 +61,7 @@ void time_first_picture() {
         const Stopwatch stopwatch;
         Driver driver;
         driver.app().open(asset_path("bearing_cap_52k"));
-        while (driver.drawn("surface").triangles == 0) {
+        while (driver.drawn(LayerKind::surface).triangles == 0) {
             driver.app().wait(0.01);
             driver.frame();
         }

@@ -221,11 +221,11 @@ view::Image Driver::picture() {
     return app_->picture();
 }
 
-view::DrawnLayer Driver::drawn(const std::string& begin_of_name) {
+view::DrawnLayer Driver::drawn(view::LayerKind kind, std::optional<NodeId> owner) {
     view::DrawnLayer sum;
     app_->paint();
     for (const view::DrawnLayer& layer : app_->drawn())
-        if (layer.name.starts_with(begin_of_name)) {
+        if (layer.kind == kind && owner.value_or(layer.owner) == layer.owner) {
             sum.triangles += layer.triangles;
             sum.segments += layer.segments;
             sum.points += layer.points;

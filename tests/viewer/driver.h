@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,8 +72,8 @@ class Driver {
 
     /// The picture as it is after settle().
     view::Image picture();
-    /// Numbers drawn, summed over the layers whose names begin so.
-    view::DrawnLayer drawn(const std::string& begin_of_name);
+    /// Numbers drawn, summed over the layers of a kind, or those of one owner.
+    view::DrawnLayer drawn(view::LayerKind kind, std::optional<NodeId> owner = {});
 
  private:
     view::ItemRect item(const std::string& label);

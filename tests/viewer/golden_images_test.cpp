@@ -80,8 +80,8 @@ TEST(RefusedTries, LookAsTheyShould) {
     driver.state().step = driver.app().steps()[1];
     ASSERT_EQ(driver.state().step.refused_try, 0);
     EXPECT_TRUE(is_golden("wing_in_box-refused", driver));
-    EXPECT_GT(driver.drawn("places").points, 0);
-    EXPECT_GT(driver.drawn("refused").segments, 0);
+    EXPECT_GT(driver.drawn(LayerKind::places).points, 0);
+    EXPECT_GT(driver.drawn(LayerKind::refused).segments, 0);
 }
 
 /// One body for all ways to look at it.

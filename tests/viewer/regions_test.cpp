@@ -57,7 +57,7 @@ class RegionsShown : public testing::Test {
         std::set<std::string> drawn;
         driver_->settle();
         for (const Layer& layer : driver_->app().scene().scene.layers)
-            if (layer.name.starts_with("part ")) drawn.insert(region_of_layer(layer));
+            if (layer.kind == LayerKind::part) drawn.insert(region_of_layer(layer));
         return drawn;
     }
 
@@ -146,7 +146,7 @@ TEST_F(RegionsShown, EachFacetIsDrawnOnceThroughGlassAndAsAWall) {
             std::map<Place, int> drawn;
             std::int64_t of_glass = 0;
             for (const Layer& layer : driver_->app().scene().scene.layers) {
-                if (!layer.name.starts_with("part ")) continue;
+                if (layer.kind != LayerKind::part) continue;
                 const bool is_glass = view::is_glass(state(), region_of_layer(layer));
                 EXPECT_EQ(layer.opacity < 1, is_glass);
                 if (!is_glass && !only_walls) continue;
@@ -170,7 +170,7 @@ TEST_F(RegionsShown, MoveAsWholes) {
         driver_->settle();
         std::map<std::string, std::set<std::array<float, 3>>> offsets;
         for (const Layer& layer : driver_->app().scene().scene.layers)
-            if (layer.name.starts_with("part ")) offsets[region_of_layer(layer)].insert(layer.ranges.front().offset);
+            if (layer.kind == LayerKind::part) offsets[region_of_layer(layer)].insert(layer.ranges.front().offset);
         ASSERT_EQ(offsets.size(), 2u);
         EXPECT_EQ(offsets["bone"].size() == 1, wholes);
         if (!wholes) continue;
@@ -263,7 +263,7 @@ TEST(SeveralFiles, TheirDefectsAreFlownTo) {
     EXPECT_EQ(driver.state().selection.place, defects.front().where);
     ASSERT_TRUE(driver.state().camera);
     EXPECT_EQ(driver.state().camera->target, defects.front().where);
-    EXPECT_GT(driver.drawn("defects").triangles, 0);
+    EXPECT_GT(driver.drawn(LayerKind::defects).triangles, 0);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ OuterFacets context_of(Driver& driver) {
             const std::array<float, 3>& p = corners[i].position;
             return Vec3(p[0], p[1], p[2]) / driver.app().scene().frame.scale;
         };
-        for (std::size_t i = 0; layer.name.starts_with("context") && i < corners.size(); i += 3)
+        for (std::size_t i = 0; layer.kind == LayerKind::context && i < corners.size(); i += 3)
             context.add(place(i), place(i + 1), place(i + 2));
     }
     return context;
@@ -191,16 +191,16 @@ TEST(Runs, TwoAreComparedUnderOneCamera) {
     driver.click("Run all");
     driver.await("five parts", [&] { return driver.document().tree.parts_below(1).size() == 5 && !session.busy(); });
     driver.settle();
-    EXPECT_EQ(driver.drawn("part").triangles > 0, true);
+    EXPECT_EQ(driver.drawn(LayerKind::part).triangles > 0, true);
     const Camera camera = driver.app().camera();
-    const auto second_triangles = driver.drawn("part").triangles;
+    const auto second_triangles = driver.drawn(LayerKind::part).triangles;
     driver.click("A");
     EXPECT_TRUE(session.shows_before());
     EXPECT_EQ(driver.document().tree.parts_below(1).size(), 3u);
     EXPECT_EQ(session.other_document()->tree.parts_below(1).size(), 5u);
     EXPECT_EQ(driver.app().camera(), camera);
     driver.settle();
-    EXPECT_LT(driver.drawn("part").triangles, second_triangles) << "fewer interfaces";
+    EXPECT_LT(driver.drawn(LayerKind::part).triangles, second_triangles) << "fewer interfaces";
     EXPECT_TRUE(session.failures().empty());
     for (const Document* document : {&driver.document(), session.other_document()}) {
         EXPECT_GE(document->cut_seconds, 0);
@@ -211,7 +211,7 @@ TEST(Runs, TwoAreComparedUnderOneCamera) {
     driver.key(key_of('B'));
     EXPECT_FALSE(session.shows_before());
     driver.settle();
-    EXPECT_EQ(driver.drawn("part").triangles, second_triangles);
+    EXPECT_EQ(driver.drawn(LayerKind::part).triangles, second_triangles);
 
     // A cut made again takes the place of the later run, and what it was made of can be seen with all its cells.
     driver.click("Re-run cut of node 1");
@@ -221,7 +221,7 @@ TEST(Runs, TwoAreComparedUnderOneCamera) {
     driver.click("A");
     driver.settle();
     EXPECT_EQ(driver.document().tree.parts_below(1).size(), 5u);
-    EXPECT_EQ(driver.drawn("part").triangles, second_triangles);
+    EXPECT_EQ(driver.drawn(LayerKind::part).triangles, second_triangles);
     EXPECT_TRUE(driver.document().histograms[0]);
 }
 

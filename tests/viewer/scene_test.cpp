@@ -181,11 +181,11 @@ TEST(Explosion, SistersPartByTheirCut) {
 void expect_edges(Driver& driver, const Step& step, const std::vector<SurfaceEdge>& edges) {
     const auto surface = driver.app().session().surface(driver.state().node);
     const BuiltScene& built = driver.app().scene();
-    const Layer* layer = built.scene.find(name(step));
+    const Layer* layer = built.scene.find(layer_of(step.stage));
     ASSERT_TRUE(surface && layer) << name(step);
     const std::vector<Segment>& drawn = layer->geometry->segments;
     ASSERT_EQ(drawn.size(), edges.size()) << name(step);
-    EXPECT_EQ(driver.drawn(name(step)).segments, std::ssize(edges)) << name(step);
+    EXPECT_EQ(driver.drawn(layer_of(step.stage)).segments, std::ssize(edges)) << name(step);
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const auto end = [&](std::size_t k) {
             return built.frame.draw(surface->vertices[static_cast<std::size_t>(edges[i][k])]);
@@ -202,7 +202,7 @@ void expect_numbers_of_the_cuts(Driver& driver) {
         driver.state().node = row.id;
         driver.state().step = {};
         driver.settle();
-        EXPECT_EQ(driver.drawn("surface").triangles, row.facets);
+        EXPECT_EQ(driver.drawn(LayerKind::surface).triangles, row.facets);
         const Cut* cut = document.trace->find(row.id);
         if (!cut) continue;
         for (const Step& step : steps_of(document, row.id)) {
@@ -224,19 +224,19 @@ void expect_numbers_of_the_cuts(Driver& driver) {
                     expect_edges(driver, step, cut->stages.multiple_paths_removed);
                     break;
                 case Stage::contour:
-                    EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges) << where;
+                    EXPECT_EQ(driver.drawn(LayerKind::contour).segments, cut->contour_edges) << where;
                     break;
                 case Stage::projected:
-                    EXPECT_EQ(driver.drawn("projected").segments, cut->contour_edges) << where;
+                    EXPECT_EQ(driver.drawn(LayerKind::projected).segments, cut->contour_edges) << where;
                     break;
                 case Stage::triangulation:
-                    EXPECT_EQ(driver.drawn("triangulation").triangles, interface) << where;
+                    EXPECT_EQ(driver.drawn(LayerKind::triangulation).triangles, interface) << where;
                     break;
                 case Stage::interface:
-                    EXPECT_EQ(driver.drawn("interface").triangles, interface) << where;
+                    EXPECT_EQ(driver.drawn(LayerKind::interface).triangles, interface) << where;
                     break;
                 case Stage::split:
-                    EXPECT_EQ(driver.drawn("half").triangles, row.facets + 2 * interface) << where;
+                    EXPECT_EQ(driver.drawn(LayerKind::half).triangles, row.facets + 2 * interface) << where;
                     break;
                 default:
                     break;
@@ -256,7 +256,7 @@ TEST(Layers, HaveTheNumbersOfTheCut) {
     driver.state().node = 1;
     driver.state().step = {Stage::tetrahedra, -1};
     driver.settle();
-    EXPECT_EQ(driver.drawn("part").triangles, part_facets);
+    EXPECT_EQ(driver.drawn(LayerKind::part).triangles, part_facets);
 }
 
 // Here multiple paths are removed, and each stage shows its own edges.

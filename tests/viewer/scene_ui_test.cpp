@@ -85,8 +85,8 @@ TEST(SceneUi, AFlightToADefectEndsBeforeIt) {
     EXPECT_LT(driver.app().camera().back().z(), -0.4) << "the lower side is seen from below";
     EXPECT_EQ(driver.app().camera().target, defects[0].where);
     driver.settle();
-    EXPECT_GE(driver.drawn("selection").segments, std::ssize(defects[0].facets)) << "its facets are outlined";
-    EXPECT_TRUE(driver.app().scene().scene.find("selection")->shines_through);
+    EXPECT_GE(driver.drawn(LayerKind::selection).segments, std::ssize(defects[0].facets)) << "its facets are outlined";
+    EXPECT_TRUE(driver.app().scene().scene.find(LayerKind::selection)->shines_through);
     EXPECT_NE(driver.app().facts().selection.find("open edge"), std::string::npos);
 
     // A place that is seen already does not turn the picture; keys go on in the list, and from it.
@@ -219,13 +219,13 @@ TEST(SceneUi, AFilterMovesNothing) {
     EXPECT_EQ(top_of(driver, "Worst cells"), before);
 
     // Where the few cells lie is seen by the outline of the body.
-    EXPECT_GT(driver.drawn("outline").segments, 0);
-    EXPECT_GT(driver.drawn("cells").triangles, 0);
+    EXPECT_GT(driver.drawn(LayerKind::outline).segments, 0);
+    EXPECT_GT(driver.drawn(LayerKind::cells).triangles, 0);
     driver.click("Clear filter");
     EXPECT_FALSE(state.filter);
     EXPECT_EQ(top_of(driver, "Worst cells"), before);
     driver.settle();
-    EXPECT_EQ(driver.drawn("outline").segments, 0);
+    EXPECT_EQ(driver.drawn(LayerKind::outline).segments, 0);
 }
 
 TEST(SceneUi, TheColourBarCanBeDragged) {
@@ -353,7 +353,7 @@ TEST(SceneUi, NoGapShowsTheBackground) {
         }
     EXPECT_GT(body, 10000);
     EXPECT_LT(holes, body / 1000) << "of " << body;
-    EXPECT_GT(driver.drawn("cells").triangles, 0);
+    EXPECT_GT(driver.drawn(LayerKind::cells).triangles, 0);
 }
 
 // An inner cell at the interface, its neighbours in both parts, and nothing else.
@@ -383,15 +383,15 @@ TEST(SceneUi, ACellAndItsNeighbours) {
     ASSERT_GE(cell, 0);
     state.selection = {Selection::Kind::cell, 2, cell, Vec3::Zero()};
     driver.settle();
-    EXPECT_EQ(driver.drawn("selected cell").triangles, 4);
-    EXPECT_LT(driver.app().scene().scene.find("part 2")->opacity, 1) << "it is seen through the others";
-    EXPECT_LT(driver.app().scene().scene.find("part 3")->opacity, 1);
+    EXPECT_EQ(driver.drawn(LayerKind::selected_cell).triangles, 4);
+    EXPECT_LT(driver.app().scene().scene.find(LayerKind::part, 2)->opacity, 1) << "it is seen through the others";
+    EXPECT_LT(driver.app().scene().scene.find(LayerKind::part, 3)->opacity, 1);
 
     driver.click("Neighbours");
     EXPECT_TRUE(state.neighbours);
     driver.settle();
-    EXPECT_EQ(driver.drawn("part").triangles, 0);
-    EXPECT_GT(driver.drawn("outline").segments, 0);
+    EXPECT_EQ(driver.drawn(LayerKind::part).triangles, 0);
+    EXPECT_GT(driver.drawn(LayerKind::outline).segments, 0);
     std::set<std::int64_t> corners;
     for (const std::int32_t v : own->tets[static_cast<std::size_t>(cell)])
         corners.insert(own->vertex_number[static_cast<std::size_t>(v)]);
@@ -408,14 +408,14 @@ TEST(SceneUi, ACellAndItsNeighbours) {
         return faces;
     };
     EXPECT_GT(faces_of_ring(*other), 0);
-    EXPECT_EQ(driver.drawn("cells 2").triangles, faces_of_ring(*own));
-    EXPECT_EQ(driver.drawn("cells 3").triangles, faces_of_ring(*other));
+    EXPECT_EQ(driver.drawn(LayerKind::cells, 2).triangles, faces_of_ring(*own));
+    EXPECT_EQ(driver.drawn(LayerKind::cells, 3).triangles, faces_of_ring(*other));
     driver.key(key_of('N'));
     EXPECT_FALSE(state.neighbours);
     driver.key(key_escape);
     driver.settle();
-    EXPECT_EQ(driver.drawn("selected cell").triangles, 0);
-    EXPECT_EQ(driver.app().scene().scene.find("part 2")->opacity, 1);
+    EXPECT_EQ(driver.drawn(LayerKind::selected_cell).triangles, 0);
+    EXPECT_EQ(driver.app().scene().scene.find(LayerKind::part, 2)->opacity, 1);
 }
 
 TEST(SceneUi, KeysGoThroughTheWorstCells) {
@@ -453,7 +453,7 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
         at = next;
         driver.settle();
         EXPECT_EQ(state.selection.index, (*worst)[at].cell);
-        EXPECT_EQ(driver.drawn("selected cell").triangles, at_surface ? 0 : 4);
+        EXPECT_EQ(driver.drawn(LayerKind::selected_cell).triangles, at_surface ? 0 : 4);
     }
     const Vec3 back = driver.app().camera().back();
     EXPECT_LT((seen_from((*worst)[at], back).value_or(Vec3::Zero()) - back).norm(), 1e-9);

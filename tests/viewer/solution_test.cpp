@@ -111,7 +111,7 @@ TEST_F(SolvedCube, IsolinesAreWhereTheirValuesAre) {
     EXPECT_GT(lines, 100);
     state.isolines = false;
     driver_->settle();
-    EXPECT_EQ(driver_->drawn("isolines").segments, 0);
+    EXPECT_EQ(driver_->drawn(LayerKind::isolines).segments, 0);
 }
 
 // Colours end where nearly all values do; the legend says how far they go.

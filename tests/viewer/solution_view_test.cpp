@@ -77,7 +77,7 @@ TEST_F(SolvedCubeLookedAt, TheLeastAndTheLargestValueAreMarkedWhereTheyAre) {
             EXPECT_EQ(marked[1].value, scene().legend.extremes->high);
             if (explode > 0) continue;  // parts have moved
             for (const PlacedValue& one : marked) EXPECT_NEAR(one.place.x(), one.value, 1e-5);
-            EXPECT_EQ(driver_->drawn("extremes").points, 2);
+            EXPECT_EQ(driver_->drawn(LayerKind::extremes).points, 2);
         }
     state.explode = 0;
     state.clip.on = false;
@@ -287,7 +287,7 @@ TEST_F(SolvedCubeLookedAt, ArrowsAreAsLongAsDisplacements) {
     for (const int load_case : {0, 2}) {
         state.load_case = load_case;
         driver_->settle();
-        const Layer* layer = scene().scene.find("vectors");
+        const Layer* layer = scene().scene.find(LayerKind::vectors);
         ASSERT_TRUE(layer);
         const std::vector<Segment>& lines = layer->geometry->segments;
         ASSERT_GT(lines.size(), 100u);

@@ -225,8 +225,8 @@ TEST(RefusedTry, PlacesAreFlownToAndPairsDrawn) {
         }
     ASSERT_GT(pairs, 1) << "choose an asset with a try that was refused for an intersection";
     driver.settle();
-    EXPECT_EQ(driver.drawn("colliding").triangles, pairs);
-    EXPECT_EQ(driver.drawn("collided").triangles, pairs);
+    EXPECT_EQ(driver.drawn(LayerKind::colliding).triangles, pairs);
+    EXPECT_EQ(driver.drawn(LayerKind::collided).triangles, pairs);
     const std::vector<FailurePlace> places = failure_places(driver.document(), state.node, state.step);
     ASSERT_EQ(std::ssize(places), pairs);
     EXPECT_FALSE(driver.offers("previous place"));

@@ -48,8 +48,8 @@ TEST(Ui, ASession) {
                  [&] { return driver.document().tree.parts_below(1).size() == 4 && !driver.app().session().busy(); });
     const Image opened = driver.picture();
     EXPECT_GT(changed(empty, opened), 0.1) << "the body, and the tree beside it";
-    EXPECT_EQ(driver.drawn("surface").triangles, 3786);
-    EXPECT_EQ(driver.drawn("axes").segments, 3);
+    EXPECT_EQ(driver.drawn(LayerKind::surface).triangles, 3786);
+    EXPECT_EQ(driver.drawn(LayerKind::axes).segments, 3);
 
     // Node 3, smoothed contour, by the tree and the timeline.
     driver.click("node 3");
@@ -60,8 +60,8 @@ TEST(Ui, ASession) {
     EXPECT_GT(changed(opened, contour), 0.05) << "a node instead of the whole, behind glass";
     const Cut* cut = driver.document().trace->find(3);
     ASSERT_TRUE(cut);
-    EXPECT_EQ(driver.drawn("contour").segments, cut->contour_edges);
-    EXPECT_GT(driver.drawn("context").triangles, 0);
+    EXPECT_EQ(driver.drawn(LayerKind::contour).segments, cut->contour_edges);
+    EXPECT_GT(driver.drawn(LayerKind::context).triangles, 0);
 
     // The same by keys; nothing is made twice.
     driver.key(key_left);
@@ -85,7 +85,7 @@ TEST(Ui, ASession) {
     EXPECT_TRUE(state.clip.on);
     const Image clipped = driver.picture();
     EXPECT_GT(changed(tetrahedra, clipped), 0.05) << "half of the body is gone";
-    EXPECT_GT(driver.drawn("cells").triangles, 0);
+    EXPECT_GT(driver.drawn(LayerKind::cells).triangles, 0);
     driver.click("Snap to cut of node 1");
     const TreeRow& root = *driver.document().tree.find(1);
     EXPECT_LT((state.clip.normal - root.plane()->normal).norm(), 1e-12);
@@ -113,7 +113,7 @@ TEST(Ui, ASession) {
     ASSERT_EQ(state.selection.kind, Selection::Kind::cell);
     driver.settle();
     EXPECT_NE(driver.app().facts().selection.find("cell " + std::to_string(state.selection.index)), std::string::npos);
-    EXPECT_EQ(driver.drawn("selection").segments, 6);
+    EXPECT_EQ(driver.drawn(LayerKind::selection).segments, 6);
     driver.click("Copy");
     EXPECT_EQ(ImGui::GetClipboardText(), driver.app().facts().selection);
     EXPECT_GT(changed(exploded, driver.picture()), 0.002) << "the outlined cell, and what is said of it";
@@ -156,7 +156,7 @@ TEST(Ui, ShowsSomeCellsAndTheWorst) {
     EXPECT_EQ(state.filter->high,
               histogram.edges[static_cast<std::size_t>(first) + static_cast<std::size_t>(middle) + 1]);
     driver.settle();
-    EXPECT_GT(driver.drawn("cells").triangles, 0);
+    EXPECT_GT(driver.drawn(LayerKind::cells).triangles, 0);
     driver.click("Clear filter");
     EXPECT_FALSE(state.filter);
 
@@ -179,7 +179,7 @@ TEST(Ui, HidesAndIsolatesFromTheTree) {
     state.step = {Stage::split, -1};
     const auto drawn_halves = [&] {
         driver.settle();
-        return std::pair(driver.drawn("half 2").triangles, driver.drawn("half 3").triangles);
+        return std::pair(driver.drawn(LayerKind::half, 2).triangles, driver.drawn(LayerKind::half, 3).triangles);
     };
     const std::int64_t below = driver.document().tree.find(2)->facets, above = driver.document().tree.find(3)->facets;
     EXPECT_EQ(drawn_halves(), std::pair(below, above));
@@ -264,7 +264,7 @@ TEST(Ui, MouseMovesTheCamera) {
     // The eye comes closer to the surface, but never goes through it.
     for (int i = 0; i < 60; ++i) driver.wheel(x, y, 1);
     EXPECT_LT(driver.app().camera().height, panned.height / 100);
-    EXPECT_GT(driver.drawn("surface").triangles, 0);
+    EXPECT_GT(driver.drawn(LayerKind::surface).triangles, 0);
     driver.state().selection = {};
     driver.click_at(x, y);
     EXPECT_EQ(driver.state().selection.kind, Selection::Kind::facet) << "still before the surface";
@@ -388,14 +388,14 @@ TEST(Ui, RemeshesTheSurfaceAndShowsBoth) {
     EXPECT_EQ(driver.document().options.remeshing, Remeshing::always);
     EXPECT_TRUE(driver.document().notes.empty());
     driver.settle();
-    EXPECT_GT(driver.drawn("surface").triangles, 2 * std::ssize(prism.facets));
+    EXPECT_GT(driver.drawn(LayerKind::surface).triangles, 2 * std::ssize(prism.facets));
     driver.click("step before-remeshing");
     driver.settle();
-    EXPECT_EQ(driver.drawn("file surface").triangles, std::ssize(prism.facets));
-    EXPECT_EQ(driver.drawn("surface").triangles, 0);
+    EXPECT_EQ(driver.drawn(LayerKind::file_surface).triangles, std::ssize(prism.facets));
+    EXPECT_EQ(driver.drawn(LayerKind::surface).triangles, 0);
     driver.click("Features");
     driver.settle();
-    EXPECT_EQ(driver.drawn("features").segments, 2 * 24);
+    EXPECT_EQ(driver.drawn(LayerKind::features).segments, 2 * 24);
     driver.state().color = ColorBy::deviation;
     driver.settle();
     ASSERT_TRUE(driver.app().facts().values);
@@ -423,7 +423,7 @@ TEST(Ui, CancelsARun) {
     EXPECT_NE(driver.document().progress.message.find("cancel"), std::string::npos)
         << driver.document().progress.message;
     driver.settle();
-    EXPECT_GT(driver.drawn("surface").triangles, 0) << "the surface is still there";
+    EXPECT_GT(driver.drawn(LayerKind::surface).triangles, 0) << "the surface is still there";
 }
 
 TEST(Ui, PlaysThroughTheSteps) {

@@ -20,9 +20,10 @@ bool contains(const Rectangle& r, const ImVec2& p) {
     return p.x >= r.x && p.y >= r.y && p.x < r.x + r.width && p.y < r.y + r.height;
 }
 
-bool is_of_cells(const std::string& layer) { return layer.starts_with("cells ") || layer.starts_with("section "); }
-bool is_of_facets(const std::string& layer) {
-    return layer == "surface" || layer == "file surface" || layer.starts_with("half ") || layer.starts_with("part ");
+bool is_of_cells(LayerKind kind) { return kind == LayerKind::cells || kind == LayerKind::section; }
+bool is_of_facets(LayerKind kind) {
+    return kind == LayerKind::surface || kind == LayerKind::file_surface || kind == LayerKind::half ||
+           kind == LayerKind::part;
 }
 
 }  // namespace
@@ -139,7 +140,7 @@ void App::zoom(float x, float y, float notches) {
 
 // Where it is on the picture, parts pulled apart.
 Vec3 App::seen_point(const PickHit& hit) const {
-    const std::array<float, 3>& offset = built_.scene.find(hit.layer)->ranges[hit.range].offset;
+    const std::array<float, 3>& offset = built_.scene.layers[hit.layer].ranges[hit.range].offset;
     const Eigen::Vector3f moved = hit.point + Eigen::Vector3f(offset[0], offset[1], offset[2]);
     return built_.frame.to_file(moved.cast<double>());
 }
@@ -158,8 +159,9 @@ void App::take_click(float x, float y, bool center) {
     state_.selection = {};
     if (!found) return;
     const Vec3 point = built_.frame.to_file(found->rest.cast<double>());  // where vertices have their places
-    if (is_of_cells(found->layer) || is_of_facets(found->layer)) {
-        unresolved_ = Hit{is_of_cells(found->layer), found->owner, found->element, point};
+    const LayerKind kind = built_.scene.layers[found->layer].kind;
+    if (is_of_cells(kind) || is_of_facets(kind)) {
+        unresolved_ = Hit{is_of_cells(kind), found->owner, found->element, point};
         resolve_click();
     } else {
         state_.selection.kind = Selection::Kind::place;

@@ -73,9 +73,11 @@ void set_value(const Layer& layer, PickHit& hit) {
     if (!geometry.rest.empty()) hit.rest = rest.cast<float>();
 }
 
-PickHit describe(const Layer& layer, std::uint32_t primitive, std::uint32_t range, const Projection& pixel) {
+PickHit describe(const Scene& scene, std::size_t number, std::uint32_t primitive, std::uint32_t range,
+                 const Projection& pixel) {
+    const Layer& layer = scene.layers[number];
     PickHit hit;
-    hit.layer = layer.name;
+    hit.layer = number;
     hit.owner = layer.ranges[range].owner;
     hit.range = range;
     hit.primitive = static_cast<std::int32_t>(primitive);
@@ -135,7 +137,7 @@ std::optional<PickHit> Picker::pick(const Scene& scene, const Projection& projec
     const Projection pixel = narrow_to_pixel(projection, x, y);
     const std::vector<GLuint> id = draw(scene, pixel, cache, triangles, strokes);
     if (id[0] == 0) return std::nullopt;
-    return describe(scene.layers[id[0] - 1], id[1], id[2], pixel);
+    return describe(scene, id[0] - 1, id[1], id[2], pixel);
 }
 
 std::vector<GLuint> Picker::ids(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,

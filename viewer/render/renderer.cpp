@@ -44,7 +44,7 @@ bool has_strokes(const Layer& layer) {
 }
 
 DrawnLayer count(const Layer& layer) {
-    DrawnLayer drawn{.name = layer.name};
+    DrawnLayer drawn{.kind = layer.kind, .owner = layer.owner};
     if (!layer.geometry) return drawn;
     std::int64_t primitives = 0;
     for (const Range& range : layer.ranges) primitives += range.count;

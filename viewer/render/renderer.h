@@ -22,7 +22,7 @@ struct Gl;
 
 /// A primitive under a pixel.
 struct PickHit {
-    std::string layer;
+    std::size_t layer = 0;       ///< its number in the scene
     NodeId owner = 0;            ///< of the range
     std::uint32_t range = 0;     ///< index in Layer::ranges
     std::int32_t primitive = 0;  ///< number in the geometry, not in the range
@@ -34,7 +34,8 @@ struct PickHit {
 
 /// What a layer has drawn.
 struct DrawnLayer {
-    std::string name;
+    LayerKind kind = LayerKind::surface;
+    NodeId owner = 0;
     std::int64_t triangles = 0, segments = 0, points = 0;
 };
 

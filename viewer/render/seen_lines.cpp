@@ -2,22 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include <Eigen/Dense>
 
 namespace kerf::view {
 
 namespace {
-
-constexpr std::string_view lines_of = "isolines of ";
-
-// The number of the layer + 1; 0: there is none.
-std::uint32_t number_of_layer(const Scene& scene, std::string_view name) {
-    const auto found =
-        std::find_if(scene.layers.begin(), scene.layers.end(), [&](const Layer& layer) { return layer.name == name; });
-    return found == scene.layers.end() ? 0 : static_cast<std::uint32_t>(found - scene.layers.begin()) + 1;
-}
 
 class SeenLines {
  public:
@@ -73,11 +63,8 @@ class SeenLines {
 std::vector<SeenSegment> seen_lines(const Scene& scene, const Projection& projection,
                                     std::span<const std::uint32_t> ids) {
     SeenLines lines(projection, ids);
-    for (const Layer& layer : scene.layers) {
-        if (!layer.geometry || layer.geometry->origins.empty() || !layer.name.starts_with(lines_of)) continue;
-        if (const std::uint32_t surface = number_of_layer(scene, std::string_view(layer.name).substr(lines_of.size())))
-            lines.add(layer, surface);
-    }
+    for (const Layer& layer : scene.layers)
+        if (layer.lies_on >= 0) lines.add(layer, static_cast<std::uint32_t>(layer.lies_on) + 1);
     return std::move(lines.seen);
 }
 

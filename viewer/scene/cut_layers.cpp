@@ -67,7 +67,7 @@ void SceneBuild::add_axes(const TreeRow& row) {
         const Vec3 reach = 2 * std::sqrt(std::max(variance, 0.0)) * row.axes.col(k);
         ends.push_back({*row.centroid - reach, *row.centroid + reach});
     }
-    Layer& layer = add_lines("axes", ends, colors_.axes[0], contour_pixels);
+    Layer& layer = add_lines(LayerKind::axes, ends, colors_.axes[0], contour_pixels);
     const Range all = layer.ranges.front();
     layer.ranges.clear();
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ void SceneBuild::add_axes(const TreeRow& row) {
         range.color = colors_.axes[k];
         layer.ranges.push_back(range);
     }
-    add_points("centre", {*row.centroid}, colors_.contour, 11);
+    add_points(LayerKind::centre, {*row.centroid}, colors_.contour, 11);
 }
 
 void SceneBuild::add_plane(const Plane& plane) {
@@ -86,12 +86,12 @@ void SceneBuild::add_plane(const Plane& plane) {
     const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : document_.box;
     // Where the section lies in the plane, its own colour is what is to be seen.
     if (step_.stage < Stage::triangulation) {
-        Layer& sheet = add(name(Stage::plane), plane_rectangle(plane, box, built_.frame), colors_.plane);
+        Layer& sheet = add(LayerKind::plane, plane_rectangle(plane, box, built_.frame), colors_.plane);
         sheet.opacity = plane_opacity;
         sheet.clipped = sheet.edges = sheet.smooth = false;
         sheet.two_sided = true;
     }
-    Layer& outline = add("plane outline", plane_outline(plane, box, built_.frame), colors_.normal);
+    Layer& outline = add(LayerKind::plane_outline, plane_outline(plane, box, built_.frame), colors_.normal);
     outline.pixels = thin_pixels;
     outline.clipped = false;
     extend(box);
@@ -100,15 +100,15 @@ void SceneBuild::add_plane(const Plane& plane) {
 void SceneBuild::add_try(const CutTry& attempt, const NodeSurface& surface) {
     add_plane(attempt.plane);
     if (state_.contour && !attempt.contour.empty())
-        add_lines("refused", ends_of(attempt.contour, surface), colors_.refused, contour_pixels);
-    if (!attempt.places.empty()) add_points("places", attempt.places, colors_.error, place_pixels);
+        add_lines(LayerKind::refused, ends_of(attempt.contour, surface), colors_.refused, contour_pixels);
+    if (!attempt.places.empty()) add_points(LayerKind::places, attempt.places, colors_.error, place_pixels);
     add_collisions(attempt);
 }
 
 // Pairs of triangles of which one goes through the other.
 void SceneBuild::add_collisions(const CutTry& attempt) {
     if (attempt.collisions.empty() || !state_.interfaces) return;
-    const auto add_side = [&](const char* layer_name, std::array<Vec3, 3> Collision::*side, const Color& color) {
+    const auto add_side = [&](LayerKind kind, std::array<Vec3, 3> Collision::*side, const Color& color) {
         std::vector<Vec3> corners;
         std::vector<Triangle> sides;
         for (const Collision& pair : attempt.collisions) {
@@ -116,48 +116,48 @@ void SceneBuild::add_collisions(const CutTry& attempt) {
             corners.insert(corners.end(), (pair.*side).begin(), (pair.*side).end());
             sides.push_back({first, first + 1, first + 2});
         }
-        Layer& layer = add(layer_name, triangles(corners, sides, built_.frame), color);
+        Layer& layer = add(kind, triangles(corners, sides, built_.frame), color);
         layer.two_sided = layer.edges = true;
         layer.smooth = false;
     };
-    add_side("colliding", &Collision::first, colors_.colliding);
-    add_side("collided", &Collision::second, colors_.collided);
+    add_side(LayerKind::colliding, &Collision::first, colors_.colliding);
+    add_side(LayerKind::collided, &Collision::second, colors_.collided);
 }
 
 Layer* SceneBuild::add_contour(const Cut& cut, const NodeSurface& surface) {
     if (!state_.contour) return nullptr;
-    return &add_lines(name(Stage::contour), loops_of(cut, surface, false), colors_.contour, contour_pixels);
+    return &add_lines(LayerKind::contour, loops_of(cut, surface, false), colors_.contour, contour_pixels);
 }
 
 // The stages from the crossed edges to the interface.
 void SceneBuild::add_stage(const Cut& cut, const NodeSurface& surface) {
     if (const std::vector<SurfaceEdge>* edges = edges_of(cut, step_.stage)) {
         if (state_.contour)
-            add_lines(name(step_.stage), ends_of(*edges, surface), color_of(step_.stage),
+            add_lines(layer_of(step_.stage), ends_of(*edges, surface), color_of(step_.stage),
                       step_.stage == Stage::crossed_edges ? 2.f : contour_pixels);
         return;
     }
     if (step_.stage < Stage::contour) return;
     if (step_.stage != Stage::triangulation) add_contour(cut, surface);
     if (state_.contour && (step_.stage == Stage::projected || step_.stage == Stage::triangulation))
-        add_lines(name(Stage::projected), loops_of(cut, surface, true), colors_.projected, contour_pixels);
+        add_lines(LayerKind::projected, loops_of(cut, surface, true), colors_.projected, contour_pixels);
     if (!state_.interfaces) return;
     if (step_.stage == Stage::triangulation) {
         std::vector<Vec3> places;
         for (const Vec2& q : cut.interface.planar) places.push_back(cut.plane.lift(q, 0));
-        Layer& layer = add(name(Stage::triangulation), triangles(places, cut.interface.triangles, built_.frame),
-                           colors_.interface);
+        Layer& layer =
+            add(LayerKind::triangulation, triangles(places, cut.interface.triangles, built_.frame), colors_.interface);
         layer.two_sided = true;
         layer.shading = flat_shading;
+        layer.smooth = false;
     }
     if (step_.stage == Stage::interface) {
-        Layer& layer = add(name(Stage::interface),
-                           triangles(cut.interface.points, cut.interface.triangles, built_.frame), colors_.interface);
+        Layer& layer = add(LayerKind::interface, triangles(cut.interface.points, cut.interface.triangles, built_.frame),
+                           colors_.interface);
         layer.two_sided = true;
         layer.shading = interface_shading;
+        layer.smooth = false;
     }
-    for (Layer& layer : built_.scene.layers)
-        if (layer.name == name(Stage::triangulation) || layer.name == name(Stage::interface)) layer.smooth = false;
 }
 
 // Both halves take the contour along.
@@ -180,8 +180,8 @@ void SceneBuild::add_halves(const NodeSurface* parent) {
         built_.pending |= !surface;
         const Color color = half_color(half);
         const Vec3 offset = offset_of(half, state_.node);
-        if (surface && add_surface(fmt::format("half {}", half), surface, half, color, colors_.interface, offset))
-            add_features(fmt::format("features {}", half), surface, half, offset);
+        if (surface && add_surface(LayerKind::half, surface, half, color, colors_.interface, offset))
+            add_features(surface, half, offset);
     }
 }
 

@@ -24,12 +24,12 @@ void SceneBuild::add_defects(const CheckedSoup* found) {
             for (const std::int32_t f : defect.facets) facets.push_back(soup.facets[static_cast<std::size_t>(f)]);
     }
     if (!facets.empty()) {
-        Layer& layer = add("defects", triangles(soup.vertices, facets, built_.frame), colors_.error, 1);
+        Layer& layer = add(LayerKind::defects, triangles(soup.vertices, facets, built_.frame), colors_.error, 1);
         layer.two_sided = true;
     }
-    if (!edges.empty()) add_lines("defect edges", edges, colors_.error, contour_pixels);
-    if (!warnings.empty()) add_points("warning places", warnings, colors_.warning, place_pixels - 2);
-    if (!errors.empty()) add_points("defect places", errors, colors_.error, place_pixels);
+    if (!edges.empty()) add_lines(LayerKind::defect_edges, edges, colors_.error, contour_pixels);
+    if (!warnings.empty()) add_points(LayerKind::warning_places, warnings, colors_.warning, place_pixels - 2);
+    if (!errors.empty()) add_points(LayerKind::defect_places, errors, colors_.error, place_pixels);
 }
 
 }  // namespace kerf::view

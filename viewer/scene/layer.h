@@ -7,10 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/types.h"
+#include "viewer/model/stage.h"
 
 namespace kerf::view {
 
@@ -84,8 +86,56 @@ enum class Fill {
     categories,  ///< the corner's value, a whole number, in Scene::palette, repeated
 };
 
+/// What a layer shows.
+enum class LayerKind {
+    surface,          ///< the closed surface of the node, its interface facets in their own colour
+    file_surface,     ///< the surface as the file has it, where another one was cut
+    features,         ///< sharp edges and borders of patches, of either, or of a half or part
+    context,          ///< the rest of the body, translucent: the other half, which owns it, of a cut above the node
+    defects,          ///< facets that kerf check found fault with
+    defect_edges,     ///< likewise edges
+    warning_places,   ///< where it warns
+    defect_places,    ///< where something is wrong
+    axes,             ///< principal axes
+    centre,           ///< of gravity
+    plane,            ///< the cutting plane, until there is a section in it; then on, the stages of a contour
+    crossed_edges,    //
+    hanging_removed,  //
+    closed_loops,     //
+    paths_removed,    //
+    contour,          //
+    projected,        //
+    triangulation,    ///< the section in the plane
+    interface,        ///< and on the surface
+    plane_outline,    ///< with its normal
+    refused,          ///< a refused try's contour
+    places,           ///< where it failed
+    colliding,        ///< of pairs of triangles that meet, those of the interface
+    collided,         ///< and the others
+    half,             ///< of a split
+    part,             ///< a part's boundary, which is all there is of parts without cells
+    cells,            ///< of a part at the clip plane, by filter, shrunk or around another
+    section,          ///< smooth ones of cells
+    isolines,         ///< of the layer that they lie on
+    extremes,         ///< where the least and the largest value are
+    vectors,          ///< displacements
+    wall,             ///< behind shrunk cells
+    selected_cell,    ///< where it is seen only through others, which are translucent then
+    outline,          ///< of the node, or its parts, where only some cells are shown
+    glass,            ///< the same, their facets
+    selection,        ///< its edges
+    selected_place,   ///< where it is a point
+};
+/// That of a stage from the plane to the interface.
+constexpr LayerKind layer_of(Stage stage) {
+    return static_cast<LayerKind>(static_cast<int>(LayerKind::plane) + static_cast<int>(stage) -
+                                  static_cast<int>(Stage::plane));
+}
+static_assert(layer_of(Stage::interface) == LayerKind::interface);
+
 struct Layer {
-    std::string name;  ///< "surface", "context 2", "contour", ... unique in a scene
+    LayerKind kind = LayerKind::surface;  ///< with the owner unique in a scene, but for isolines
+    NodeId owner = 0;                     ///< the node or part that it belongs to; 0: none
     std::shared_ptr<const Geometry> geometry;
     std::vector<Range> ranges;
     Fill fill = Fill::plain;
@@ -106,6 +156,7 @@ struct Layer {
     /// Of an opaque layer only what is seen from its back is drawn: a ground behind other things that covers none of
     /// them. Not picked.
     bool backs_only = false;
+    int lies_on = -1;  ///< of isolines, the number in Scene::layers of the layer whose triangles they are on
 };
 
 /// The half space a x + b y + c z + d >= 0 is shown, in draw coordinates before offsets.
@@ -128,9 +179,10 @@ struct Scene {
     Color background_top, background_bottom;
     Color edge;  ///< of triangle edges; its alpha is their strength
 
-    const Layer* find(const std::string& name) const {
+    /// The first of a kind, of this owner if there is one.
+    const Layer* find(LayerKind kind, std::optional<NodeId> owner = {}) const {
         for (const Layer& layer : layers)
-            if (layer.name == name) return &layer;
+            if (layer.kind == kind && owner.value_or(layer.owner) == layer.owner) return &layer;
         return nullptr;
     }
 };

@@ -122,7 +122,7 @@ void SceneBuild::mark_extremes() {
         places.push_back(built_.frame.to_file(place.cast<double>()));
         built_.legend.marked.push_back({found.value, places.back()});
     }
-    add_points("extremes", places, colors_.feature, place_pixels);
+    add_points(LayerKind::extremes, places, colors_.feature, place_pixels);
 }
 
 // Of a stress that has a sign, at both ends. All values where most of them are the same.
@@ -174,12 +174,12 @@ std::string SceneBuild::legend_title() const {
 // Parts of the node of which something is drawn.
 std::vector<NodeId> SceneBuild::drawn_parts() const {
     std::vector<NodeId> drawn;
+    std::set<NodeId> owners;
+    for (const Layer& layer : built_.scene.layers)
+        if (layer.kind == LayerKind::part || layer.kind == LayerKind::cells || layer.kind == LayerKind::section)
+            owners.insert(layer.owner);
     for (const NodeId part : document_.tree.parts_below(state_.node))
-        for (const char* layer : {"part", "cells", "section"})
-            if (built_.scene.find(fmt::format("{} {}", layer, part))) {
-                drawn.push_back(part);
-                break;
-            }
+        if (owners.contains(part)) drawn.push_back(part);
     return drawn;
 }
 
@@ -203,8 +203,7 @@ void SceneBuild::explain(const std::string& text, const Color& color, LegendEntr
 }
 
 // Of a layer that there is; glass is explained as glass.
-void SceneBuild::explain_layer(const std::string& name, const std::string& text, const Color& color) {
-    const Layer* layer = built_.scene.find(name);
+void SceneBuild::explain_layer(const Layer* layer, const std::string& text, const Color& color) {
     if (!layer || layer->fill != Fill::plain) return;
     Color drawn = color;
     drawn.a = layer->opacity;
@@ -276,41 +275,41 @@ void SceneBuild::explain_coloring() {
 }
 
 void SceneBuild::explain_axes() {
-    if (!built_.scene.find("axes")) return;
+    if (!built_.scene.find(LayerKind::axes)) return;
     constexpr std::array<const char*, 3> names = {"long axis", "middle axis", "short axis"};
     for (std::size_t k = 0; k < names.size(); ++k) explain(names[k], colors_.axes[k], LegendEntry::Mark::line);
-    explain_layer("centre", "centre of gravity", colors_.contour);
+    explain_layer(LayerKind::centre, "centre of gravity", colors_.contour);
 }
 
 // What lies in the surfaces of nodes, by earlier cuts or by this one.
 void SceneBuild::explain_interfaces() {
     const bool is_split = step_.stage == Stage::split;
     if (is_split && state_.node == 1 && state_.explode == 0 && !side_ && state_.hidden.empty()) return;  // inside
-    if (built_.scene.find(name(Stage::triangulation)) || built_.scene.find(name(Stage::interface))) return;
+    if (built_.scene.find(LayerKind::triangulation) || built_.scene.find(LayerKind::interface)) return;
     for (const Layer& layer : built_.scene.layers)
         for (const Range& range : layer.ranges)
             if (layer.fill == Fill::plain && range.color == colors_.interface)
-                return explain_layer(layer.name, is_split ? "interfaces" : "earlier interfaces", range.color);
+                return explain_layer(&layer, is_split ? "interfaces" : "earlier interfaces", range.color);
 }
 
 void SceneBuild::set_legend() {
     if (shows_parts() || state_.color == ColorBy::patch || built_.legend.values) built_.legend.title = legend_title();
     explain_coloring();
     for (const NodeId half : {2 * state_.node, 2 * state_.node + 1})
-        explain_layer(fmt::format("half {}", half), fmt::format("node {}", half), half_color(half));
+        explain_layer(built_.scene.find(LayerKind::half, half), fmt::format("node {}", half), half_color(half));
     explain_axes();
-    for (int i = 0; i < stage_count; ++i) {
+    for (int i = static_cast<int>(Stage::plane); i <= static_cast<int>(Stage::interface); ++i) {
         const auto stage = static_cast<Stage>(i);
-        explain_layer(name(stage), in_words(name(stage)), color_of(stage));
+        explain_layer(layer_of(stage), in_words(name(stage)), color_of(stage));
     }
     explain_interfaces();
-    explain_layer("features", "features", colors_.feature);
-    explain_layer("refused", "refused contour", colors_.refused);
-    explain_layer("places", "where it failed", colors_.error);
-    explain_layer("colliding", "interface that collides", colors_.colliding);
-    explain_layer("collided", "what it collides with", colors_.collided);
-    explain_layer("defect places", "errors", colors_.error);
-    explain_layer("warning places", "warnings", colors_.warning);
+    if (step_.stage < Stage::split) explain_layer(LayerKind::features, "features", colors_.feature);
+    explain_layer(LayerKind::refused, "refused contour", colors_.refused);
+    explain_layer(LayerKind::places, "where it failed", colors_.error);
+    explain_layer(LayerKind::colliding, "interface that collides", colors_.colliding);
+    explain_layer(LayerKind::collided, "what it collides with", colors_.collided);
+    explain_layer(LayerKind::defect_places, "errors", colors_.error);
+    explain_layer(LayerKind::warning_places, "warnings", colors_.warning);
 }
 
 }  // namespace kerf::view

@@ -83,7 +83,7 @@ void SceneBuild::add_part_facets(NodeId part, const std::shared_ptr<const NodeSu
                                         is_colored ? name(state_.color) : "plain", solution_key(), chosen.key());
     const auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
     if (geometry->corners.empty()) return;
-    Layer& layer = add(fmt::format("part {}", part), geometry, color_of(part), part, offset_of(part, state_.node));
+    Layer& layer = add(LayerKind::part, geometry, color_of(part), part, offset_of(part, state_.node));
     layer.closed = chosen.all;
     layer.two_sided = !chosen.all;
     if (is_glass(state_, document_, part)) make_glass(layer);
@@ -102,8 +102,8 @@ void SceneBuild::add_part_surfaces() {
         built_.pending |= !surface;
         const Color color = color_of(part);
         const Vec3 offset = offset_of(part, state_.node);
-        if (surface && add_surface(fmt::format("part {}", part), surface, part, color, color, offset))
-            add_features(fmt::format("features {}", part), surface, part, offset);
+        if (surface && add_surface(LayerKind::part, surface, part, color, color, offset))
+            add_features(surface, part, offset);
     }
 }
 
@@ -156,17 +156,18 @@ bool SceneBuild::find_cell_colors(const std::shared_ptr<const PartCells>& cells,
 }
 
 // nullptr if there are none.
-Layer* SceneBuild::add_faces(const std::string& name, const std::string& chosen, const PartCells& cells,
+Layer* SceneBuild::add_faces(LayerKind kind, const std::string& chosen, const PartCells& cells,
                              const NodeSurface& surface, const Vec3& offset, CellColors& colors) {
-    const auto faces = cache_.get(fmt::format("{} {} {}", name, value_key(), chosen), colors.source, [&] {
-        std::vector<std::array<float, 4>> of_faces;
-        if (!colors.patches.empty()) of_faces = face_values(cells, surface, colors.patches);
-        CellChoice choice = colors.choice;
-        choice.face_value = of_faces;
-        return cell_faces(cells, built_.frame, choice);
-    });
+    const auto faces = cache_.get(
+        fmt::format("{} of {} {} {}", static_cast<int>(kind), cells.part, value_key(), chosen), colors.source, [&] {
+            std::vector<std::array<float, 4>> of_faces;
+            if (!colors.patches.empty()) of_faces = face_values(cells, surface, colors.patches);
+            CellChoice choice = colors.choice;
+            choice.face_value = of_faces;
+            return cell_faces(cells, built_.frame, choice);
+        });
     if (faces->corners.empty()) return nullptr;
-    Layer& layer = add(name, faces, color_of(cells.part), cells.part, offset);
+    Layer& layer = add(kind, faces, color_of(cells.part), cells.part, offset);
     layer.smooth = faces->has_normals;
     layer.fill = colors.fill;
     layer.clipped = side_ && state_.clip.style == ClipStyle::smooth;
@@ -178,7 +179,7 @@ void SceneBuild::add_section(const PartCells& cells, const Vec3& offset, const C
     const auto sections = cache_.get(fmt::format("section {} {} {}", cells.part, value_key(), clip_key(state_.shrink)),
                                      colors.source, [&] { return cell_sections(cells, built_.frame, colors.choice); });
     if (sections->corners.empty()) return;
-    Layer& layer = add(fmt::format("section {}", cells.part), sections, color_of(cells.part), cells.part, offset);
+    Layer& layer = add(LayerKind::section, sections, color_of(cells.part), cells.part, offset);
     layer.smooth = false;
     layer.fill = colors.patches.empty() ? colors.fill : Fill::plain;
     layer.clipped = false;
@@ -204,12 +205,12 @@ bool SceneBuild::add_cells(NodeId part, const NodeSurface& surface, const Vec3& 
         };
     }
     if (state_.shrink > 0)  // through the gaps one sees the far side of the body, and not what lies behind it
-        if (Layer* wall = add_faces(fmt::format("wall {}", part), clip_key(0), *cells, surface, offset, colors)) {
+        if (Layer* wall = add_faces(LayerKind::wall, clip_key(0), *cells, surface, offset, colors)) {
             wall->backs_only = true;
             wall->edges = false;
         }
     choice.shrink = state_.shrink;
-    add_faces(fmt::format("cells {}", part), clip_key(state_.shrink), *cells, surface, offset, colors);
+    add_faces(LayerKind::cells, clip_key(state_.shrink), *cells, surface, offset, colors);
     if (side_ && state_.clip.style == ClipStyle::smooth) add_section(*cells, offset, colors);
     return true;
 }
@@ -236,7 +237,7 @@ void SceneBuild::add_outline(NodeId owner, const std::shared_ptr<const NodeSurfa
     const auto lines = cache_.get(fmt::format("features of {}", owner), surface,
                                   [&] { return segments(feature_edges(*surface), built_.frame); });
     if (!lines->segments.empty()) {
-        Layer& layer = add(fmt::format("outline {}", owner), lines, colors_.feature, owner, offset);
+        Layer& layer = add(LayerKind::outline, lines, colors_.feature, owner, offset);
         layer.pixels = thin_pixels;
         layer.clipped = false;
     }
@@ -244,7 +245,7 @@ void SceneBuild::add_outline(NodeId owner, const std::shared_ptr<const NodeSurfa
     choice.smooth = true;
     const auto facets = cache_.get(fmt::format("glass of {}", owner), surface,
                                    [&] { return facet_triangles(*surface, built_.frame, choice); });
-    Layer& layer = add(fmt::format("glass {}", owner), facets, colors_.context, owner, offset);
+    Layer& layer = add(LayerKind::glass, facets, colors_.context, owner, offset);
     layer.opacity = context_opacity;
     layer.edges = layer.clipped = false;
     layer.front_share = 0;
@@ -255,9 +256,9 @@ void SceneBuild::add_outline(NodeId owner, const std::shared_ptr<const NodeSurfa
 bool SceneBuild::is_seen(const PartCells& cells, const NodeSurface& part, const NodeSurface* shown,
                          std::int32_t cell) const {
     for (const Layer& layer : built_.scene.layers) {
-        if (layer.backs_only || layer.ranges.front().owner != cells.part) continue;
+        if (layer.backs_only || layer.owner != cells.part) continue;
         const auto& element = layer.geometry->element;
-        if (!layer.name.starts_with("part ")) {
+        if (layer.kind != LayerKind::part) {
             if (std::find(element.begin(), element.end(), cell) != element.end()) return true;
         } else if (state_.explode > 0) {
             const auto& tets = cells.tet_at_facet;
@@ -299,7 +300,7 @@ void SceneBuild::show_selected_cell(const NodeSurface* shown) {
             layer.two_sided = true;
         }
     colors.choice.wanted = [&](std::size_t t) { return t == index; };
-    add_faces("selected cell", fmt::format("{} of {}", s.index, s.owner), *cells, *surface,
+    add_faces(LayerKind::selected_cell, fmt::format("{} of {}", s.index, s.owner), *cells, *surface,
               offset_of(s.owner, state_.node), colors);
 }
 

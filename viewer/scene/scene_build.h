@@ -78,17 +78,15 @@ class SceneBuild {
         }
     };
 
-    Layer& add(const std::string& name, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = 0,
+    Layer& add(LayerKind kind, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = 0,
                const Vec3& offset = Vec3::Zero());
-    Layer& add_lines(const std::string& name, const std::vector<std::array<Vec3, 2>>& ends, const Color& color,
-                     float pixels);
-    void add_points(const std::string& name, const std::vector<Vec3>& places, const Color& color, float pixels);
-    Layer* add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
+    Layer& add_lines(LayerKind kind, const std::vector<std::array<Vec3, 2>>& ends, const Color& color, float pixels);
+    void add_points(LayerKind kind, const std::vector<Vec3>& places, const Color& color, float pixels);
+    Layer* add_surface(LayerKind kind, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                        const Color& color, const Color& interface_color, const Vec3& offset);
     void add_node(const std::shared_ptr<const NodeSurface>& surface);
     void add_file_surface(NodeId which);
-    void add_features(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
-                      const Vec3& offset);
+    void add_features(const std::shared_ptr<const NodeSurface>& surface, NodeId owner, const Vec3& offset);
     void add_context();
     void add_defects(const CheckedSoup* found);
     void add_axes(const TreeRow& row);
@@ -129,8 +127,8 @@ class SceneBuild {
     bool add_cells(NodeId part, const NodeSurface& surface, const Vec3& offset);
     bool find_cell_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
                           CellColors& colors);
-    Layer* add_faces(const std::string& name, const std::string& chosen, const PartCells& cells,
-                     const NodeSurface& surface, const Vec3& offset, CellColors& colors);
+    Layer* add_faces(LayerKind kind, const std::string& chosen, const PartCells& cells, const NodeSurface& surface,
+                     const Vec3& offset, CellColors& colors);
     void add_section(const PartCells& cells, const Vec3& offset, const CellColors& colors);
     void add_outline(NodeId owner, const std::shared_ptr<const NodeSurface>& surface, const Vec3& offset);
     void show_selected_cell(const NodeSurface* shown);
@@ -148,7 +146,10 @@ class SceneBuild {
     std::vector<NodeId> drawn_parts() const;
     std::set<int> drawn_categories() const;
     void explain(const std::string& text, const Color& color, LegendEntry::Mark mark = LegendEntry::Mark::area);
-    void explain_layer(const std::string& name, const std::string& text, const Color& color);
+    void explain_layer(const Layer* layer, const std::string& text, const Color& color);
+    void explain_layer(LayerKind kind, const std::string& text, const Color& color) {
+        explain_layer(built_.scene.find(kind), text, color);
+    }
     void explain_origins();
     void explain_patches();
     void explain_parts();

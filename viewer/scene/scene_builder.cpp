@@ -42,10 +42,11 @@ std::string SceneBuild::clip_key(double shrink) const {
     return key;
 }
 
-Layer& SceneBuild::add(const std::string& name, std::shared_ptr<const Geometry> geometry, const Color& color,
-                       NodeId owner, const Vec3& offset) {
+Layer& SceneBuild::add(LayerKind kind, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner,
+                       const Vec3& offset) {
     Layer layer;
-    layer.name = name;
+    layer.kind = kind;
+    layer.owner = owner;
     Range range;
     range.count = static_cast<std::uint32_t>(
         std::max({geometry->triangle_count(), geometry->segments.size(), geometry->points.size()}));
@@ -59,18 +60,17 @@ Layer& SceneBuild::add(const std::string& name, std::shared_ptr<const Geometry> 
     return built_.scene.layers.emplace_back(std::move(layer));
 }
 
-Layer& SceneBuild::add_lines(const std::string& name, const std::vector<std::array<Vec3, 2>>& ends, const Color& color,
+Layer& SceneBuild::add_lines(LayerKind kind, const std::vector<std::array<Vec3, 2>>& ends, const Color& color,
                              float pixels) {
-    Layer& layer = add(name, segments(ends, built_.frame), color, state_.node);
+    Layer& layer = add(kind, segments(ends, built_.frame), color, state_.node);
     layer.pixels = pixels;
     layer.shines_through = true;
     layer.clipped = false;
     return layer;
 }
 
-void SceneBuild::add_points(const std::string& name, const std::vector<Vec3>& places, const Color& color,
-                            float pixels) {
-    Layer& layer = add(name, points(places, built_.frame), color, state_.node);
+void SceneBuild::add_points(LayerKind kind, const std::vector<Vec3>& places, const Color& color, float pixels) {
+    Layer& layer = add(kind, points(places, built_.frame), color, state_.node);
     layer.pixels = pixels;
     layer.shines_through = true;
     layer.clipped = false;
@@ -105,7 +105,7 @@ void SceneBuild::color_facets(const NodeSurface& surface, const SurfaceValues* v
 }
 
 // The facets of a surface: one range of the input's and one of the interfaces'. Nothing if the clip plane leaves none.
-Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
+Layer* SceneBuild::add_surface(LayerKind kind, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
                                const Color& color, const Color& interface_color, const Vec3& offset) {
     FacetChoice choice;
     choice.smooth = state_.shading == Shading::smooth;
@@ -120,14 +120,14 @@ Layer* SceneBuild::add_surface(const std::string& name, const std::shared_ptr<co
     const std::vector<float> patches = patch_values(*surface);
     const auto values = values_on(surface);
     color_facets(*surface, values.get(), patches, choice);
-    const std::string key = fmt::format("{} of {} {} {} {}{}", name, owner, shading_key(),
+    const std::string key = fmt::format("{} of {} {} {} {}{}", static_cast<int>(kind), owner, shading_key(),
                                         by_facets ? clip_key(state_.shrink) : fmt::format("shrink {}", state_.shrink),
                                         values || !patches.empty() ? view::name(state_.color) : "plain", chosen.key());
     const std::shared_ptr<const void> source = values ? std::shared_ptr<const void>(values) : surface;
     auto geometry = cache_.get(key, source, [&] { return facet_triangles(*surface, built_.frame, choice); });
     extend_by_facets(surface->vertices, surface->facets, offset);
     if (geometry->corners.empty()) return nullptr;
-    Layer& layer = add(name, geometry, color, owner, offset);
+    Layer& layer = add(kind, geometry, color, owner, offset);
     layer.clipped = !by_facets;
     if (!patches.empty()) layer.fill = Fill::categories;
     if (values) layer.fill = Fill::scale;
@@ -165,7 +165,7 @@ void SceneBuild::number_facets(Layer& layer, const NodeSurface& surface) const {
 void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     Layer* layer = nullptr;
     if (!state_.is_hidden(state_.node))
-        layer = add_surface("surface", surface, state_.node, colors_.surface, colors_.interface, Vec3::Zero());
+        layer = add_surface(LayerKind::surface, surface, state_.node, colors_.surface, colors_.interface, Vec3::Zero());
     const Cut* cut = document_.trace ? document_.trace->find(state_.node) : nullptr;
     const TreeRow* row = document_.tree.find(state_.node);
     const auto number = static_cast<std::size_t>(step_.refused_try);
@@ -183,7 +183,7 @@ void SceneBuild::add_node(const std::shared_ptr<const NodeSurface>& surface) {
         add_plane(*row->plane());
     if (cut && step_.refused_try < 0) add_stage(*cut, *surface);
     if (step_.stage == Stage::input && row) add_axes(*row);
-    if (layer) add_features("features", surface, state_.node, Vec3::Zero());
+    if (layer) add_features(surface, state_.node, Vec3::Zero());
 }
 
 // What was cut looks like it from afar, so that the one comes in the place of the other. `which`: not_remeshed or
@@ -192,19 +192,19 @@ void SceneBuild::add_file_surface(NodeId which) {
     const auto surface = session_.surface(which);
     built_.pending |= !surface;
     if (!surface || state_.is_hidden(1)) return;
-    Layer* layer = add_surface("file surface", surface, which, colors_.surface, colors_.interface, Vec3::Zero());
+    Layer* layer =
+        add_surface(LayerKind::file_surface, surface, which, colors_.surface, colors_.interface, Vec3::Zero());
     if (!layer) return;
     if (which == not_repaired) layer->closed = false;
-    add_features("features", surface, which, Vec3::Zero());
+    add_features(surface, which, Vec3::Zero());
 }
 
-void SceneBuild::add_features(const std::string& name, const std::shared_ptr<const NodeSurface>& surface, NodeId owner,
-                              const Vec3& offset) {
+void SceneBuild::add_features(const std::shared_ptr<const NodeSurface>& surface, NodeId owner, const Vec3& offset) {
     if (!state_.features) return;
     const auto geometry = cache_.get(fmt::format("features of {}", owner), surface,
                                      [&] { return segments(feature_edges(*surface), built_.frame); });
     if (geometry->segments.empty()) return;
-    add(name, geometry, colors_.feature, owner, offset).pixels = feature_pixels;
+    add(LayerKind::features, geometry, colors_.feature, owner, offset).pixels = feature_pixels;
 }
 
 // The facets of the input that the node does not have: those of the other half at each cut above it. Numbers would not
@@ -222,7 +222,7 @@ void SceneBuild::add_context() {
         auto geometry = cache_.get(fmt::format("context {}", other), surface,
                                    [&] { return facet_triangles(*surface, built_.frame, choice); });
         if (geometry->corners.empty()) continue;
-        Layer& layer = add(fmt::format("context {}", other), geometry, colors_.context);
+        Layer& layer = add(LayerKind::context, geometry, colors_.context, other);
         make_glass(layer);
         layer.smooth = true;
         extend(document_.box);
@@ -243,8 +243,8 @@ void SceneBuild::add_selection() {
         from += offset;
         to += offset;
     }
-    if (!edges.empty()) add_lines("selection", edges, colors_.selection, contour_pixels);
-    if (corners.size() == 1) add_points("selected place", corners, colors_.selection, 12);
+    if (!edges.empty()) add_lines(LayerKind::selection, edges, colors_.selection, contour_pixels);
+    if (corners.size() == 1) add_points(LayerKind::selected_place, corners, colors_.selection, 12);
 }
 
 BuiltScene SceneBuild::run() {

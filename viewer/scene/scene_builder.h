@@ -33,29 +33,7 @@ struct BuiltScene {
     bool pending = false;      ///< something is still being fetched: build again when it has arrived
 };
 
-/// Layers by name, in the order of drawing:
-///
-///     surface           the closed surface of the node, its interface facets in their own colour
-///     file surface      the surface as the file has it, where another one was cut
-///     features [N]      sharp edges and borders of patches, of either or of a half
-///     context N         the rest of the body, translucent: the other half, N, of each cut above the node
-///     defects, defect edges, warning places, defect places   what kerf check found
-///     axes, centre      principal axes and centre of gravity
-///     plane, plane outline                   the cutting plane, until there is a section in it, with its normal
-///     crossed-edges, hanging-removed, closed-loops, paths-removed, contour, projected   the contour at the stage
-///     refused, places, colliding, collided   a refused try's contour, where it failed, pairs of triangles that meet
-///     triangulation, interface               the section in the plane, and on the surface
-///     half N            of a split, by node
-///     part N, cells N, section N             of the tetrahedra: a part's boundary, which is all there is of parts
-///                                            without cells; its cells at the clip plane, by filter, shrunk or around
-///                                            another; their smooth sections
-///     isolines of NAME                       of the layer NAME
-///     extremes                               where the least and the largest value are
-///     vectors                                displacements
-///     wall N                                 behind shrunk cells
-///     selected cell                          where it is seen only through others, which are translucent then
-///     outline N, glass N                     of the node, or its parts, where only some cells are shown
-///     selection, selected place
+/// Makes the layers, of kinds (LayerKind) that suit step and view.
 ///
 /// Deterministic: a function of state and document. What was drawn before costs no more than a look-up.
 class SceneBuilder {

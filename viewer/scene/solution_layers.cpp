@@ -70,7 +70,7 @@ void SceneBuild::extend_by_motion(const NodeSurface& surface, const PartSolution
 
 // Interfaces of a part, which come last, are seen only where parts are apart.
 std::size_t SceneBuild::triangles_seen(const Layer& layer) const {
-    const auto surface = session_.part_surface(layer.ranges.front().owner);
+    const auto surface = session_.part_surface(layer.owner);
     if (!layer.closed || !surface || state_.explode > 0) return layer.geometry->triangle_count();
     const auto& element = layer.geometry->element;
     return static_cast<std::size_t>(
@@ -85,12 +85,16 @@ void SceneBuild::add_isolines() {
     std::vector<float> levels;
     for (int i = 1; i < 10; ++i) levels.push_back(static_cast<float>(low + i * (high - low) / 10));
     std::vector<Layer> lines;
-    for (const Layer& layer : built_.scene.layers) {
+    for (std::size_t i = 0; i < built_.scene.layers.size(); ++i) {
+        const Layer& layer = built_.scene.layers[i];
         if (layer.fill != Fill::scale) continue;
         Layer line;
-        line.name = "isolines of " + layer.name;
+        line.kind = LayerKind::isolines;
+        line.owner = layer.owner;
+        line.lies_on = static_cast<int>(i);
         line.geometry =
-            cache_.get(fmt::format("{} {} {} {}{}", line.name, low, high, state_.explode > 0, solution_key()),
+            cache_.get(fmt::format("isolines of {} {} {} {} {}{}", static_cast<int>(layer.kind), layer.owner, low, high,
+                                   state_.explode > 0, solution_key()),
                        layer.geometry, [&] { return isolines(*layer.geometry, triangles_seen(layer), levels); });
         if (line.geometry->segments.empty()) continue;
         Range range = layer.ranges.front();
@@ -130,7 +134,7 @@ void SceneBuild::add_vectors() {
     if (geometry->segments.empty()) return;
     const Vec3 reach = Vec3::Constant(longest_arrow(document_.box.diagonal().norm()));
     extend({built_.box.min() - reach, built_.box.max() + reach});
-    Layer& layer = add("vectors", geometry, colors_.feature, state_.node);
+    Layer& layer = add(LayerKind::vectors, geometry, colors_.feature, state_.node);
     layer.pixels = thin_pixels;
     layer.shines_through = true;
     layer.clipped = false;
