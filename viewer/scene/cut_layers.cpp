@@ -1,12 +1,12 @@
-// What one cut did, stage by stage.
-#include "viewer/scene/scene_build.h"
+#include "viewer/scene/cut_layers.h"
 
 namespace kerf::view {
 
 namespace {
 
 constexpr float plane_opacity = 0.3f;
-constexpr float flat_shading = 0, interface_shading = 0.4f;  // so that sections have the colour of the legend
+constexpr float shell_opacity = 0.55f, shell_front_share = 0.12f;  // of the node's surface around what is inside
+constexpr float flat_shading = 0, interface_shading = 0.4f;        // so that sections have the colour of the legend
 
 // Sides of a try or a cut that lines are drawn from.
 std::vector<std::array<Vec3, 2>> ends_of(const std::vector<SurfaceEdge>& edges, const NodeSurface& surface) {
@@ -47,19 +47,48 @@ const std::vector<SurfaceEdge>* edges_of(const Cut& cut, Stage stage) {
 
 }  // namespace
 
-// Of what the scene shows at the stage and not before.
-Color SceneBuild::color_of(Stage stage) const {
-    if (stage == Stage::plane) return colors_.plane;
-    if (stage < Stage::contour) return colors_.crossed;
-    if (stage == Stage::contour) return colors_.contour;
-    return stage == Stage::projected ? colors_.projected : colors_.interface;
+Color color_of(Stage stage, const SceneColors& colors) {
+    if (stage == Stage::plane) return colors.plane;
+    if (stage < Stage::contour) return colors.crossed;
+    if (stage == Stage::contour) return colors.contour;
+    return stage == Stage::projected ? colors.projected : colors.interface;
+}
+
+const Cut* CutLayers::cut() const {
+    return context_.document.trace ? context_.document.trace->find(context_.state.node) : nullptr;
+}
+
+void CutLayers::add_node(const std::shared_ptr<const NodeSurface>& surface) {
+    const SceneColors& colors = context_.colors;
+    const NodeId node = context_.state.node;
+    const Step& step = context_.step;
+    Layer* layer = nullptr;
+    if (!context_.state.is_hidden(node))
+        layer = surfaces_.add(LayerKind::surface, surface, node, colors.surface, colors.interface);
+    const Cut* cut = this->cut();
+    const TreeRow* row = context_.document.tree.find(node);
+    const auto number = static_cast<std::size_t>(step.refused_try);
+    const CutTry* attempt = step.refused_try >= 0 && cut && number < cut->tries.size() ? &cut->tries[number] : nullptr;
+    // What lies inside is to be seen.
+    if (layer && (step.stage >= Stage::projected || (attempt && !attempt->collisions.empty()))) {
+        layer->opacity = shell_opacity;
+        layer->front_share = shell_front_share;
+        layer->edges = false;
+        layer->two_sided = true;
+    }
+    if (attempt)
+        add_try(*attempt, *surface);
+    else if (step.stage >= Stage::plane && row && row->plane())
+        add_plane(*row->plane());
+    if (cut && step.refused_try < 0) add_stage(*cut, *surface);
+    if (step.stage == Stage::input && row) add_axes(*row);
+    if (layer) surfaces_.add_features(surface, node);
 }
 
 // Along each axis twice the standard deviation of the vertices.
-void SceneBuild::add_axes(const TreeRow& row) {
-    if (!state_.axes || row.regions > 1) return;
-    built_.pending |= !row.centroid;
-    if (!row.centroid || row.vertices <= 0) return;
+void CutLayers::add_axes(const TreeRow& row) {
+    if (!context_.state.axes || row.regions > 1) return;
+    if (!sink_.awaited(row.centroid) || row.vertices <= 0) return;
     const double half_trace = row.eigenvalues.sum() / 2;
     std::vector<std::array<Vec3, 2>> ends;
     for (int k = 0; k < 3; ++k) {
@@ -67,47 +96,49 @@ void SceneBuild::add_axes(const TreeRow& row) {
         const Vec3 reach = 2 * std::sqrt(std::max(variance, 0.0)) * row.axes.col(k);
         ends.push_back({*row.centroid - reach, *row.centroid + reach});
     }
-    Layer& layer = add_lines(LayerKind::axes, ends, colors_.axes[0], contour_pixels);
+    Layer& layer = sink_.add_lines(LayerKind::axes, ends, context_.colors.axes[0], contour_pixels);
     const Range all = layer.ranges.front();
     layer.ranges.clear();
     for (std::uint32_t k = 0; k < 3; ++k) {
         Range range = all;
         range.first = k;
         range.count = 1;
-        range.color = colors_.axes[k];
+        range.color = context_.colors.axes[k];
         layer.ranges.push_back(range);
     }
-    add_points(LayerKind::centre, {*row.centroid}, colors_.contour, 11);
+    sink_.add_points(LayerKind::centre, {*row.centroid}, context_.colors.contour, 11);
 }
 
-void SceneBuild::add_plane(const Plane& plane) {
-    if (!state_.plane) return;
-    const auto surface = session_.surface(state_.node);
-    const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : document_.box;
+void CutLayers::add_plane(const Plane& plane) {
+    if (!context_.state.plane) return;
+    const auto surface = context_.session.surface(context_.state.node);
+    const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : context_.document.box;
     // Where the section lies in the plane, its own colour is what is to be seen.
-    if (step_.stage < Stage::triangulation) {
-        Layer& sheet = add(LayerKind::plane, plane_rectangle(plane, box, built_.frame), colors_.plane);
+    if (context_.step.stage < Stage::triangulation) {
+        Layer& sheet = sink_.add(LayerKind::plane, plane_rectangle(plane, box, context_.frame), context_.colors.plane);
         sheet.opacity = plane_opacity;
         sheet.clipped = sheet.edges = sheet.smooth = false;
         sheet.two_sided = true;
     }
-    Layer& outline = add(LayerKind::plane_outline, plane_outline(plane, box, built_.frame), colors_.normal);
+    Layer& outline =
+        sink_.add(LayerKind::plane_outline, plane_outline(plane, box, context_.frame), context_.colors.normal);
     outline.pixels = thin_pixels;
     outline.clipped = false;
-    extend(box);
+    sink_.extend(box);
 }
 
-void SceneBuild::add_try(const CutTry& attempt, const NodeSurface& surface) {
+void CutLayers::add_try(const CutTry& attempt, const NodeSurface& surface) {
     add_plane(attempt.plane);
-    if (state_.contour && !attempt.contour.empty())
-        add_lines(LayerKind::refused, ends_of(attempt.contour, surface), colors_.refused, contour_pixels);
-    if (!attempt.places.empty()) add_points(LayerKind::places, attempt.places, colors_.error, place_pixels);
+    if (context_.state.contour && !attempt.contour.empty())
+        sink_.add_lines(LayerKind::refused, ends_of(attempt.contour, surface), context_.colors.refused, contour_pixels);
+    if (!attempt.places.empty())
+        sink_.add_points(LayerKind::places, attempt.places, context_.colors.error, place_pixels);
     add_collisions(attempt);
 }
 
 // Pairs of triangles of which one goes through the other.
-void SceneBuild::add_collisions(const CutTry& attempt) {
-    if (attempt.collisions.empty() || !state_.interfaces) return;
+void CutLayers::add_collisions(const CutTry& attempt) {
+    if (attempt.collisions.empty() || !context_.state.interfaces) return;
     const auto add_side = [&](LayerKind kind, std::array<Vec3, 3> Collision::*side, const Color& color) {
         std::vector<Vec3> corners;
         std::vector<Triangle> sides;
@@ -116,73 +147,100 @@ void SceneBuild::add_collisions(const CutTry& attempt) {
             corners.insert(corners.end(), (pair.*side).begin(), (pair.*side).end());
             sides.push_back({first, first + 1, first + 2});
         }
-        Layer& layer = add(kind, triangles(corners, sides, built_.frame), color);
+        Layer& layer = sink_.add(kind, triangles(corners, sides, context_.frame), color);
         layer.two_sided = layer.edges = true;
         layer.smooth = false;
     };
-    add_side(LayerKind::colliding, &Collision::first, colors_.colliding);
-    add_side(LayerKind::collided, &Collision::second, colors_.collided);
+    add_side(LayerKind::colliding, &Collision::first, context_.colors.colliding);
+    add_side(LayerKind::collided, &Collision::second, context_.colors.collided);
 }
 
-Layer* SceneBuild::add_contour(const Cut& cut, const NodeSurface& surface) {
-    if (!state_.contour) return nullptr;
-    return &add_lines(LayerKind::contour, loops_of(cut, surface, false), colors_.contour, contour_pixels);
+Layer& CutLayers::add_contour(const Cut& cut, const NodeSurface& surface) {
+    return sink_.add_lines(LayerKind::contour, loops_of(cut, surface, false), context_.colors.contour, contour_pixels);
+}
+
+void CutLayers::add_section(LayerKind kind, const std::vector<Vec3>& places, const std::vector<Triangle>& facets,
+                            float shading) {
+    Layer& layer = sink_.add(kind, triangles(places, facets, context_.frame), context_.colors.interface);
+    layer.two_sided = true;
+    layer.smooth = false;
+    layer.shading = shading;
 }
 
 // The stages from the crossed edges to the interface.
-void SceneBuild::add_stage(const Cut& cut, const NodeSurface& surface) {
-    if (const std::vector<SurfaceEdge>* edges = edges_of(cut, step_.stage)) {
-        if (state_.contour)
-            add_lines(layer_of(step_.stage), ends_of(*edges, surface), color_of(step_.stage),
-                      step_.stage == Stage::crossed_edges ? 2.f : contour_pixels);
+void CutLayers::add_stage(const Cut& cut, const NodeSurface& surface) {
+    const Stage stage = context_.step.stage;
+    const bool shows_contour = context_.state.contour, shows_section = context_.state.interfaces;
+    if (const std::vector<SurfaceEdge>* edges = edges_of(cut, stage)) {
+        if (shows_contour)
+            sink_.add_lines(layer_of(stage), ends_of(*edges, surface), color_of(stage, context_.colors),
+                            stage == Stage::crossed_edges ? 2.f : contour_pixels);
         return;
     }
-    if (step_.stage < Stage::contour) return;
-    if (step_.stage != Stage::triangulation) add_contour(cut, surface);
-    if (state_.contour && (step_.stage == Stage::projected || step_.stage == Stage::triangulation))
-        add_lines(LayerKind::projected, loops_of(cut, surface, true), colors_.projected, contour_pixels);
-    if (!state_.interfaces) return;
-    if (step_.stage == Stage::triangulation) {
+    if (stage < Stage::contour) return;
+    if (shows_contour && stage != Stage::triangulation) add_contour(cut, surface);
+    if (shows_contour && (stage == Stage::projected || stage == Stage::triangulation))
+        sink_.add_lines(LayerKind::projected, loops_of(cut, surface, true), context_.colors.projected, contour_pixels);
+    if (shows_section && stage == Stage::triangulation) {
         std::vector<Vec3> places;
         for (const Vec2& q : cut.interface.planar) places.push_back(cut.plane.lift(q, 0));
-        Layer& layer =
-            add(LayerKind::triangulation, triangles(places, cut.interface.triangles, built_.frame), colors_.interface);
-        layer.two_sided = true;
-        layer.shading = flat_shading;
-        layer.smooth = false;
+        add_section(LayerKind::triangulation, places, cut.interface.triangles, flat_shading);
     }
-    if (step_.stage == Stage::interface) {
-        Layer& layer = add(LayerKind::interface, triangles(cut.interface.points, cut.interface.triangles, built_.frame),
-                           colors_.interface);
-        layer.two_sided = true;
-        layer.shading = interface_shading;
-        layer.smooth = false;
+    if (shows_section && stage == Stage::interface)
+        add_section(LayerKind::interface, cut.interface.points, cut.interface.triangles, interface_shading);
+}
+
+void CutLayers::add_halves(const NodeSurface* parent) {
+    const NodeId node = context_.state.node;
+    const Cut* cut = this->cut();
+    Layer* contour = cut && parent && context_.state.contour ? &add_contour(*cut, *parent) : nullptr;
+    std::vector<Range> contours;
+    for (const NodeId half : {2 * node, 2 * node + 1}) {
+        if (!contour || !context_.is_shown(half)) continue;
+        contours.push_back(contour->ranges.front());
+        contours.back().owner = half;
+        contours.back().offset = sink_.move_of(context_.offset_of(half));
+    }
+    if (contour) contour->ranges = contours;
+    for (const NodeId half : {2 * node, 2 * node + 1}) {
+        if (!context_.is_shown(half)) continue;
+        const auto surface = sink_.awaited(context_.session.surface(half));
+        const Vec3 offset = context_.offset_of(half);
+        if (surface &&
+            surfaces_.add(LayerKind::half, surface, half, half_color(half), context_.colors.interface, offset))
+            surfaces_.add_features(surface, half, offset);
     }
 }
 
-// Both halves take the contour along.
-void SceneBuild::add_halves(const NodeSurface* parent) {
-    const Cut* cut = document_.trace ? document_.trace->find(state_.node) : nullptr;
-    Layer* contour = cut && parent ? add_contour(*cut, *parent) : nullptr;
-    std::vector<Range> contours;
-    for (const NodeId half : {2 * state_.node, 2 * state_.node + 1}) {
-        if (!is_shown(half)) continue;
-        if (contour) {
-            contours.push_back(contour->ranges.front());
-            contours.back().owner = half;
-            contours.back().offset = move_of(offset_of(half, state_.node));
-        }
+void add_defects(const SceneContext& context, LayerSink& sink, const CheckedSoup* found) {
+    if (!found || context.state.node != 1) return;
+    const CheckedSoup& checked = *found;
+    const Soup& soup = checked.soup;
+    const auto point = [&](std::int32_t v) { return soup.vertices[static_cast<std::size_t>(v)]; };
+    std::vector<Vec3> errors, warnings;
+    std::vector<std::array<Vec3, 2>> edges;
+    std::vector<Triangle> facets;
+    for (const Defect& defect : checked.diagnosis.defects) {
+        if (defect.severity == Severity::repaired) continue;
+        const bool is_error = defect.severity == Severity::error;
+        (is_error ? errors : warnings).push_back(defect.where);
+        if (!is_error) continue;
+        const bool is_loop = defect.kind == DefectKind::open_edge;
+        if (is_loop || defect.kind == DefectKind::non_manifold_edge)
+            for (std::size_t i = 0; i + 1 < defect.vertices.size() + (is_loop ? 1 : 0); ++i)
+                edges.push_back({point(defect.vertices[i]), point(defect.vertices[(i + 1) % defect.vertices.size()])});
+        if (!is_loop)
+            for (const std::int32_t f : defect.facets) facets.push_back(soup.facets[static_cast<std::size_t>(f)]);
     }
-    if (contour) contour->ranges = contours;
-    for (const NodeId half : {2 * state_.node, 2 * state_.node + 1}) {
-        if (!is_shown(half)) continue;
-        const auto surface = session_.surface(half);
-        built_.pending |= !surface;
-        const Color color = half_color(half);
-        const Vec3 offset = offset_of(half, state_.node);
-        if (surface && add_surface(LayerKind::half, surface, half, color, colors_.interface, offset))
-            add_features(surface, half, offset);
+    if (!facets.empty()) {
+        Layer& layer =
+            sink.add(LayerKind::defects, triangles(soup.vertices, facets, context.frame), context.colors.error, 1);
+        layer.two_sided = true;
     }
+    if (!edges.empty()) sink.add_lines(LayerKind::defect_edges, edges, context.colors.error, contour_pixels);
+    if (!warnings.empty())
+        sink.add_points(LayerKind::warning_places, warnings, context.colors.warning, place_pixels - 2);
+    if (!errors.empty()) sink.add_points(LayerKind::defect_places, errors, context.colors.error, place_pixels);
 }
 
 }  // namespace kerf::view

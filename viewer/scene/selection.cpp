@@ -262,33 +262,22 @@ std::string describe_selection(Session& session, const Selection& s, int load_ca
 
 std::vector<Vec3> selected_points(Session& session, const Selection& s) {
     std::vector<Vec3> points;
-    const auto index = static_cast<std::size_t>(s.index);
-    if (s.kind == Selection::Kind::none) return points;
     if (s.kind == Selection::Kind::place) return {s.place};
     if (s.kind == Selection::Kind::defect) {
-        for (const auto& [from, to] : selected_edges(session, s)) {
-            points.push_back(from);
-            points.push_back(to);
-        }
+        for (const auto& [from, to] : selected_edges(session, s)) points.insert(points.end(), {from, to});
         if (points.empty()) points.push_back(s.place);
         return points;
     }
-    const bool needs_cells = s.kind == Selection::Kind::cell;
-    const auto surface = needs_cells ? nullptr : surface_of(session, s.owner);
-    if (s.kind == Selection::Kind::facet) {
-        if (surface && index < surface->facets.size())
-            for (const std::int32_t v : surface->facets[index])
-                points.push_back(surface->vertices[static_cast<std::size_t>(v)]);
-        return points;
-    }
-    if (surface && index < surface->vertices.size()) return {surface->vertices[index]};
-    if (!needs_cells && !surface) return points;
-    const auto cells = session.cells(s.owner);
-    if (!cells) return points;
-    if (!needs_cells) {
-        if (index < cells->vertices.size()) points.push_back(cells->vertices[index]);
-    } else if (index < cells->tets.size()) {
-        for (const std::int32_t v : cells->tets[index]) points.push_back(cells->vertices[static_cast<std::size_t>(v)]);
+    const std::vector<std::int32_t> vertices = vertices_of(session, s);
+    const bool is_cell = s.kind == Selection::Kind::cell;
+    const auto surface = is_cell || vertices.empty() ? nullptr : surface_of(session, s.owner);
+    for (const std::int32_t vertex : vertices) {
+        const auto v = static_cast<std::size_t>(vertex);
+        if (surface && v < surface->vertices.size())
+            points.push_back(surface->vertices[v]);
+        else if (const auto cells = is_cell || surface ? session.cells(s.owner) : nullptr;
+                 cells && v < cells->vertices.size())
+            points.push_back(cells->vertices[v]);
     }
     return points;
 }

@@ -1,5 +1,6 @@
 #include "viewer/scene/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -117,8 +118,7 @@ ClipPlane clip_plane(const ShownSide& side, const Frame& frame) {
     return {{static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z()), static_cast<float>(d)}};
 }
 
-std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Frame& frame, const FacetChoice& choice,
-                                          std::uint32_t* interface_begin) {
+std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Frame& frame, const FacetChoice& choice) {
     auto geometry = std::make_shared<Geometry>();
     const auto count = static_cast<std::int32_t>(surface.facets.size());
     if (!choice.wanted) {
@@ -128,15 +128,20 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
     std::optional<SmoothNormals> normals;
     if (choice.smooth) normals.emplace(surface);
     const bool is_quadratic = !choice.edges.empty() && !surface.edges_of_facet.empty();
-    for (const bool interfaces : {false, true}) {
-        if (interfaces && interface_begin) *interface_begin = static_cast<std::uint32_t>(geometry->triangle_count());
+    for (const bool interfaces : {false, true})
         for (std::int32_t f = 0; f < count; ++f) {
             if (surface.is_interface(f) != interfaces || (choice.wanted && !choice.wanted(f))) continue;
             (is_quadratic ? add_quadratic_facet : add_flat_facet)(
                 *geometry, surface, frame, choice, static_cast<std::size_t>(f), normals ? &*normals : nullptr);
         }
-    }
     return geometry;
+}
+
+std::size_t input_triangles(const Geometry& geometry, const NodeSurface& surface) {
+    const auto& element = geometry.element;
+    return static_cast<std::size_t>(
+        std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return surface.is_interface(f); }) -
+        element.begin());
 }
 
 std::shared_ptr<Geometry> isolines(const Geometry& triangles, std::size_t count, const std::vector<float>& levels) {

@@ -36,9 +36,10 @@ struct FacetChoice {
 };
 
 /// The wanted facets, curved ones in pieces; `element` is the facet's number. First those of the input, then those of
-/// interfaces; `interface_begin` receives the number of the first triangle of these. O(#F).
-std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Frame& frame, const FacetChoice& choice,
-                                          std::uint32_t* interface_begin = nullptr);
+/// interfaces. O(#F).
+std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Frame& frame, const FacetChoice& choice);
+/// How many of their triangles are no interface's. O(#F).
+std::size_t input_triangles(const Geometry& geometry, const NodeSurface& surface);
 
 /// Where the values inside of the first `count` triangles are those of the levels: segments. O(count) for each level.
 std::shared_ptr<Geometry> isolines(const Geometry& triangles, std::size_t count, const std::vector<float>& levels);

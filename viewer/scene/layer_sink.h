@@ -1,0 +1,53 @@
+// Where layers go.
+#pragma once
+
+#include "viewer/scene/scene_context.h"
+
+namespace kerf::view {
+
+/// Adds layers to a scene under construction, and what they cover to its boxes. References to layers last until the
+/// next one is added.
+class LayerSink {
+ public:
+    LayerSink(const SceneContext& context, BuiltScene& built) : context_(context), built_(built) {}
+
+    Layer& add(LayerKind kind, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = 0,
+               const Vec3& offset = Vec3::Zero());
+    /// Lines or points that shine through everything, of the node.
+    Layer& add_strokes(LayerKind kind, std::shared_ptr<const Geometry> geometry, const Color& color, float pixels);
+    Layer& add_lines(LayerKind kind, const std::vector<std::array<Vec3, 2>>& ends, const Color& color, float pixels) {
+        return add_strokes(kind, segments(ends, context_.frame), color, pixels);
+    }
+    void add_points(LayerKind kind, const std::vector<Vec3>& places, const Color& color, float pixels) {
+        add_strokes(kind, points(places, context_.frame), color, pixels);
+    }
+    std::array<float, 3> move_of(const Vec3& offset) const;
+
+    /// By a body of which nothing is cut away.
+    void extend(Eigen::AlignedBox3d box, const Vec3& offset = Vec3::Zero()) {
+        if (!box.isEmpty()) built_.box.extend(box.translate(offset));
+    }
+    /// By the facets of one that the clip plane may cut.
+    void extend_by_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const Vec3& offset);
+
+    /// What a session gives, or null: then the scene is to be built again.
+    template <class T>
+    T awaited(T found) {
+        built_.pending |= !found;
+        return found;
+    }
+
+    std::vector<Layer>& layers() { return built_.scene.layers; }
+    const Eigen::AlignedBox3d& box() const { return built_.box; }
+    /// Parts of the node of which something is drawn.
+    std::vector<NodeId> drawn_parts() const;
+
+ private:
+    const SceneContext& context_;
+    BuiltScene& built_;
+};
+
+/// Translucent, so that what it holds is seen.
+void make_glass(Layer& layer);
+
+}  // namespace kerf::view

@@ -1,0 +1,71 @@
+// The tetrahedra: boundaries of parts as long as these are all one sees, cells where one looks into them.
+#pragma once
+
+#include "viewer/scene/cell_shapes.h"
+#include "viewer/scene/solution_layers.h"
+#include "viewer/scene/surface_layers.h"
+
+namespace kerf::view {
+
+/// Of values of cells.
+Fill fill_of_values(ColorBy color);
+
+/// Where one looks into parts.
+class CellLayers {
+ public:
+    CellLayers(const SceneContext& context, LayerSink& sink) : context_(context), sink_(sink) {}
+
+    /// Faces of chosen cells, and their sections; false if the cells are not there yet.
+    bool add(NodeId part, const NodeSurface& surface);
+    /// A selected cell that lies inside is seen through the others, which are drawn before. What clip plane or filter
+    /// have taken away stays away. `shown`: the surface of the node, or null.
+    void add_selected(const NodeSurface* shown);
+
+ private:
+    // What the colours of cells are made from, and the choice that looks at it; it stays where it is.
+    struct CellColors {
+        CellColors() = default;
+        CellColors(const CellColors&) = delete;
+        CellColors& operator=(const CellColors&) = delete;
+
+        std::shared_ptr<const std::vector<float>> values;
+        SolvedNodes solved;
+        std::vector<float> patches;
+        std::shared_ptr<const void> source;
+        Fill fill = Fill::plain;
+        CellChoice choice;
+    };
+
+    bool find_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface, CellColors& colors);
+    std::shared_ptr<Geometry> colored_faces(const PartCells& cells, const NodeSurface& surface,
+                                            std::span<const float> patches, const CellColors& colors) const;
+    Layer* add_faces(LayerKind kind, const std::string& chosen, const PartCells& cells, const NodeSurface& surface,
+                     CellColors& colors);
+    void add_section(const PartCells& cells, const CellColors& colors);
+    void number_cells(Layer& layer, const PartCells& cells, const NodeSurface& surface, const CellColors& colors) const;
+    bool is_seen(const PartCells& cells, const NodeSurface& part, const NodeSurface* shown, std::int32_t cell) const;
+
+    const SceneContext& context_;
+    LayerSink& sink_;
+};
+
+class PartLayers {
+ public:
+    PartLayers(const SceneContext& context, LayerSink& sink) : context_(context), sink_(sink), cells_(context, sink) {}
+
+    /// Those below the node; `surface` is its own, or null while it is being fetched.
+    void add(const std::shared_ptr<const NodeSurface>& surface);
+
+ private:
+    void add_part(NodeId part);
+    void add_facets(NodeId part, const std::shared_ptr<const NodeSurface>& surface, const PartFacets& chosen,
+                    const SolvedNodes& solved);
+    void add_outline(NodeId owner, const std::shared_ptr<const NodeSurface>& surface, const Vec3& offset);
+    void extend_by_motion(const NodeSurface& surface, const PartSolution* solution, const Vec3& offset);
+
+    const SceneContext& context_;
+    LayerSink& sink_;
+    CellLayers cells_;
+};
+
+}  // namespace kerf::view

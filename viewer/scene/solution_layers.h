@@ -1,0 +1,50 @@
+// Of a solution: where vertices move, their values, lines where these are alike, arrows.
+#pragma once
+
+#include "viewer/scene/arrows.h"
+#include "viewer/scene/layer_sink.h"
+
+namespace kerf::view {
+
+/// What was found at the nodes of a part, as it is drawn. Everything is empty where nothing moves, or the colour is of
+/// something else.
+struct SolvedNodes {
+    std::shared_ptr<const PartSolution> found;  ///< null if nobody asks for it, or while it is being fetched
+    std::vector<Vec3> moved;                    ///< vertices
+    std::vector<float> at_vertices;
+    std::vector<Vec3> moved_edges;  ///< nodes on edges
+    std::vector<float> at_edges;
+
+    SolvedNodes() = default;
+    SolvedNodes(const SceneContext& context, LayerSink& sink, NodeId part, const std::vector<Vec3>& vertices,
+                const EdgePoints& edges);
+    const std::vector<Vec3>& places(const std::vector<Vec3>& vertices) const {
+        return moved.empty() ? vertices : moved;
+    }
+    DrawnEdges drawn(const EdgePoints& edges) const {
+        return {moved_edges.empty() ? edges.places : moved_edges, edges.places, at_edges};
+    }
+
+ private:
+    void add_edges(const ViewState& state, const EdgePoints& edges);
+};
+
+class SolutionLayers {
+ public:
+    SolutionLayers(const SceneContext& context, LayerSink& sink) : context_(context), sink_(sink) {}
+
+    /// At the tenths of the range of colours.
+    void add_isolines(const ValueRange& range);
+    /// Displacements.
+    void add_vectors();
+
+ private:
+    std::size_t triangles_seen(const Layer& layer) const;
+    void add_arrows(const NodeSurface& surface, const PartSolution& solution, const Vec3& offset,
+                    std::vector<Arrow>& arrows) const;
+
+    const SceneContext& context_;
+    LayerSink& sink_;
+};
+
+}  // namespace kerf::view
