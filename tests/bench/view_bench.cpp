@@ -1,14 +1,17 @@
 // How fast the viewer is without a graphics card: medians of whole frames (panels, scene, picking nothing) at 1280x800,
-// the change from one step to another, and the first picture of a surface.
+// the change from one step to another, and the first picture of a surface. `view_bench DIR`: of a run instead, its
+// first picture, frames while it is turned, whole and cut open, and the memory that they take.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/stopwatch.h"
+#include "parallel/process_memory.h"
 #include "support/assets.h"
 #include "support/write_off.h"
 #include "viewer/driver.h"
@@ -50,9 +53,45 @@ double frame_time(Driver& driver, int frames) {
         driver.state().camera = camera;
         const Stopwatch stopwatch;
         driver.frame();
+        driver.app().picture();
         times.push_back(1000 * stopwatch.seconds());
     }
     return median(times);
+}
+
+// Of all that the view asks for.
+double first_picture(Driver& driver) {
+    const Stopwatch stopwatch;
+    driver.picture();
+    return 1000 * stopwatch.seconds();
+}
+
+// Also the time of all processors, which others that use them do not change.
+void report_turning(Driver& driver, const std::string& what) {
+    const auto thousands = driver.app().facts().triangles / 1000;
+    constexpr int frames = 15;
+    const std::clock_t before = std::clock();
+    report(fmt::format("{}, turned, {} k triangles", what, thousands), frame_time(driver, frames), 1000. / 30);
+    const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+    fmt::print("{:<44} {:>8.0f} ms\n", "  processor time of a frame", 1000 * seconds / frames);
+    fmt::print("{:<44} {:>8.0f} MB\n", "  memory until now", static_cast<double>(own_peak_rss_bytes()) / 1e6);
+}
+
+// The plane through the middle shows the insides of all parts that it meets.
+void time_run(const std::string& folder) {
+    const Stopwatch stopwatch;
+    Driver driver;
+    driver.open(folder);
+    driver.state().step = {Stage::tetrahedra, -1};
+    driver.picture();
+    report("first picture of the run", 1000 * stopwatch.seconds(), 500);
+    report_turning(driver, "whole");
+    driver.state().clip.on = true;
+    report("cut open for the first time", first_picture(driver), 500);
+    report_turning(driver, "cut open");
+    driver.state().clip.style = ClipStyle::smooth;
+    report("cut smoothly for the first time", first_picture(driver), 500);
+    report_turning(driver, "cut smoothly");
 }
 
 void time_first_picture() {
@@ -103,7 +142,9 @@ void time_frames(const std::string& folder, int m, int n, int frames, double wan
     report(fmt::format("frame, {} k triangles without edges", 2 * m * n / 1000), frame_time(driver, frames), wanted);
 }
 
-int run() {
+int run(const std::vector<std::string>& runs) {
+    for (const std::string& folder : runs) time_run(folder);
+    if (!runs.empty()) return 0;
     const std::string folder = std::filesystem::temp_directory_path() / fmt::format("kerf_view_bench_{}", ::getpid());
     std::filesystem::create_directories(folder);
     fmt::print("{:<44} {:>11} {:>11}\n", "1280x800, software OpenGL", "median", "wanted");
@@ -118,4 +159,4 @@ int run() {
 }  // namespace
 }  // namespace kerf::test
 
-int main() { return kerf::test::run(); }
+int main(int count, char** words) { return kerf::test::run({words + 1, words + count}); }
