@@ -212,7 +212,7 @@ void Driver::type(const std::string& text) {
 }
 
 void Driver::drop(const std::string& path) {
-    app_->open(path);
+    app_->open_files({path});
     frames(2);
 }
 

@@ -318,7 +318,8 @@ void App::lay_out(bool panels) {
     project_scene();
     place_labels();
     probe(panels);
-    UiContext context{state_, session_, settings_, facts_, steps_, *this, widgets_, camera_};
+    const Actions actions{*this, *this, *this, *this, *this, *this};
+    UiContext context{state_, session_, settings_, facts_, steps_, actions, widgets_, camera_};
     if (panels)
         ui_.draw(context, io.DisplaySize.x, io.DisplaySize.y);
     else

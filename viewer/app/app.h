@@ -38,13 +38,17 @@ struct ChosenView {
     std::optional<Eigen::Quaterniond> turn = {};  ///< of a camera without a place: it is where all fits
 };
 
-class App : private Actions {
+class App : private FileActions,
+            private CameraActions,
+            private PlayActions,
+            private RunActions,
+            private RepairActions,
+            private WindowActions {
  public:
     /// The context of `gl` is current, and an ImGuiOwner lives.
     App(const Gl& gl, AppOptions options);
     ~App() override;
 
-    void open(const std::string& path) override { open_files({path}); }
     void open_files(const std::vector<std::string>& paths) override;
     ViewState& state() { return state_; }
     void show(const ViewState& state, const ChosenView& chosen);

@@ -80,9 +80,9 @@ void fly_to_cell(UiContext& context, const WorstCell& cell) {
     if (!lies_below(cell.part, state.node)) state.node = cell.part;
     state.step = {Stage::tetrahedra, -1};
     reveal(context, cell.part);
-    context.actions.fly_to(cell.center, 0.02 * diagonal_of(context.session.document()), Vec3::Zero());
+    context.actions.camera.fly_to(cell.center, 0.02 * diagonal_of(context.session.document()), Vec3::Zero());
     state.selection = {Selection::Kind::cell, cell.part, cell.cell, cell.center};
-    context.actions.turn_to_selection();
+    context.actions.camera.turn_to_selection();
 }
 
 // As far as keys have asked for; the row comes into sight.

@@ -138,7 +138,7 @@ void draw_switch(UiContext& context) {
     const bool wants_b = context.widgets.radio("B##run", !shows_before);
     explain("What the last run or cut has made (key B)");
     ImGui::EndDisabled();
-    if ((wants_a && !shows_before) || (wants_b && shows_before)) context.actions.swap_runs();
+    if ((wants_a && !shows_before) || (wants_b && shows_before)) context.actions.runs.swap_runs();
 }
 
 void draw_saving(UiContext& context, Memory& memory) {

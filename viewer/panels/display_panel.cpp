@@ -135,10 +135,10 @@ void draw_distance(UiContext& context, Memory& memory) {
 void draw_selection_buttons(UiContext& context) {
     ImGui::BeginDisabled(context.state.selection.kind == Selection::Kind::none);
     if (context.widgets.button("Through selection", "Clips through what is selected, with this normal (Shift+C)"))
-        context.actions.clip_through_selection(false);
+        context.actions.camera.clip_through_selection(false);
     ImGui::SameLine();
     if (context.widgets.button("Facing me", "Clips through what is selected, across the line of sight"))
-        context.actions.clip_through_selection(true);
+        context.actions.camera.clip_through_selection(true);
     ImGui::EndDisabled();
 }
 

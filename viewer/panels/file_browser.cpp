@@ -210,7 +210,7 @@ class Dialog {
 
     void open(const std::string& path) {
         close();
-        context_.actions.open(path);
+        context_.actions.files.open_files({path});
     }
 
     void close() {

@@ -23,7 +23,7 @@ void draw_recent(UiContext& context) {
     const std::vector<std::string> recent = context.settings.recent;  // opening changes it
     for (std::size_t i = 0; i < recent.size(); ++i) {
         const std::string label = shortened_path(recent[i], 36 * em()) + "##recent" + std::to_string(i);
-        if (ImGui::MenuItem(label.c_str())) context.actions.open(recent[i]);
+        if (ImGui::MenuItem(label.c_str())) context.actions.files.open_files({recent[i]});
         context.widgets.record("recent " + std::to_string(i + 1));
     }
     end_menu(context.widgets, "Open recent");
@@ -34,19 +34,19 @@ void draw_file_menu(UiContext& context, Memory& memory) {
     if (!begin_menu(w, "File")) return;
     if (w.menu_item("Open...", "Ctrl+O")) memory.browser.requested = true;
     draw_recent(context);
-    if (w.menu_item("Reload", "Ctrl+R")) context.actions.reload();
+    if (w.menu_item("Reload", "Ctrl+R")) context.actions.files.reload();
     ImGui::Separator();
-    if (w.menu_item("Screenshot", "F12")) context.actions.take_screenshot();
+    if (w.menu_item("Screenshot", "F12")) context.actions.window.take_screenshot();
     ImGui::Separator();
-    if (w.menu_item("Quit", "Ctrl+Q")) context.actions.quit();
+    if (w.menu_item("Quit", "Ctrl+Q")) context.actions.window.quit();
     end_menu(w, "File");
 }
 
 void paste_camera(UiContext& context) {
     try {
-        context.state.camera = camera_from_json(context.actions.clipboard(), "the clipboard");
+        context.state.camera = camera_from_json(context.actions.window.clipboard(), "the clipboard");
     } catch (const Error& error) {
-        context.actions.complain(error.what());
+        context.actions.window.complain(error.what());
     }
 }
 
@@ -62,7 +62,7 @@ void draw_views(UiContext& context) {
         {"Top view", "7", Direction::top},          {"Bottom view", nullptr, Direction::bottom},
         {"Corner view", nullptr, Direction::corner}};
     for (const Entry& entry : entries)
-        if (context.widgets.menu_item(entry.label, entry.key)) context.actions.look(entry.direction);
+        if (context.widgets.menu_item(entry.label, entry.key)) context.actions.camera.look(entry.direction);
     Camera camera = context.camera;
     if (context.widgets.menu_item("Perspective", "5", &camera.perspective)) context.state.camera = camera;
 }
@@ -83,11 +83,11 @@ void draw_view_menu(UiContext& context) {
     if (w.menu_item("Dark theme", nullptr, &is_dark))
         context.state.theme = context.settings.theme = is_dark ? Theme::dark : Theme::light;
     ImGui::Separator();
-    if (w.menu_item("Fit everything", "Home")) context.actions.fit_all();
-    if (w.menu_item("Frame the selection", "F")) context.actions.frame_selection();
+    if (w.menu_item("Fit everything", "Home")) context.actions.camera.fit_all();
+    if (w.menu_item("Frame the selection", "F")) context.actions.camera.frame_selection();
     draw_views(context);
     ImGui::Separator();
-    if (w.menu_item("Copy camera")) context.actions.copy(to_json(context.camera));
+    if (w.menu_item("Copy camera")) context.actions.window.copy(to_json(context.camera));
     if (w.menu_item("Paste camera")) paste_camera(context);
     end_menu(w, "View");
 }

@@ -12,15 +12,19 @@
 
 namespace kerf::view {
 
-/// What panels cannot do by changing the view state.
-class Actions {
+/// What panels cannot do by changing the view state, by what does it.
+class FileActions {
  public:
-    virtual ~Actions() = default;
-    virtual void open(const std::string& path) = 0;
+    virtual ~FileActions() = default;
     virtual void open_files(
         const std::vector<std::string>& paths) = 0;  ///< together, at least one; see Session::open()
     virtual void reload() = 0;
     virtual void open_again(const RunOptions& options) = 0;  ///< what is open, read by them
+};
+
+class CameraActions {
+ public:
+    virtual ~CameraActions() = default;
     virtual void fit_all() = 0;
     virtual void frame_selection() = 0;
     /// Turns the camera's target to a point and comes as close as `radius` (units of the file) asks for; selects it.
@@ -31,23 +35,52 @@ class Actions {
     /// The clip plane with its normal, or facing the eye, goes through the middle of what is selected.
     virtual void clip_through_selection(bool faces_eye) = 0;
     virtual void look(Direction direction) = 0;
+};
+
+class PlayActions {
+ public:
+    virtual ~PlayActions() = default;
     virtual void toggle_play() = 0;
     virtual void toggle_motion() = 0;  ///< of the deformation
-    virtual void quit() = 0;
-    virtual void take_screenshot() = 0;
-    virtual void copy(const std::string& text) = 0;  ///< to the clipboard
-    virtual std::string clipboard() = 0;
+};
+
+class RunActions {
+ public:
+    virtual ~RunActions() = default;
     virtual void start_run(const RunOptions& options, bool volume) = 0;
     /// At the plane, or where it was.
     virtual void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) = 0;
     virtual void swap_runs() = 0;
+};
+
+class RepairActions {
+ public:
+    virtual ~RepairActions() = default;
     /// Session::repair() and its like; what was selected is no more.
     virtual void repair(const InputOptions& options) = 0;
     virtual void undo_repair() = 0;
     virtual void redo_repair() = 0;
     virtual void show_before_repair(bool before) = 0;  ///< or the surface after it, under the same camera
+};
+
+class WindowActions {
+ public:
+    virtual ~WindowActions() = default;
+    virtual void quit() = 0;
+    virtual void take_screenshot() = 0;
+    virtual void copy(const std::string& text) = 0;  ///< to the clipboard
+    virtual std::string clipboard() = 0;
     /// Shows what could not be done, until the next notice or click.
     virtual void complain(const std::string& text) = 0;
+};
+
+struct Actions {
+    FileActions& files;
+    CameraActions& camera;
+    PlayActions& play;
+    RunActions& runs;
+    RepairActions& repairs;
+    WindowActions& window;
 };
 
 /// A number on a face: its middle, in ImGui's units of the window.
@@ -112,7 +145,7 @@ struct UiContext {
     Settings& settings;
     const SceneFacts& facts;
     const std::vector<Step>& steps;  ///< of the node
-    Actions& actions;
+    const Actions& actions;
     Widgets& widgets;
     const Camera& camera;  ///< that is in use, also where the state has none
 };

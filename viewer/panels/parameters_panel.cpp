@@ -111,10 +111,10 @@ void draw_buttons(UiContext& context, Memory& memory, bool valid) {
     const bool has_cut = document.trace && document.trace->find(node) && !document.progress.running;
     ImGui::BeginDisabled(!can_run);
     if (w.button("Run all", "Cuts the surface and fills the parts with tetrahedra, in another process"))
-        context.actions.start_run(memory.options, true);
+        context.actions.runs.start_run(memory.options, true);
     ImGui::SameLine();
     if (w.button("Only cut", "Stops at the closed surfaces of the parts"))
-        context.actions.start_run(memory.options, false);
+        context.actions.runs.start_run(memory.options, false);
     ImGui::SameLine();
     ImGui::EndDisabled();
     if (w.button("Reset", "The options as they were")) memory.options = document.options;
@@ -123,7 +123,7 @@ void draw_buttons(UiContext& context, Memory& memory, bool valid) {
     if (w.button(label.c_str(), has_cut ? "Makes this cut again with these options; what lies below it is left out"
                                 : document.progress.running ? "A run is under way"
                                                             : "Needs a trace with a cut of this node"))
-        context.actions.redo_cut(node, memory.options, std::nullopt);
+        context.actions.runs.redo_cut(node, memory.options, std::nullopt);
     ImGui::EndDisabled();
 }
 

@@ -141,7 +141,7 @@ void draw_cut_handle(UiContext& context, Memory& memory, const Rectangle& scene,
     const Dragged dragged = drag(context, "move cut", *from, "Drag the plane to where this cut is to be made");
     if (dragged.moved) memory.dragged_plane += share_along(*from, *to) * length;
     if (!dragged.released || memory.dragged_plane == 0) return;
-    context.actions.redo_cut(cut->node, document.options, cut->plane.shifted(memory.dragged_plane));
+    context.actions.runs.redo_cut(cut->node, document.options, cut->plane.shifted(memory.dragged_plane));
     memory.dragged_plane = 0;
 }
 

@@ -50,9 +50,9 @@ void draw_option(UiContext& context, Memory& memory, OptionText advice) {
     const std::string label = words_of(advice, opens ? "Open" : "Run") + "###run";
     if (context.widgets.small_button(label.c_str(), tip.c_str()) && options) {
         if (opens)
-            context.actions.open_again(*options);
+            context.actions.files.open_again(*options);
         else
-            context.actions.start_run(*options, options->volume);
+            context.actions.runs.start_run(*options, options->volume);
     }
     ImGui::EndDisabled();
     ImGui::EndDisabled();
@@ -85,7 +85,7 @@ class ProblemList {
             if (memory_.defect_group < 0 || group_of(defects[i]) == memory_.defect_group)
                 listed_.push_back(static_cast<int>(i));
         if (context_.widgets.small_button("Copy list", "All that is listed below, with places and remedies"))
-            context_.actions.copy(text());
+            context_.actions.window.copy(text());
         ImGui::SameLine();
         show(fmt::format("{} listed; click to fly there", listed_.size()), colors_.dim);
         explain("Up and Down go on from there.");
@@ -212,7 +212,7 @@ class ProblemList {
         const Vec3 outward = mean_normal(soup.vertices, soup.facets, defect.facets);
         const std::optional<Vec3> back =
             direction_to_eye(soup.vertices, soup.facets, defect.where, 0.01 * radius, outward, context_.camera.back());
-        context_.actions.fly_to(defect.where, radius, back.value_or(Vec3::Zero()));
+        context_.actions.camera.fly_to(defect.where, radius, back.value_or(Vec3::Zero()));
         context_.state.selection = {Selection::Kind::defect, context_.state.node, index, defect.where};
     }
 

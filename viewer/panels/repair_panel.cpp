@@ -44,7 +44,7 @@ std::string error_of_plan(const std::string& plan) {
 void repair_by(UiContext& context, const std::string& plan) {
     InputOptions options = context.session.document().options.input_options;
     options.repair = plan;
-    context.actions.repair(options);
+    context.actions.repairs.repair(options);
 }
 
 // Adds steps to those that were done. They always start from the file.
@@ -65,7 +65,7 @@ void draw_wrap_button(UiContext& context) {
     const char* tip = "A new closed surface around all of it (--surface wrap); --gap and --offset are under Parameters";
     if (context.widgets.small_button("wrap", tip)) {
         options.wrap = true;
-        context.actions.repair(options);
+        context.actions.repairs.repair(options);
     }
     ImGui::EndDisabled();
 }
@@ -98,18 +98,18 @@ void draw_plan(UiContext& context, Memory& memory) {
         return pressed && enabled;
     };
     if (control("Undo", "The surface before the last repair (Ctrl+Z)", context.session.can_undo_repair()))
-        context.actions.undo_repair();
+        context.actions.repairs.undo_repair();
     if (control("Redo", "The surface after the repair that was undone (Ctrl+Shift+Z)",
                 context.session.can_redo_repair()))
-        context.actions.redo_repair();
+        context.actions.repairs.redo_repair();
 }
 
 void draw_before_and_after(UiContext& context) {
     const bool shows_before = context.state.node == 1 && context.state.step.stage == Stage::before_repair;
-    if (context.widgets.radio("Before repairs", shows_before)) context.actions.show_before_repair(true);
+    if (context.widgets.radio("Before repairs", shows_before)) context.actions.repairs.show_before_repair(true);
     explain("The surface as the file has it, and what was wrong with it, under the same camera (key B)");
     ImGui::SameLine();
-    if (context.widgets.radio("After", !shows_before)) context.actions.show_before_repair(false);
+    if (context.widgets.radio("After", !shows_before)) context.actions.repairs.show_before_repair(false);
     explain("The surface as repairs have left it (key B)");
     bool colored = context.state.color == ColorBy::deviation;
     if (context.widgets.checkbox("Colour by distance", &colored,
@@ -197,7 +197,7 @@ class ActionList {
             direction_to_eye(soup.vertices, soup.facets, place.where, 0.01 * radius,
                              mean_normal(soup.vertices, soup.facets, facets), context_.camera.back());
         context_.state.selection = {};
-        context_.actions.fly_to(place.where, radius, back.value_or(Vec3::Zero()));
+        context_.actions.camera.fly_to(place.where, radius, back.value_or(Vec3::Zero()));
     }
 
     UiContext& context_;
@@ -225,7 +225,7 @@ void draw_ending(UiContext& context, Memory& memory) {
     ImGui::SameLine();
     const RunOptions options = document.options;
     if (context.widgets.small_button("Mesh it", "Cuts and meshes the repaired surface"))
-        context.actions.start_run(options, options.volume);
+        context.actions.runs.start_run(options, options.volume);
 }
 
 }  // namespace

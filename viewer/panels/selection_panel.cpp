@@ -28,10 +28,10 @@ void draw_selection(UiContext& context) {
     ImGui::AlignTextToFramePadding();
     show("Selection", palette(context.state.theme).accent);
     ImGui::SameLine(0, em());
-    if (context.widgets.small_button("Frame", "Come close to it (F)")) context.actions.frame_selection();
+    if (context.widgets.small_button("Frame", "Come close to it (F)")) context.actions.camera.frame_selection();
     ImGui::SameLine();
     if (context.widgets.small_button("Copy", "These lines to the clipboard"))
-        context.actions.copy(context.facts.selection);
+        context.actions.window.copy(context.facts.selection);
     ImGui::SameLine();
     if (context.widgets.small_button("Clear", "Select nothing (Escape)")) context.state.selection = {};
     if (context.state.selection.kind == Selection::Kind::cell) {

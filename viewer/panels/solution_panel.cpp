@@ -49,7 +49,7 @@ void draw_deformation(UiContext& context, const Solution& solution) {
     ImGui::SameLine();
     if (context.widgets.button(context.facts.moving ? "Pause" : "Play", "The deformation moves")) {
         if (state.deform == 0) state.deform = good;
-        context.actions.toggle_motion();
+        context.actions.play.toggle_motion();
     }
     if (state.deform != 0) draw_motion(context);
 }

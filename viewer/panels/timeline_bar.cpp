@@ -43,7 +43,7 @@ class TimelineBar {
         if (control("previous step", Icon::left, "Previous step (left arrow)", any && current_ > 0))
             show_step(current_ - 1);
         if (control("play", playing ? Icon::pause : Icon::play, playing ? "Pause (space)" : "Play all steps (space)"))
-            context_.actions.toggle_play();
+            context_.actions.play.toggle_play();
         if (control("next step", Icon::right, "Next step (right arrow)", any && current_ + 1 < steps_.size()))
             show_step(current_ + 1);
         const Tree& tree = context_.session.document().tree;
@@ -76,7 +76,7 @@ class TimelineBar {
         RunOptions options = context_.session.document().options;
         options.output.clear();
         options.trace_file.clear();
-        context_.actions.start_run(options, false);
+        context_.actions.runs.start_run(options, false);
     }
 
     // From one place to the next where a try has failed.
@@ -102,7 +102,8 @@ class TimelineBar {
         memory_.chosen_place = index;
         const FailurePlace& place = places[static_cast<std::size_t>(index)];
         const double diagonal = diagonal_of(context_.session.document());
-        context_.actions.fly_to(place.where, place.radius > 0 ? 1.5 * place.radius : 0.02 * diagonal, Vec3::Zero());
+        context_.actions.camera.fly_to(place.where, place.radius > 0 ? 1.5 * place.radius : 0.02 * diagonal,
+                                       Vec3::Zero());
     }
 
     void draw_text() {

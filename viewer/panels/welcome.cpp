@@ -33,7 +33,8 @@ void draw_recent(UiContext& context, const Palette& colors) {
         const std::string text = shortened_path(recent[i], ImGui::GetContentRegionAvail().x - 2 * em());
         ImGui::PushStyleColor(ImGuiCol_Text, colors.accent);
         ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.5f, 0.5f});
-        if (ImGui::Selectable((text + "##open recent" + std::to_string(i)).c_str())) context.actions.open(recent[i]);
+        if (ImGui::Selectable((text + "##open recent" + std::to_string(i)).c_str()))
+            context.actions.files.open_files({recent[i]});
         ImGui::PopStyleVar();
         ImGui::PopStyleColor();
         context.widgets.record("open recent " + std::to_string(i + 1));

@@ -100,7 +100,7 @@ void fly_when_there(UiContext& context, Memory& memory) {
     if (!surface || context.state.node != node) return;
     const std::optional<InterfacePlace> place =
         memory.worst_by_angle ? smallest_angle(cut->interface) : smallest_dihedral(cut->interface, *surface);
-    if (place) context.actions.fly_to(place->where, 2 * place->radius, Vec3::Zero());
+    if (place) context.actions.camera.fly_to(place->where, 2 * place->radius, Vec3::Zero());
 }
 
 }  // namespace
