@@ -224,7 +224,7 @@ view::Image Driver::picture() {
 view::DrawnLayer Driver::drawn(view::LayerKind kind, std::optional<NodeId> owner) {
     view::DrawnLayer sum;
     app_->paint();
-    for (const view::DrawnLayer& layer : app_->drawn())
+    for (const view::DrawnLayer& layer : app_->renderer().drawn())
         if (layer.kind == kind && owner.value_or(layer.owner) == layer.owner) {
             sum.triangles += layer.triangles;
             sum.segments += layer.segments;

@@ -59,7 +59,7 @@ TEST(Gallery, IsDrawnByThisProgram) {
     const ChildResult drawn = pool.wait_any()->result;
     ASSERT_EQ(drawn.exit_code, 0) << drawn.log;
     const std::set<std::string> kept = pictures_in(gallery), now = pictures_in(KERF_GALLERY);
-    const std::string driver = Driver().app().graphics_driver();
+    const std::string driver = Driver().app().renderer().driver();
     constexpr const char* remedy = "To draw it again: assets/gallery/make_gallery.sh";
     for (const std::string& name : kept) EXPECT_NE(now.contains(name), is_left_out(name)) << "assets/gallery/" << name;
     for (const std::string& name : now) {

@@ -114,9 +114,9 @@ testing::AssertionResult is_golden(const std::string& name, const view::Image& p
 testing::AssertionResult is_golden(const std::string& name, Driver& driver) {
     if (!fs::exists(goldens / "driver.txt")) {
         fs::create_directories(candidates);
-        std::ofstream(candidates / "driver.txt") << driver.app().graphics_driver() << '\n';
+        std::ofstream(candidates / "driver.txt") << driver.app().renderer().driver() << '\n';
     }
-    return is_golden(name, driver.picture(), driver.app().graphics_driver());
+    return is_golden(name, driver.picture(), driver.app().renderer().driver());
 }
 
 }  // namespace kerf::test

@@ -1,11 +1,12 @@
-// Numbers in the scene: of patches, of isolines, of the least and the largest value.
+#include "viewer/app/labels.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/app/app.h"
+#include "core/number_text.h"
 #include "viewer/panels/text.h"
 #include "viewer/render/line_labels.h"
 
@@ -17,20 +18,19 @@ constexpr float line_spacing = 11;  // between two numbers of one value, in heig
 
 }  // namespace
 
-App::NumberedView App::numbered_view() const {
-    return {projection_.projection * projection_.view,
-            {projection_.x, projection_.y, projection_.width, projection_.height},
-            scenes_built_};
+Labels::NumberedView Labels::numbered_view() const {
+    return {view_.projection.projection * view_.projection.view,
+            {view_.projection.x, view_.projection.y, view_.projection.width, view_.projection.height},
+            view_.scenes_built};
 }
 
-// While the hand turns it, or it moves, a picture has none: they would jump, and each takes another drawing.
-void App::place_labels() {
-    const bool is_steady = !dragging_ && !facts_.moving;
+void Labels::place(bool held) {
+    const bool is_steady = !held && !view_.facts.moving;
     const NumberedView view = numbered_view();
     if (is_steady && numbered_ == view) return;
     numbered_.reset();
-    facts_.labels.clear();
-    if (area_.width < 1 || area_.height < 1) return facts_.numbers.clear();
+    view_.facts.labels.clear();
+    if (view_.area.width < 1 || view_.area.height < 1) return view_.facts.numbers.clear();
     place_numbers();
     place_extremes();
     if (!is_steady) return;
@@ -39,51 +39,73 @@ void App::place_labels() {
 }
 
 // Of patches, where there is room for them on what is seen of their faces.
-void App::place_numbers() {
+void Labels::place_numbers() {
     const auto has_numbers = [](const Layer& layer) { return layer.patch != nullptr; };
-    const std::vector<Layer>& layers = built_.scene.layers;
-    facts_.numbers.clear();
+    const std::vector<Layer>& layers = view_.built.scene.layers;
+    view_.facts.numbers.clear();
     if (std::none_of(layers.begin(), layers.end(), has_numbers)) return;
     const float least_room = 0.7f * ImGui::GetFontSize();
-    for (const NumberPlace& place : renderer_.places_of_patches(built_.scene, projection_))
+    for (const NumberPlace& place : view_.renderer.places_of_patches(view_.built.scene, view_.projection))
         if (static_cast<float>(place.room) >= least_room)
-            facts_.numbers.push_back(
+            view_.facts.numbers.push_back(
                 {place.number, static_cast<float>(place.x) + 0.5f, static_cast<float>(place.y) + 0.5f});
 }
 
-void App::place_line_values() {
+void Labels::place_line_values() {
     const auto has_lines = [](const Layer& layer) { return !layer.geometry->origins.empty(); };
-    const std::vector<Layer>& layers = built_.scene.layers;
-    if (!state_.numbers || std::none_of(layers.begin(), layers.end(), has_lines)) return;
+    const std::vector<Layer>& layers = view_.built.scene.layers;
+    if (!view_.state.numbers || std::none_of(layers.begin(), layers.end(), has_lines)) return;
     const auto size = [](float value) {
         const ImVec2 extent = ImGui::CalcTextSize(rounded(static_cast<double>(value)).c_str());
         return Eigen::Vector2f(extent.x, extent.y);
     };
     std::vector<LabelArea> taken;
-    for (const ValueLabel& label : facts_.labels) {
+    for (const ValueLabel& label : view_.facts.labels) {
         const Rectangle r = rectangle_of(label);
         taken.push_back({{r.x, r.y}, {r.x + r.width, r.y + r.height}});
     }
-    const LabelArea area{{body_.x, body_.y}, {body_.x + body_.width, body_.y + body_.height}};
-    const std::vector<SeenSegment> seen = renderer_.seen_isolines(built_.scene, projection_);
+    const LabelArea area{{view_.body.x, view_.body.y},
+                         {view_.body.x + view_.body.width, view_.body.y + view_.body.height}};
+    const std::vector<SeenSegment> seen = view_.renderer.seen_isolines(view_.built.scene, view_.projection);
     for (const LineLabel& label : places_on_lines(seen, size, area, line_spacing * ImGui::GetFontSize(), taken))
-        facts_.labels.push_back({rounded(static_cast<double>(label.value)), label.place.x(), label.place.y()});
+        view_.facts.labels.push_back({rounded(static_cast<double>(label.value)), label.place.x(), label.place.y()});
 }
 
-void App::place_extremes() {
-    const std::vector<PlacedValue>& marked = built_.legend.marked;
-    const Eigen::Matrix4f matrix = projection_.projection * projection_.view;
+void Labels::place_extremes() {
+    const std::vector<PlacedValue>& marked = view_.built.legend.marked;
+    const Eigen::Matrix4f matrix = view_.projection.projection * view_.projection.view;
     for (std::size_t i = 0; i < marked.size(); ++i) {
-        const Eigen::Vector3f p = built_.frame.to_draw(marked[i].place).cast<float>();
+        const Eigen::Vector3f p = view_.built.frame.to_draw(marked[i].place).cast<float>();
         const Eigen::Vector4f clip = matrix * p.homogeneous();
         if (!(clip.w() > 0)) continue;
         ValueLabel label;
         label.text = fmt::format("{} {}", i == 0 ? "least" : "largest", rounded(marked[i].value));
-        label.x = area_.x + (clip.x() / clip.w() + 1) / 2 * area_.width;
-        label.y = area_.y + (1 - clip.y() / clip.w()) / 2 * area_.height;
+        label.x = view_.area.x + (clip.x() / clip.w() + 1) / 2 * view_.area.width;
+        label.y = view_.area.y + (1 - clip.y() / clip.w()) / 2 * view_.area.height;
         label.is_beside = true;
-        facts_.labels.push_back(label);
+        view_.facts.labels.push_back(label);
     }
+}
+
+void Labels::probe(bool wanted) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool is_over_scene = !io.WantCaptureMouse && view_.area.contains(io.MousePos.x, io.MousePos.y);
+    const bool is_steady = wanted && !view_.facts.moving;
+    if (!is_over_scene || !is_steady || !view_.built.legend.values) {
+        view_.facts.probe.reset();
+        probed_.reset();
+        return;
+    }
+    const Probed here{numbered_view(), io.MousePos.x, io.MousePos.y};
+    if (probed_ == here) return;
+    probed_ = here;
+    view_.facts.probe.reset();
+    const auto hit = view_.pick(io.MousePos.x, io.MousePos.y);
+    if (!hit || std::isnan(hit->value)) return;
+    const Vec3 place = view_.built.frame.to_file(hit->rest.cast<double>());
+    view_.facts.probe = ValueLabel{
+        fmt::format("{} {}\n{}", title(view_.state.color), rounded(static_cast<double>(hit->value)), place_text(place)),
+        io.MousePos.x, io.MousePos.y, true};
 }
 
 }  // namespace kerf::view

@@ -1,12 +1,16 @@
-// Where the camera stands: what it frames, flies to and turns to, and what of the scene fits beside the legend.
-#include <algorithm>
+#include "viewer/app/navigation.h"
 
-#include "viewer/app/app.h"
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/app/keys.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
 
 namespace {
+
+constexpr double zoom_per_notch = 0.88;
 
 Eigen::AlignedBox3d framed_box(const std::vector<Vec3>& points, double least) {
     Eigen::AlignedBox3d box;
@@ -17,102 +21,157 @@ Eigen::AlignedBox3d framed_box(const std::vector<Vec3>& points, double least) {
 
 }  // namespace
 
-void App::frame_selection() {
-    const double diagonal = session_.document().box.diagonal().norm();
-    const std::vector<Vec3> points = selected_points(session_, state_.selection);
+void Navigation::frame_selection() {
+    const double diagonal = view_.diagonal();
+    const std::vector<Vec3> points = selected_points(view_.session, view_.state.selection);
     if (!points.empty()) {
-        camera_.target = framed_box(points, 0.01 * diagonal).center();
-        Camera framed = camera_;
+        view_.camera.target = framed_box(points, 0.01 * diagonal).center();
+        Camera framed = view_.camera;
         fit_body(framed, framed_box(points, 0.01 * diagonal));
-        state_.camera = framed;
-    } else if (const auto surface = surface_of(session_, state_.node)) {
-        Camera framed = camera_;
+        view_.state.camera = framed;
+    } else if (const auto surface = surface_of(view_.session, view_.state.node)) {
+        Camera framed = view_.camera;
         fit_body(framed, framed_box(surface->vertices, 0));
         framed.height /= 2;
-        state_.camera = framed;
+        view_.state.camera = framed;
     }
 }
 
-void App::fly_to(const Vec3& point, double radius, const Vec3& back) {
-    Camera camera = camera_;
+void Navigation::fly_to(const Vec3& point, double radius, const Vec3& back) {
+    Camera camera = view_.camera;
     if (back.squaredNorm() > 0 && !back.isApprox(camera.back())) look_from(camera, back);
     camera.target = point;
-    camera.height = std::max(6 * radius, 1e-4 * session_.document().box.diagonal().norm());
-    state_.camera = camera_ = camera;
-    if (state_.selection.kind != Selection::Kind::cell) {
-        state_.selection = {};
-        state_.selection.kind = Selection::Kind::place;
-        state_.selection.owner = state_.node;
-        state_.selection.place = point;
+    camera.height = std::max(6 * radius, 1e-4 * view_.diagonal());
+    view_.state.camera = view_.camera = camera;
+    if (view_.state.selection.kind != Selection::Kind::cell) {
+        view_.state.selection = {};
+        view_.state.selection.kind = Selection::Kind::place;
+        view_.state.selection.owner = view_.state.node;
+        view_.state.selection.place = point;
     }
 }
 
-void App::resolve_turn() {
+void Navigation::resolve_turn() {
     if (!turning_to_) return;
     const Selection& s = *turning_to_;
-    const auto cells = session_.cells(s.owner);
-    const auto part = session_.part_surface(s.owner), shown = surface_of(session_, state_.node);
+    const auto cells = view_.session.cells(s.owner);
+    const auto part = view_.session.part_surface(s.owner), shown = surface_of(view_.session, view_.state.node);
     const bool is_known = cells && part && shown;
-    if (!is_known && session_.pending()) return;
-    if (is_known && state_.selection == s && state_.camera)
-        if (const auto back = direction_to_cell(*cells, *part, *shown, s.index, camera_.back())) {
-            if (!back->isApprox(state_.camera->back())) look_from(*state_.camera, *back);
-            wake();
+    if (!is_known && view_.session.pending()) return;
+    if (is_known && view_.state.selection == s && view_.state.camera)
+        if (const auto back = direction_to_cell(*cells, *part, *shown, s.index, view_.camera.back())) {
+            if (!back->isApprox(view_.state.camera->back())) look_from(*view_.state.camera, *back);
+            view_.wake();
         }
     turning_to_.reset();
 }
 
-void App::clip_through_selection(bool faces_eye) {
-    const std::vector<Vec3> points = selected_points(session_, state_.selection);
-    if (points.empty() || session_.document().box.isEmpty()) return notify("Select something to clip through first.");
+void Navigation::clip_through_selection(bool faces_eye) {
+    const std::vector<Vec3> points = selected_points(view_.session, view_.state.selection);
+    if (points.empty() || view_.session.document().box.isEmpty())
+        return view_.notify("Select something to clip through first.");
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
     // What lies towards the eye is cut away.
-    const Vec3 normal = faces_eye ? camera_.back() : state_.clip.normal;
-    if (faces_eye) state_.clip.flipped = false;
-    snap_to(state_.clip, Plane(middle, normal), session_.document().box);
+    const Vec3 normal = faces_eye ? view_.camera.back() : view_.state.clip.normal;
+    if (faces_eye) view_.state.clip.flipped = false;
+    snap_to(view_.state.clip, Plane(middle, normal), view_.session.document().box);
 }
 
-void App::look(Direction direction) {
-    Camera camera = camera_;
+void Navigation::look(Direction direction) {
+    Camera camera = view_.camera;
     look_from(camera, direction);
-    state_.camera = camera;
+    view_.state.camera = camera;
 }
 
 // Without a camera in the state everything fits, whatever is shown.
-void App::update_camera() {
-    if (state_.camera) {
-        camera_ = *state_.camera;
+void Navigation::update_camera() {
+    if (view_.state.camera) {
+        view_.camera = *view_.state.camera;
         return;
     }
-    camera_ = {};
-    const Clip& clip = state_.clip;
-    const bool fits_rest = chosen_.faces_clip && clip.on && !built_.left.isEmpty();
-    if (chosen_.turn)
-        camera_.turn = *chosen_.turn;
+    view_.camera = {};
+    const Clip& clip = view_.state.clip;
+    const bool fits_rest = view_.chosen.faces_clip && clip.on && !view_.built.left.isEmpty();
+    if (view_.chosen.turn)
+        view_.camera.turn = *view_.chosen.turn;
     else if (fits_rest)
-        look_from(camera_, clip.flipped ? Vec3(-clip.normal) : clip.normal);
+        look_from(view_.camera, clip.flipped ? Vec3(-clip.normal) : clip.normal);
     else
-        look_from(camera_, Direction::corner);
-    fit_body(camera_, fits_rest ? built_.left : built_.box);
+        look_from(view_.camera, Direction::corner);
+    fit_body(view_.camera, fits_rest ? view_.built.left : view_.built.box);
 }
 
-void App::project_scene() {
-    projection_ =
-        project(camera_, built_.frame, built_.box, static_cast<int>(area_.width), static_cast<int>(area_.height));
-    move_center(projection_, (2 * body_.x + body_.width - 2 * area_.x - area_.width) / std::max(area_.width, 1.f),
-                -(2 * body_.y + body_.height - 2 * area_.y - area_.height) / std::max(area_.height, 1.f));
-    projection_.x = static_cast<int>(area_.x);
-    projection_.y = size_.height - static_cast<int>(area_.y + area_.height);
-    projection_.pixel_ratio = size_.scale;
-    renderer_.resize(size_.width, size_.height);
+void Navigation::project_scene() {
+    update_camera();
+    view_.projection = project(view_.camera, view_.built.frame, view_.built.box, static_cast<int>(view_.area.width),
+                               static_cast<int>(view_.area.height));
+    move_center(
+        view_.projection,
+        (2 * view_.body.x + view_.body.width - 2 * view_.area.x - view_.area.width) / std::max(view_.area.width, 1.f),
+        -(2 * view_.body.y + view_.body.height - 2 * view_.area.y - view_.area.height) /
+            std::max(view_.area.height, 1.f));
+    view_.projection.x = static_cast<int>(view_.area.x);
+    view_.projection.y = view_.size.height - static_cast<int>(view_.area.y + view_.area.height);
+    view_.projection.pixel_ratio = view_.size.scale;
+    view_.renderer.resize(view_.size.width, view_.size.height);
 }
 
 // Into what the legend leaves of the scene.
-void App::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const {
-    const float height = std::max(body_.height, 1.f);
-    fit(camera, box, body_.width / height);
-    camera.height *= area_.height / height;
+void Navigation::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const {
+    const float height = std::max(view_.body.height, 1.f);
+    fit(camera, box, view_.body.width / height);
+    camera.height *= view_.area.height / height;
+}
+
+bool Navigation::take_digit(int key) {
+    Camera camera = view_.camera;
+    switch (key >= key_keypad_0 ? key - key_keypad_0 : key - key_0) {
+        case 1:
+            look_from(camera, Direction::front);
+            break;
+        case 3:
+            look_from(camera, Direction::right);
+            break;
+        case 7:
+            look_from(camera, Direction::top);
+            break;
+        case 9:
+            camera.turn = (Eigen::AngleAxisd(M_PI, Vec3::UnitZ()) * camera.turn).normalized();
+            break;
+        case 5:
+            camera.perspective = !camera.perspective;
+            break;
+        default:
+            return false;
+    }
+    view_.state.camera = view_.camera = camera;  // the next key of this frame goes on from here
+    return true;
+}
+
+// Towards what is seen under the cursor, and not through it.
+void Navigation::zoom(float x, float y, float notches) {
+    Camera camera = view_.camera;
+    const double diagonal = view_.diagonal();
+    if (const auto found = view_.pick(x, y)) focus_depth(camera, seen_point(*found));
+    const double height = view_.height();
+    zoom_at(camera, std::pow(zoom_per_notch, notches), (x - view_.body.x - view_.body.width / 2) / height,
+            -(y - view_.body.y - view_.body.height / 2) / height);
+    camera.height = std::clamp(camera.height, 1e-6 * diagonal, 1e2 * diagonal);
+    view_.state.camera = camera;
+}
+
+// Where it is on the picture, parts pulled apart.
+Vec3 Navigation::seen_point(const PickHit& hit) const {
+    const std::array<float, 3>& offset = view_.built.scene.layers[hit.layer].ranges[hit.range].offset;
+    const Eigen::Vector3f moved = hit.point + Eigen::Vector3f(offset[0], offset[1], offset[2]);
+    return view_.built.frame.to_file(moved.cast<double>());
+}
+
+void Navigation::center(const PickHit& hit) {
+    Camera camera = view_.camera;
+    camera.target = seen_point(hit);
+    view_.state.camera = camera;
 }
 
 }  // namespace kerf::view

@@ -1,10 +1,10 @@
-// What goes on with time: from step to step, and the motion of a deformation.
+#include "viewer/app/playing.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <imgui.h>
 
-#include "viewer/app/app.h"
 #include "viewer/model/timeline.h"
 
 namespace kerf::view {
@@ -16,50 +16,56 @@ constexpr double pictures_per_period = 32;  // of a motion: each is made once
 
 }  // namespace
 
-void App::toggle_play() {
-    facts_.playing = !facts_.playing;
+void Playing::toggle_play() {
+    view_.facts.playing = !view_.facts.playing;
     played_until_ = ImGui::GetTime() + seconds_per_step;
 }
 
-void App::toggle_motion() {
-    facts_.moving = !facts_.moving;
-    if (state_.motion == Motion::still) state_.motion = Motion::swing;
-    motion_ = state_.phase;
+void Playing::toggle_motion() {
+    view_.facts.moving = !view_.facts.moving;
+    if (view_.state.motion == Motion::still) view_.state.motion = Motion::swing;
+    motion_ = view_.state.phase;
 }
 
-void App::move_step(int direction) {
-    const auto here = static_cast<int>(nearest_step(steps_, state_.step));
-    state_.step =
-        steps_[static_cast<std::size_t>(std::clamp(here + direction, 0, static_cast<int>(steps_.size()) - 1))];
+void Playing::move_step(int direction) {
+    const auto here = static_cast<int>(nearest_step(view_.steps, view_.state.step));
+    view_.state.step =
+        view_
+            .steps[static_cast<std::size_t>(std::clamp(here + direction, 0, static_cast<int>(view_.steps.size()) - 1))];
 }
 
-void App::move_node(int direction) {
-    state_.node = next_node(session_.document().tree, state_.node, direction);
-    steps_ = steps_of(session_.document(), state_.node);
-    state_.step.refused_try = -1;
+void Playing::move_node(int direction) {
+    view_.state.node = next_node(view_.session.document().tree, view_.state.node, direction);
+    view_.steps = steps_of(view_.session.document(), view_.state.node);
+    view_.state.step.refused_try = -1;
 }
 
 // Where the deformation is now.
-void App::move() {
-    facts_.moving &= state_.motion != Motion::still && state_.deform != 0;
-    if (!facts_.moving) return;
-    motion_ += state_.speed * static_cast<double>(ImGui::GetIO().DeltaTime);
+void Playing::move() {
+    view_.facts.moving &= view_.state.motion != Motion::still && view_.state.deform != 0;
+    if (!view_.facts.moving) return;
+    motion_ += view_.state.speed * static_cast<double>(ImGui::GetIO().DeltaTime);
     motion_ -= std::floor(motion_);
-    state_.phase = std::floor(motion_ * pictures_per_period) / pictures_per_period;
+    view_.state.phase = std::floor(motion_ * pictures_per_period) / pictures_per_period;
 }
 
 // Through the steps of the node, then on to the next node.
-void App::play() {
-    if (!facts_.playing || ImGui::GetTime() < played_until_) return;
+void Playing::play() {
+    if (!view_.facts.playing || ImGui::GetTime() < played_until_) return;
     played_until_ = ImGui::GetTime() + seconds_per_step;
-    if (nearest_step(steps_, state_.step) + 1 < steps_.size()) {
+    if (nearest_step(view_.steps, view_.state.step) + 1 < view_.steps.size()) {
         move_step(1);
         return;
     }
-    const NodeId before = state_.node;
+    const NodeId before = view_.state.node;
     move_node(1);
-    facts_.playing = state_.node != before;
-    if (facts_.playing) state_.step = {};
+    view_.facts.playing = view_.state.node != before;
+    if (view_.facts.playing) view_.state.step = {};
+}
+
+void Playing::go_on() {
+    play();
+    move();
 }
 
 }  // namespace kerf::view

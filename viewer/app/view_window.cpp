@@ -17,6 +17,8 @@ double seconds_to_wait(App& app) {
     return app.settled() ? 0.5 : 0;
 }
 
+std::string title_of(const Document& document) { return document.title.empty() ? "Kerf" : document.title + " - Kerf"; }
+
 int at_scale_1(int pixels, double scale) { return static_cast<int>(std::lround(pixels / scale)); }
 
 // Once the document tells what is asked for; false if it does not yet.
@@ -54,9 +56,11 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
         if (!app.wants_frame()) continue;
         window.begin_frame();
         app.frame(window.frame_size(), true);
-        app.present();
+        app.paint();
+        app.renderer().present();
         window.swap();
-        if (title != app.window_title()) window.set_title(title = app.window_title());
+        if (std::string now = title_of(app.session().document()); title != now)
+            window.set_title(title = std::move(now));
     }
 }
 

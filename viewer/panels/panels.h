@@ -153,6 +153,8 @@ struct UiContext {
 /// A rectangle of the window in ImGui's units, y down.
 struct Rectangle {
     float x = 0, y = 0, width = 0, height = 0;
+
+    bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
 };
 
 /// The ground of a text in the scene.

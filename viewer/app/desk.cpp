@@ -1,0 +1,84 @@
+#include "viewer/app/desk.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/error.h"
+#include "io/text_file.h"
+#include "viewer/model/file_kind.h"
+
+namespace kerf::view {
+
+namespace {
+
+std::string unused_picture(const std::string& folder) {
+    for (int i = 1;; ++i) {
+        const std::string path = fmt::format("{}/kerf-{:03}.png", folder, i);
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) return path;
+    }
+}
+
+}  // namespace
+
+void Desk::copy(const std::string& text) {
+    ImGui::SetClipboardText(text.c_str());
+    view_.notify("copied");
+}
+
+std::string Desk::clipboard() {
+    const char* text = ImGui::GetClipboardText();
+    return text ? text : "";
+}
+
+void Desk::complain(const std::string& text) {
+    view_.facts.notice = text;
+    view_.facts.notice_is_error = true;
+}
+
+ViewOrigin Desk::origin_of_picture() const {
+    const Document& document = view_.session.document();
+    ViewOrigin origin;
+    const bool is_temporary = view_.session.can_save_run() || document.kind == Document::Kind::surface;
+    const std::string& input = !document.saved_as.empty() ? document.saved_as
+                               : is_temporary             ? document.options.input
+                                                          : document.path;
+    if (!input.empty()) origin.input = absolute_path(input);
+    const std::vector<OptionText> usual = option_texts({}, true);
+    for (const OptionText& option : option_texts(document.options, true))
+        if (is_temporary && document.saved_as.empty() &&
+            std::none_of(usual.begin(), usual.end(),
+                         [&](const OptionText& u) { return u.name == option.name && u.text == option.text; }))
+            origin.run.push_back(option);
+    origin.width = view_.size.width;
+    origin.height = view_.size.height;
+    origin.scale = static_cast<double>(view_.size.scale);
+    origin.body = document.box;
+    return origin;
+}
+
+void Desk::save_picture(const Image& picture) {
+    capture_ = false;
+    const std::string path = unused_picture(view_.options.screenshot_folder);
+    try {
+        write_png(path, picture);
+        ViewState state = view_.state;
+        state.camera = view_.camera;
+        write_text_file(path.substr(0, path.size() - 4) + ".json", to_json(state, origin_of_picture()));
+        view_.notify("saved as " + std::filesystem::path(path).lexically_normal().string() +
+                     ", its view as .json beside it");
+    } catch (const Error& error) {
+        complain(fmt::format("The picture was not saved: {} Start the viewer in a folder that can be written.",
+                             error.what()));
+    }
+}
+
+void Desk::clear_notice() {
+    SceneFacts& facts = view_.facts;
+    if (facts.notice_is_error ? ImGui::IsMouseClicked(0) : ImGui::GetTime() > view_.notice_until) facts.notice.clear();
+}
+
+}  // namespace kerf::view

@@ -1,0 +1,40 @@
+// Where the camera stands: what it frames, flies to and turns to, and what of the scene fits beside the legend.
+#pragma once
+
+#include <optional>
+
+#include "viewer/app/view.h"
+
+namespace kerf::view {
+
+class Navigation : public CameraActions {
+ public:
+    explicit Navigation(View& view) : view_(view) {}
+
+    void fit_all() override { view_.state.camera.reset(); }
+    void frame_selection() override;
+    void fly_to(const Vec3& point, double radius, const Vec3& back) override;
+    void turn_to_selection() override { turning_to_ = view_.state.selection; }
+    void clip_through_selection(bool faces_eye) override;
+    void look(Direction direction) override;
+
+    /// By a digit as Blender has them; false: it means nothing.
+    bool take_digit(int key);
+    /// Towards what is seen under the cursor, and not through it.
+    void zoom(float x, float y, float notches);
+    /// From now on the camera turns about what was hit.
+    void center(const PickHit& hit);
+    void resolve_turn();  ///< once the cells have arrived
+    /// The camera and its projection, of the scene as it was built.
+    void project_scene();
+
+ private:
+    void update_camera();
+    void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
+    Vec3 seen_point(const PickHit& hit) const;
+
+    View& view_;
+    std::optional<Selection> turning_to_;  // a cell that is being read
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,153 @@
+#include "viewer/app/opening.h"
+
+#include "viewer/app/settings.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr double usual_explosion = 0.4;  // of parts that are nothing but surfaces
+
+}  // namespace
+
+void Opening::open_files(const std::vector<std::string>& paths) {
+    RunOptions run = view_.options.run;
+    run.input_options.more_files.assign(paths.begin() + 1, paths.end());
+    view_.session.open(paths.front(), run);
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(view_.settings, *path);
+    save_settings(view_.options.config_folder, view_.settings);
+    const ViewState before = view_.state;
+    // The next step of an analysis is seen in the same colours.
+    kept_scale_ = {before.color, is_of_solution(before.color) ? before.color_range : std::nullopt};
+    view_.state = {};
+    view_.state.theme = before.theme;
+    view_.state.panels = before.panels;
+    view_.state.shading = before.shading;
+    view_.chosen = {};
+    is_view_complete_ = false;
+    await_document();
+}
+
+void Opening::show(const ViewState& state, const ChosenView& chosen) {
+    view_.state = state;
+    view_.chosen = chosen;
+    is_view_complete_ = false;
+    choose_view();
+}
+
+void Opening::await_document() {
+    opened_.clear();
+    view_.session_changed = true;
+    view_.wake();
+}
+
+void Opening::reload() {
+    view_.session.reload();
+    await_document();
+}
+
+void Opening::open_again(const RunOptions& options) {
+    view_.session.open(std::string(view_.session.document().path), options);
+    await_document();
+}
+
+void Opening::start_run(const RunOptions& options, bool volume) {
+    opened_ =
+        view_.session.document().path;  // what a user runs is not run once more when its repairs have made it clean
+    view_.session.start_run(options, volume);
+}
+
+void Opening::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
+    view_.session.redo_cut(node, options, plane);
+}
+
+// Under the same camera, so that what is alike stays where it is. Numbers of cells mean others there.
+void Opening::swap_runs() {
+    if (!view_.session.can_swap_runs()) return;
+    view_.session.swap_runs();
+    view_.state.camera = view_.camera;
+    if (view_.state.selection.kind != Selection::Kind::place) view_.state.selection = {};
+    view_.unresolved.reset();
+    view_.session_changed = true;
+    view_.wake();
+}
+
+void Opening::repair(const InputOptions& options) {
+    opened_ = view_.session.document().path;  // whether it is meshed then is the user's to say
+    show_before_repair(false);
+    view_.session.repair(options);
+}
+
+void Opening::undo_repair() {
+    show_before_repair(false);
+    view_.session.undo_repair();
+    view_.session_changed = true;
+}
+
+void Opening::redo_repair() {
+    show_before_repair(false);
+    view_.session.redo_repair();
+    view_.session_changed = true;
+}
+
+void Opening::show_before_repair(bool before) {
+    view_.state.camera = view_.camera;
+    view_.state.node = 1;
+    view_.state.step = {before ? Stage::before_repair : Stage::input, -1};
+    view_.wake();
+}
+
+// The key that goes from what was before to what is after.
+void Opening::show_other() {
+    if (view_.session.other_document())
+        swap_runs();
+    else if (view_.session.document().unrepaired)
+        show_before_repair(view_.state.node != 1 || view_.state.step.stage != Stage::before_repair);
+}
+
+// Numbers of facets and defects mean others in a repaired surface.
+void Opening::follow_repairs() {
+    if (checked_ == view_.session.document().checked) return;
+    const bool is_other = checked_ && view_.session.document().checked;
+    checked_ = view_.session.document().checked;
+    if (is_other && view_.state.selection.kind != Selection::Kind::place) view_.state.selection = {};
+}
+
+// A surface that can be cut is cut once, after it was opened.
+void Opening::begin_auto_run() {
+    const Document& document = view_.session.document();
+    if (!view_.options.auto_run || document.kind != Document::Kind::surface || opened_ == document.path) return;
+    if (!document.checked || document.has_problems()) return;
+    opened_ = document.path;
+    view_.session.start_run(document.options, view_.options.volume);
+}
+
+// A solution is seen by its stress, a mesh that is cut open by its cells, and parts without cells pulled apart, unless
+// somebody has chosen something else.
+void Opening::choose_view() {
+    const Document& document = view_.session.document();
+    if (is_view_complete_ || document.kind == Document::Kind::none) return;
+    is_view_complete_ = true;
+    if (document.solution && !view_.chosen.color && !view_.chosen.stage) {
+        const auto& cases = document.solution->cases;
+        view_.state.color = !cases.empty() && cases.front().is_mode() ? ColorBy::displacement : ColorBy::von_mises;
+        if (kept_scale_.range) {
+            view_.state.color = kept_scale_.color;
+            view_.state.color_range = kept_scale_.range;
+        }
+        view_.state.step.stage = Stage::tetrahedra;
+    }
+    if (view_.chosen.faces_clip && !view_.chosen.stage && has_cells(document, view_.state.node))
+        view_.state.step = {Stage::tetrahedra, -1};
+    if (!document.has_surfaces_alone() || view_.chosen.stage || is_of_cells(view_.state.color)) return;
+    view_.state.step = {Stage::parts, -1};
+    if (!view_.chosen.explode) view_.state.explode = usual_explosion;
+}
+
+void Opening::follow() {
+    begin_auto_run();
+    choose_view();
+    follow_repairs();
+}
+
+}  // namespace kerf::view

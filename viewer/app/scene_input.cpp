@@ -1,0 +1,130 @@
+#include "viewer/app/scene_input.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <imgui.h>
+
+#include "viewer/app/keys.h"
+#include "viewer/scene/selection.h"
+
+namespace kerf::view {
+
+namespace {
+
+constexpr float click_pixels = 4;  // at scale 1; a press that moves further is a drag
+
+bool is_of_cells(LayerKind kind) { return kind == LayerKind::cells || kind == LayerKind::section; }
+bool is_of_facets(LayerKind kind) {
+    return kind == LayerKind::surface || kind == LayerKind::file_surface || kind == LayerKind::half ||
+           kind == LayerKind::part;
+}
+
+}  // namespace
+
+void SceneInput::take_character_key(const KeyEvent& event) {
+    if (navigation_.take_digit(event.key)) return;
+    ViewState& state = view_.state;
+    if (event.key == key_of('H')) state.panels.keys = !state.panels.keys;
+    if (event.key == key_of('F')) navigation_.frame_selection();
+    if (event.key == key_of('C'))
+        event.shift ? navigation_.clip_through_selection(false) : void(state.clip.on = !state.clip.on);
+    if (event.key == key_of('E')) state.edges = !state.edges;
+    if (event.key == key_of('B')) opening_.show_other();
+    if (event.key == key_of('N')) state.neighbours = !state.neighbours;
+    if (event.key == key_space) playing_.toggle_play();
+}
+
+void SceneInput::take_control_key(const KeyEvent& event) {
+    if (event.repeat) return;
+    if (event.key == key_of('O')) ui_.open_browser();
+    if (event.key == key_of('R')) opening_.reload();
+    if (event.key == key_of('Q')) window_.quit();
+    if (event.key == key_of('Z')) event.shift ? opening_.redo_repair() : opening_.undo_repair();
+    if (event.key == key_of('Y')) opening_.redo_repair();
+}
+
+void SceneInput::take_key(const KeyEvent& event) {
+    if (event.key == key_escape && ui_.close_menu()) return;
+    if (ImGui::GetIO().WantTextInput || ui_.wants_keyboard()) return;
+    if (event.control) return take_control_key(event);
+    if (event.key == key_left) playing_.move_step(-1);
+    if (event.key == key_right) playing_.move_step(1);
+    if (event.key == key_up && !ui_.step_in_list(-1)) playing_.move_node(-1);
+    if (event.key == key_down && !ui_.step_in_list(1)) playing_.move_node(1);
+    if (event.repeat) return;
+    if (event.key == key_home) navigation_.fit_all();
+    if (event.key == key_f12) window_.take_screenshot();
+    if (event.key == key_escape) {
+        ui_.leave_list();
+        if (view_.state.panels.keys)
+            view_.state.panels.keys = false;
+        else
+            view_.state.selection = {};
+    }
+    take_character_key(event);
+}
+
+void SceneInput::take() {
+    for (const KeyEvent& event : std::exchange(key_events_, {})) take_key(event);
+    take_mouse();
+}
+
+void SceneInput::take_mouse() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool in_scene = !io.WantCaptureMouse && view_.area.contains(io.MousePos.x, io.MousePos.y);
+    for (int button = 0; button < 3; ++button)
+        if (ImGui::IsMouseClicked(button)) pressed_in_scene_ = in_scene;
+    if (pressed_in_scene_) {
+        take_drag();
+        const bool is_double = ImGui::IsMouseDoubleClicked(0);
+        if (is_double || (ImGui::IsMouseReleased(0) && !dragging_)) take_click(is_double);
+        if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
+            dragging_ = pressed_in_scene_ = false;
+    }
+    if (in_scene && io.MouseWheel != 0) navigation_.zoom(io.MousePos.x, io.MousePos.y, io.MouseWheel);
+}
+
+void SceneInput::take_drag() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool pans = ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift);
+    if (!pans && !ImGui::IsMouseDown(0)) return;
+    const float least_drag = click_pixels * view_.size.scale;
+    for (int button = 0; button < 3; ++button)  // those that are up still have their last drag's
+        dragging_ |= ImGui::IsMouseDown(button) && io.MouseDragMaxDistanceSqr[button] > least_drag * least_drag;
+    if (!dragging_ || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
+    Camera camera = view_.camera;
+    const auto height = static_cast<double>(view_.height());
+    (pans ? pan : orbit)(camera, io.MouseDelta.x / height, io.MouseDelta.y / height);
+    view_.state.camera = camera;
+}
+
+// Selects what is under the cursor, or turns about it from now on.
+void SceneInput::take_click(bool centers) {
+    const ImVec2& mouse = ImGui::GetIO().MousePos;
+    const auto found = view_.pick(mouse.x, mouse.y);
+    view_.unresolved.reset();
+    if (centers) return found ? navigation_.center(*found) : void();
+    view_.state.selection = {};
+    if (!found) return;
+    const Vec3 point = view_.built.frame.to_file(found->rest.cast<double>());  // where vertices have their places
+    const LayerKind kind = view_.built.scene.layers[found->layer].kind;
+    if (is_of_cells(kind) || is_of_facets(kind)) {
+        view_.unresolved = Hit{is_of_cells(kind), found->owner, found->element, point};
+        resolve_click();
+    } else {
+        view_.state.selection.kind = Selection::Kind::place;
+        view_.state.selection.owner = found->owner;
+        view_.state.selection.place = point;
+    }
+}
+
+// The cells behind a facet may have to be read first: then it is tried again when something has arrived.
+void SceneInput::resolve_click() {
+    if (!view_.unresolved) return;
+    const auto selection = select(view_.session, *view_.unresolved, view_.state.pick);
+    if (selection) view_.state.selection = *selection;
+    if (selection || !view_.session.pending()) view_.unresolved.reset();
+}
+
+}  // namespace kerf::view
