@@ -12,7 +12,7 @@ namespace {
 
 class ColorBar {
  public:
-    ColorBar(UiContext& context, Memory& memory, const ValueRange& colored, const ValueRange& extent)
+    ColorBar(UiContext& context, ColorBarMemory& memory, const ValueRange& colored, const ValueRange& extent)
         : context_(context), memory_(memory), colored_(colored), extent_(extent) {}
 
     void draw() {
@@ -73,14 +73,14 @@ class ColorBar {
     }
 
     UiContext& context_;
-    Memory& memory_;
+    ColorBarMemory& memory_;
     const ValueRange colored_, extent_;
     ImVec2 from_, size_;
 };
 
 }  // namespace
 
-void draw_color_bar(UiContext& context, Memory& memory) {
+void draw_color_bar(UiContext& context, ColorBarMemory& memory) {
     const ViewState& state = context.state;
     const auto& values = context.facts.values;
     const std::string of = fmt::format("{} of {}", name(state.color), context.session.document().path);

@@ -45,12 +45,12 @@ bool draw_limits(Widgets& widgets, const char* title, const std::array<const cha
 }
 
 // Always there, so that nothing below moves when it is used.
-void draw_range(UiContext& context, Memory& memory) {
+void draw_range(UiContext& context, ColorMemory& memory) {
     ViewState& state = context.state;
     bool fixed = state.color_range.has_value();
     if (context.widgets.checkbox("Fixed range", &fixed, "The same colours for the same values, whatever is shown"))
         state.color_range = fixed ? std::optional(context.facts.values.value_or(ValueRange{0, 1})) : std::nullopt;
-    draw_color_bar(context, memory);
+    draw_color_bar(context, memory.bar);
     const ValueRange shown = state.color_range.value_or(context.facts.values.value_or(ValueRange{0, 1}));
     ValueRange changed = shown;
     if (draw_limits(context.widgets, "Colours", {"Lowest", "Highest"}, shown, memory.range, changed))
@@ -59,7 +59,7 @@ void draw_range(UiContext& context, Memory& memory) {
 }
 
 // Always there, so that nothing below moves when a filter begins.
-void draw_filter(UiContext& context, Memory& memory) {
+void draw_filter(UiContext& context, ColorMemory& memory) {
     ViewState& state = context.state;
     const ValueRange all = values_of_run(context);
     const ValueRange shown = state.filter.value_or(all);
@@ -86,16 +86,18 @@ void fly_to_cell(UiContext& context, const WorstCell& cell) {
 }
 
 // As far as keys have asked for; the row comes into sight.
-void step_through_worst(UiContext& context, Memory& memory, const std::vector<WorstCell>& cells) {
-    if (memory.list != Memory::List::worst_cells || memory.list_steps == 0) return;
+void step_through_worst(UiContext& context, WorstCellsMemory& memory, ListKeys& keys,
+                        const std::vector<WorstCell>& cells) {
+    const int steps = keys.take(ListKeys::List::worst_cells);
+    if (steps == 0) return;
     const int last = static_cast<int>(cells.size()) - 1;
-    memory.chosen_worst = std::clamp(memory.chosen_worst + std::exchange(memory.list_steps, 0), 0, last);
-    fly_to_cell(context, cells[static_cast<std::size_t>(memory.chosen_worst)]);
+    memory.chosen = std::clamp(memory.chosen + steps, 0, last);
+    fly_to_cell(context, cells[static_cast<std::size_t>(memory.chosen)]);
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-    scroll_to_row(static_cast<float>(memory.chosen_worst) * height, 2 * height);
+    scroll_to_row(static_cast<float>(memory.chosen) * height, 2 * height);
 }
 
-void draw_worst_row(UiContext& context, Memory& memory, const WorstCell& cell, int i) {
+void draw_worst_row(UiContext& context, WorstCellsMemory& memory, ListKeys& keys, const WorstCell& cell, int i) {
     const Selection& selection = context.state.selection;
     const bool is_selected =
         selection.kind == Selection::Kind::cell && selection.owner == cell.part && selection.index == cell.cell;
@@ -104,8 +106,8 @@ void draw_worst_row(UiContext& context, Memory& memory, const WorstCell& cell, i
     const std::string label = fmt::format("worst {}", i + 1);
     if (ImGui::Selectable(fmt::format("{}##{}", i + 1, label).c_str(), is_selected,
                           ImGuiSelectableFlags_SpanAllColumns)) {
-        memory.chosen_worst = i;
-        memory.list = Memory::List::worst_cells;
+        memory.chosen = i;
+        keys.list = ListKeys::List::worst_cells;
         fly_to_cell(context, cell);
     }
     const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
@@ -119,7 +121,8 @@ void draw_worst_row(UiContext& context, Memory& memory, const WorstCell& cell, i
     show_right(fmt::format("{}", cell.cell), color);
 }
 
-void draw_worst_table(UiContext& context, Memory& memory, const std::vector<WorstCell>& cells) {
+void draw_worst_table(UiContext& context, WorstCellsMemory& memory, ListKeys& keys,
+                      const std::vector<WorstCell>& cells) {
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoSavedSettings;
     const float rows = std::min(10.f, static_cast<float>(cells.size()) + 1.3f);
     if (!ImGui::BeginTable("##worst", 4, flags, {0, rows * (ImGui::GetTextLineHeight() + 0.4f * em())})) return;
@@ -133,12 +136,12 @@ void draw_worst_table(UiContext& context, Memory& memory, const std::vector<Wors
         ImGui::TableSetColumnIndex(index++);
         show_right(head, dim);
     }
-    step_through_worst(context, memory, cells);
+    step_through_worst(context, memory, keys, cells);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(cells.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            draw_worst_row(context, memory, cells[static_cast<std::size_t>(i)], i);
+            draw_worst_row(context, memory, keys, cells[static_cast<std::size_t>(i)], i);
     ImGui::EndTable();
 }
 
@@ -152,8 +155,8 @@ ValueRange values_of_run(const UiContext& context) {
     return context.facts.values.value_or(ValueRange{0, 1});
 }
 
-void draw_worst_cells(UiContext& context, Memory& memory) {
-    draw_head(context.widgets, "Worst cells", context.state.panels.quality, memory.worst_cells);
+void draw_worst_cells(UiContext& context, WorstCellsMemory& memory, ListKeys& keys) {
+    draw_head(context.widgets, "Worst cells", context.state.panels.quality, memory.section);
     if (!context.state.panels.quality) return;
     const Palette& colors = palette(context.state.theme);
     if (context.session.document().folder.empty())
@@ -164,10 +167,10 @@ void draw_worst_cells(UiContext& context, Memory& memory) {
     const auto cells = context.session.worst_cells(context.state.color, 100);
     if (!cells) return show("Reading the cells...", colors.dim);
     if (cells->empty()) return show("No cells have been written yet.", colors.dim);
-    draw_worst_table(context, memory, *cells);
+    draw_worst_table(context, memory, keys, *cells);
 }
 
-void draw_color(UiContext& context, Memory& memory) {
+void draw_color(UiContext& context, ColorMemory& memory, ListKeys& keys) {
     if (context.widgets.header("Colour", true)) {
         const ViewState& state = context.state;
         draw_choice(context);
@@ -188,13 +191,13 @@ void draw_color(UiContext& context, Memory& memory) {
         if (is_measure(state.color) || context.facts.values) draw_range(context, memory);
         draw_solution(context);
         if (is_measure(state.color)) {
-            draw_histogram(context, memory);
+            draw_histogram(context, memory.histogram);
             draw_filter(context, memory);
         }
         ImGui::Spacing();
     }
-    draw_worst_cells(context, memory);
-    draw_worst_interfaces(context, memory);
+    draw_worst_cells(context, memory.worst_cells, keys);
+    draw_worst_interfaces(context, memory.worst_interfaces);
 }
 
 }  // namespace kerf::view

@@ -141,7 +141,7 @@ void draw_switch(UiContext& context) {
     if ((wants_a && !shows_before) || (wants_b && shows_before)) context.actions.runs.swap_runs();
 }
 
-void draw_saving(UiContext& context, Memory& memory) {
+void draw_saving(UiContext& context, ComparisonMemory& memory) {
     Session& session = context.session;
     const Document& document = session.document();
     const Palette& colors = palette(context.state.theme);
@@ -158,7 +158,7 @@ void draw_saving(UiContext& context, Memory& memory) {
 
 }  // namespace
 
-void draw_comparison(UiContext& context, Memory& memory) {
+void draw_comparison(UiContext& context, ComparisonMemory& memory) {
     const Session& session = context.session;
     const Palette& colors = palette(context.state.theme);
     const Document *other = session.other_document(), *shown = &session.document();

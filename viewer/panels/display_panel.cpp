@@ -101,7 +101,7 @@ void draw_snap_button(UiContext& context) {
 }
 
 // What is typed takes effect when the field is left, so that half a number does not turn the plane.
-void draw_normal(UiContext& context, Memory& memory) {
+void draw_normal(UiContext& context, ClipMemory& memory) {
     Clip& clip = context.state.clip;
     const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
     ImGui::AlignTextToFramePadding();
@@ -116,7 +116,7 @@ void draw_normal(UiContext& context, Memory& memory) {
 }
 
 // The position in units of the file: along the normal from the origin.
-void draw_distance(UiContext& context, Memory& memory) {
+void draw_distance(UiContext& context, ClipMemory& memory) {
     Clip& clip = context.state.clip;
     const Eigen::AlignedBox3d& box = context.session.document().box;
     if (box.isEmpty()) return;
@@ -127,9 +127,9 @@ void draw_distance(UiContext& context, Memory& memory) {
     show("At, in units of the file");
     ImGui::SameLine(left + value_place * room + 6 * em(), 0);
     const bool changed = input_on_leaving(context.widgets, "Clip at", ImGui::GetContentRegionAvail().x,
-                                          range.low + clip.position * length, memory.clip_at);
+                                          range.low + clip.position * length, memory.at);
     explain("The distance of the plane from the origin along its normal");
-    if (changed && length > 0) clip.position = std::clamp((memory.clip_at - range.low) / length, 0., 1.);
+    if (changed && length > 0) clip.position = std::clamp((memory.at - range.low) / length, 0., 1.);
 }
 
 void draw_selection_buttons(UiContext& context) {
@@ -156,7 +156,7 @@ void draw_display(UiContext& context) {
     ImGui::Spacing();
 }
 
-void draw_clip(UiContext& context, Memory& memory) {
+void draw_clip(UiContext& context, ClipMemory& memory) {
     if (!context.widgets.header("Clip", true)) return;
     Clip& clip = context.state.clip;
     context.widgets.checkbox("Clip plane", &clip.on, "Shows one side of a plane (C)");

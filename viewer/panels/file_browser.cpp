@@ -256,8 +256,7 @@ void FileBrowser::go_to(const fs::path& new_folder) {
     folder = typed = (unresolved ? new_folder : clean).string();
 }
 
-void draw_browser(UiContext& context, Memory& memory) {
-    FileBrowser& browser = memory.browser;
+void draw_browser(UiContext& context, FileBrowser& browser) {
     if (browser.requested) {
         browser.requested = false;
         begin_browsing(context.settings, browser);

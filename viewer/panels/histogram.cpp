@@ -25,7 +25,7 @@ Span used_bins(const std::vector<std::int64_t>& counts) {
 
 class HistogramView {
  public:
-    HistogramView(UiContext& context, Memory& memory, const MeasureHistogram& histogram)
+    HistogramView(UiContext& context, HistogramMemory& memory, const MeasureHistogram& histogram)
         : context_(context),
           memory_(memory),
           histogram_(histogram),
@@ -126,7 +126,7 @@ class HistogramView {
     }
 
     UiContext& context_;
-    Memory& memory_;
+    HistogramMemory& memory_;
     const MeasureHistogram& histogram_;
     const Palette& colors_;
     Span span_;
@@ -169,7 +169,7 @@ int histogram_number(ColorBy color) {
     }
 }
 
-void draw_histogram(UiContext& context, Memory& memory) {
+void draw_histogram(UiContext& context, HistogramMemory& memory) {
     const int measure = histogram_number(context.state.color);
     if (measure < 0) return;
     const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)];

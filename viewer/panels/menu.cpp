@@ -29,10 +29,10 @@ void draw_recent(UiContext& context) {
     end_menu(context.widgets, "Open recent");
 }
 
-void draw_file_menu(UiContext& context, Memory& memory) {
+void draw_file_menu(UiContext& context, FileBrowser& browser) {
     Widgets& w = context.widgets;
     if (!begin_menu(w, "File")) return;
-    if (w.menu_item("Open...", "Ctrl+O")) memory.browser.requested = true;
+    if (w.menu_item("Open...", "Ctrl+O")) browser.requested = true;
     draw_recent(context);
     if (w.menu_item("Reload", "Ctrl+R")) context.actions.files.reload();
     ImGui::Separator();
@@ -100,12 +100,12 @@ void draw_help_menu(UiContext& context) {
 
 }  // namespace
 
-void draw_menu(UiContext& context, Memory& memory) {
+void draw_menu(UiContext& context, FileBrowser& browser) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.4f * em(), menu_padding()});
     const bool shown = ImGui::BeginMainMenuBar();
     ImGui::PopStyleVar();
     if (!shown) return;
-    draw_file_menu(context, memory);
+    draw_file_menu(context, browser);
     draw_view_menu(context);
     draw_help_menu(context);
     const Document& document = context.session.document();

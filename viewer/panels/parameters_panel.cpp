@@ -16,36 +16,46 @@ bool is_file(const OptionField& field) {
     return field.name == "report" || field.name == "events" || field.name == "trace";
 }
 
+// True when the value has changed.
 struct Editor {
     Widgets& widgets;
     const char* label;
 
-    void operator()(std::int32_t* value) const {
+    bool operator()(std::int32_t* value) const {
         std::int64_t wide = *value;
         constexpr std::int64_t limit = std::numeric_limits<std::int32_t>::max();
-        if (widgets.input_number(label, &wide)) *value = static_cast<std::int32_t>(std::clamp(wide, -limit, limit));
+        const bool changed = widgets.input_number(label, &wide);
+        if (changed) *value = static_cast<std::int32_t>(std::clamp(wide, -limit, limit));
+        return changed;
     }
-    void operator()(const OptionField::Memory& memory) const { widgets.input_number(label, memory.megabytes); }
-    void operator()(const OptionField::Count& count) const { widgets.input_number(label, count.number); }
-    void operator()(double* value) const { widgets.input_number(label, value); }
-    void operator()(Length* value) const {
+    bool operator()(const OptionField::Memory& memory) const { return widgets.input_number(label, memory.megabytes); }
+    bool operator()(const OptionField::Count& count) const { return widgets.input_number(label, count.number); }
+    bool operator()(double* value) const { return widgets.input_number(label, value); }
+    bool operator()(Length* value) const {
         if (value->is_percent()) {
             std::string text = value->text();
-            if (widgets.input_text(label, &text)) *value = length_in(text).value_or(*value);
-            return;
+            const bool changed = widgets.input_text(label, &text);
+            if (changed) *value = length_in(text).value_or(*value);
+            return changed;
         }
         double number = value->number();
-        if (widgets.input_number(label, &number)) *value = number;
+        const bool changed = widgets.input_number(label, &number);
+        if (changed) *value = number;
+        return changed;
     }
-    void operator()(std::string* value) const { widgets.input_text(label, value); }
-    void operator()(OptionField::List items) const {
+    bool operator()(std::string* value) const { return widgets.input_text(label, value); }
+    bool operator()(OptionField::List items) const {
         std::string text = join_items(*items);
-        if (widgets.input_text(label, &text)) *items = split_items(text);
+        const bool changed = widgets.input_text(label, &text);
+        if (changed) *items = split_items(text);
+        return changed;
     }
-    void operator()(bool* value) const { widgets.checkbox(label, value); }
-    void operator()(const OptionField::Choice& choice) const {
+    bool operator()(bool* value) const { return widgets.checkbox(label, value); }
+    bool operator()(const OptionField::Choice& choice) const {
         int index = choice.get();
-        if (widgets.combo(label, &index, choice.names)) choice.set(index);
+        const bool changed = widgets.combo(label, &index, choice.names);
+        if (changed) choice.set(index);
+        return changed;
     }
 };
 
@@ -62,24 +72,36 @@ void mark(const ImVec2& at, const Palette& colors) {
                                               packed(colors.accent));
 }
 
-void draw_field(Widgets& widgets, const OptionField& field, bool changed, const Palette& colors) {
+bool draw_field(Widgets& widgets, const OptionField& field, bool changed, const Palette& colors) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float room = ImGui::GetContentRegionAvail().x;
     ImGui::BeginGroup();
-    std::visit(Editor{widgets, field.name.c_str()}, field.value);
+    const bool edited = std::visit(Editor{widgets, field.name.c_str()}, field.value);
     ImGui::EndGroup();
     explain(field.help);
     if (changed) mark({at.x + value_place * room - 0.35f * em(), at.y}, colors);
+    return edited;
 }
 
 // Most runs change some of these.
 bool is_common(const std::string& heading) { return heading == option_group::cuts || heading == option_group::sizes; }
 
+// Holds the edited options against their ranges and the files that they name: when they change, not in every frame.
+void check_options(ParametersMemory& memory) {
+    try {
+        memory.wrong.clear();
+        resolved(memory.options);
+    } catch (const Error& error) {
+        memory.wrong = error.what();
+    }
+}
+
 // Under the headings of the help.
-void draw_fields(UiContext& context, Memory& memory) {
+void draw_fields(UiContext& context, ParametersMemory& memory) {
     RunOptions given = context.session.document().options;
     const std::vector<OptionField> before = option_fields(given), now = option_fields(memory.options);
     const Palette& colors = palette(context.state.theme);
+    bool edited = false;
     const auto is_changed = [&](const OptionField& field) { return field.text() != text_in(before, field.name); };
     for (const char* heading : option_group::all) {
         std::vector<OptionField> fields;
@@ -89,21 +111,18 @@ void draw_fields(UiContext& context, Memory& memory) {
         const bool open = context.widgets.header(heading, is_common(heading));
         if (std::any_of(fields.begin(), fields.end(), is_changed)) mark(at, colors);
         if (!open) continue;
-        for (const OptionField& field : fields) draw_field(context.widgets, field, is_changed(field), colors);
+        for (const OptionField& field : fields) edited |= draw_field(context.widgets, field, is_changed(field), colors);
     }
+    if (edited) check_options(memory);
 }
 
-// The message of the first option that is out of its range.
-std::string complaint(const RunOptions& options) {
-    try {
-        resolved(options);
-        return "";
-    } catch (const Error& error) {
-        return error.what();
-    }
+void put_options(ParametersMemory& memory, const RunOptions& options) {
+    memory.options = options;
+    check_options(memory);
 }
 
-void draw_buttons(UiContext& context, Memory& memory, bool valid) {
+void draw_buttons(UiContext& context, ParametersMemory& memory) {
+    const bool valid = memory.wrong.empty();
     Widgets& w = context.widgets;
     const Document& document = context.session.document();
     const bool can_run = valid && !document.progress.running && !document.path.empty();
@@ -117,7 +136,7 @@ void draw_buttons(UiContext& context, Memory& memory, bool valid) {
         context.actions.runs.start_run(memory.options, false);
     ImGui::SameLine();
     ImGui::EndDisabled();
-    if (w.button("Reset", "The options as they were")) memory.options = document.options;
+    if (w.button("Reset", "The options as they were")) put_options(memory, document.options);
     ImGui::BeginDisabled(!valid || !has_cut);
     const std::string label = fmt::format("Re-run cut of node {}", node);
     if (w.button(label.c_str(), has_cut ? "Makes this cut again with these options; what lies below it is left out"
@@ -128,12 +147,11 @@ void draw_buttons(UiContext& context, Memory& memory, bool valid) {
 }
 
 // The document's options arrive after it was opened, and change with a run.
-void take_options(const Document& document, Memory& memory) {
-    std::string given = document.path;
-    for (const OptionText& option : option_texts(document.options, false)) given += "\n" + option.text;
-    if (memory.options_of == given) return;
-    memory.options_of = given;
-    memory.options = document.options;
+void take_options(const Document& document, ParametersMemory& memory) {
+    std::string key = key_of(document);
+    if (memory.options_of == key) return;
+    memory.options_of = std::move(key);
+    put_options(memory, document.options);
 }
 
 // One line in any case, so that nothing moves while one types.
@@ -145,14 +163,13 @@ void draw_remark(const std::string& wrong, const Palette& colors) {
 
 }  // namespace
 
-void draw_parameters(UiContext& context, Memory& memory) {
-    draw_head(context.widgets, "Parameters", context.state.panels.parameters, memory.parameters);
+void draw_parameters(UiContext& context, ParametersMemory& memory) {
+    draw_head(context.widgets, "Parameters", context.state.panels.parameters, memory.section);
     if (!context.state.panels.parameters) return;
     take_options(context.session.document(), memory);
-    const std::string wrong = complaint(memory.options);
-    draw_buttons(context, memory, wrong.empty());
-    draw_remark(wrong, palette(context.state.theme));
-    draw_comparison(context, memory);
+    draw_buttons(context, memory);
+    draw_remark(memory.wrong, palette(context.state.theme));
+    draw_comparison(context, memory.comparison);
     draw_fields(context, memory);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/panels/layout.h"
@@ -41,71 +42,125 @@ struct Section {
     int frames_to_scroll = 0;
 };
 
-/// What ImGui does not keep for us.
-struct Memory {
-    FileBrowser browser;
-    NodeId scrolled_to = 0;  ///< node that the tree has been scrolled to
-    TreeOrder tree_order;
-    std::set<int> tree_columns;    ///< about cuts, that were chosen
-    std::set<NodeId> folded;       ///< nodes of the tree whose children are not listed
-    bool worst_by_angle = false;   ///< interfaces by the angles of their triangles, not those with the surface
-    NodeId chosen_interface = 0;   ///< of the worst, by its node
-    NodeId awaited_interface = 0;  ///< it is flown to as soon as its surface is there
-    std::map<std::string, std::string> advised;  ///< values of options that texts advise, as edited
-    std::string advised_for;                     ///< path of the document that they are for
-    double dragged_plane = 0;                    ///< how far the plane of a cut is from where it is, along its normal
-    NodeId dragged_cut = 0;                      ///< the node of that cut
-    int chosen_place = -1;                       ///< of a refused try, that was flown to last
-    NodeId place_node = 0;                       ///< of that try
-    Step place_step;
-    int defect_group = -1;  ///< kind and severity of the only defects that are listed; -1: all
+/// Up and down go on in the list that was used last.
+struct ListKeys {
     enum class List { none, defects, worst_cells };
-    List list = List::none;  ///< that was used last: keys go on in it
-    int list_steps = 0;      ///< that keys have asked for
-    int chosen_defect = -1;
-    int chosen_worst = -1;
-    std::optional<ValueRange> colored;  ///< values of what is shown, as it was without a fixed range
-    std::string colored_of;             ///< colouring and document that they were of
-    double drag_from = 0;               ///< value where a drag over the colour bar began, or that it leaves in place
-    double clip_at = 0;                 ///< of the clip plane, in units of the file, while it is typed
-    ValueRange range, filter;           ///< while they are typed
-    bool log_counts = false;            ///< of the histogram
-    double brush_from = 0;              ///< bin where a drag over the histogram began
-    std::array<double, 3> normal = {};  ///< of the clip plane while it is typed
-    RunOptions options;                 ///< as edited
-    std::string options_of;             ///< path and options of the document that they were taken from
-    std::string save_to, save_of;       ///< where a run is to be saved, as typed; path of the document
-    std::string plan, plan_of;          ///< of repairs, as typed; that of the document
-    const CheckedSoup* repairs_of = nullptr;  ///< whose lists the following is in
-    int chosen_action = -1;                   ///< of the report of repairs
-    int chosen_repair = -1;                   ///< place of that action
-    std::string surface_to, surface_of;       ///< where a surface is to be saved, as typed; path of the document
-    Section parameters, worst_cells;
+    List list = List::none;
+    int steps = 0;  ///< that keys have asked for
+
+    /// Those of this list, once.
+    int take(List of) { return list == of ? std::exchange(steps, 0) : 0; }
 };
 
-void draw_menu(UiContext& context, Memory& memory);
-void draw_tree(UiContext& context, Memory& memory);
+void draw_menu(UiContext& context, FileBrowser& browser);
+void draw_browser(UiContext& context, FileBrowser& browser);
+
+struct TreeMemory {
+    NodeId scrolled_to = 0;  ///< node that it has been scrolled to
+    TreeOrder order;
+    std::set<int> columns;    ///< about cuts, that were chosen
+    std::set<NodeId> folded;  ///< nodes whose children are not listed
+};
+void draw_tree(UiContext& context, TreeMemory& memory);
+
 void draw_selection(UiContext& context);
-void draw_problems(UiContext& context, Memory& memory);
+
+struct RepairMemory {
+    std::string plan, plan_of;     ///< of repairs, as typed; that of the document
+    int action = -1;               ///< of the report of repairs, that was chosen
+    int place = -1;                ///< of that action
+    std::string save_to, save_of;  ///< where the surface is to be saved, as typed; path of the document
+};
 /// How the surface that is open can be repaired, and what repairs have done.
-void draw_repairs(UiContext& context, Memory& memory);
+void draw_repairs(UiContext& context, RepairMemory& memory);
 /// A button for the steps that mend a kind of defects; nothing where there are none.
 void draw_repairs_of(UiContext& context, DefectKind kind);
+
+/// An option that a text advises: its value, and what a run would have with it. Made anew only when the value changes,
+/// since options are held against files.
+struct AdvisedRun {
+    std::string value, made_for;
+    std::optional<RunOptions> options;
+};
+struct ProblemsMemory {
+    std::map<std::string, AdvisedRun> advised;  ///< by option, and value if the text names one
+    std::string advised_for;                    ///< key_of() the document that they are for
+    const CheckedSoup* of = nullptr;            ///< whose lists the following is in
+    int group = -1;                             ///< kind and severity of the only defects that are listed; -1: all
+    int chosen = -1;                            ///< defect
+    RepairMemory repairs;
+};
+void draw_problems(UiContext& context, ProblemsMemory& memory, ListKeys& keys);
+
 void draw_display(UiContext& context);
 /// Of bodies of several regions: what is shown of each, and whether they move as wholes.
 void draw_regions(UiContext& context);
-void draw_clip(UiContext& context, Memory& memory);
-void draw_color(UiContext& context, Memory& memory);
+
+/// While they are typed.
+struct ClipMemory {
+    double at = 0;  ///< in units of the file
+    std::array<double, 3> normal = {};
+};
+void draw_clip(UiContext& context, ClipMemory& memory);
+
+struct ColorBarMemory {
+    std::optional<ValueRange> colored;  ///< values of what is shown, as it was without a fixed range
+    std::string colored_of;             ///< colouring and document that they were of
+    double drag_from = 0;               ///< value where a drag began, or that it leaves in place
+};
+void draw_color_bar(UiContext& context, ColorBarMemory& memory);
+
+struct HistogramMemory {
+    bool log_counts = false;
+    double brush_from = 0;  ///< bin where a drag began
+};
+void draw_histogram(UiContext& context, HistogramMemory& memory);
+
+struct WorstCellsMemory {
+    Section section;
+    int chosen = -1;
+};
+void draw_worst_cells(UiContext& context, WorstCellsMemory& memory, ListKeys& keys);
+
+struct WorstInterfacesMemory {
+    bool by_angle = false;  ///< of their triangles, not those with the surface
+    NodeId chosen = 0;      ///< by its node
+    NodeId awaited = 0;     ///< it is flown to as soon as its surface is there
+};
+void draw_worst_interfaces(UiContext& context, WorstInterfacesMemory& memory);
+
+struct ColorMemory {
+    ValueRange range, filter;  ///< while they are typed
+    ColorBarMemory bar;
+    HistogramMemory histogram;
+    WorstCellsMemory worst_cells;
+    WorstInterfacesMemory worst_interfaces;
+};
+void draw_color(UiContext& context, ColorMemory& memory, ListKeys& keys);
 void draw_solution(UiContext& context);
-void draw_color_bar(UiContext& context, Memory& memory);
-void draw_histogram(UiContext& context, Memory& memory);
-void draw_worst_cells(UiContext& context, Memory& memory);
-void draw_worst_interfaces(UiContext& context, Memory& memory);
-void draw_parameters(UiContext& context, Memory& memory);
-void draw_comparison(UiContext& context, Memory& memory);
-void draw_timeline(UiContext& context, Memory& memory);
+
+struct ComparisonMemory {
+    std::string save_to, save_of;  ///< where a run is to be saved, as typed; path of the document
+};
+void draw_comparison(UiContext& context, ComparisonMemory& memory);
+
+struct ParametersMemory {
+    Section section;
+    RunOptions options;      ///< as edited
+    std::string options_of;  ///< key_of() the document that they were taken from
+    std::string wrong;       ///< with them; empty: nothing is
+    ComparisonMemory comparison;
+};
+void draw_parameters(UiContext& context, ParametersMemory& memory);
+
+struct TimelineMemory {
+    int chosen = -1;  ///< place of a refused try, that was flown to last
+    NodeId node = 0;  ///< of that try
+    Step step;
+};
+void draw_timeline(UiContext& context, TimelineMemory& memory);
+
 void draw_status(UiContext& context);
-void draw_browser(UiContext& context, Memory& memory);
 void draw_keys(UiContext& context);
 void draw_welcome(UiContext& context, const Rectangle& scene);
 void draw_legend(UiContext& context, const Rectangle& scene);
@@ -114,10 +169,17 @@ void draw_caption(UiContext& context, const Rectangle& scene);
 void draw_gizmo(UiContext& context, const Rectangle& scene);
 /// Between panels and scene: to be dragged, or clicked twice to have the window's suggestion again.
 void draw_splitters(UiContext& context, const Layout& layout);
+
+struct CutHandleMemory {
+    double dragged = 0;  ///< how far the plane of a cut is from where it is, along its normal
+    NodeId node = 0;     ///< of that cut
+};
 /// The clip plane's outline, an arrow that moves it, and a ball at its end that turns it; and what moves the plane of
 /// the cut that is shown, which is then made there.
-void draw_plane_handles(UiContext& context, Memory& memory, const Rectangle& scene);
+void draw_plane_handles(UiContext& context, CutHandleMemory& memory, const Rectangle& scene);
 
+/// Path and options: what is edited or advised for a document is for another one no more.
+std::string key_of(const Document& document);
 /// Shows another node, at the step nearest to the one that is shown.
 void go_to_node(UiContext& context, NodeId node);
 /// Shows a node again, its region, and what it lies below.

@@ -121,33 +121,33 @@ const Cut* movable_cut(const UiContext& context) {
     return cut && cut->made() ? cut : nullptr;
 }
 
-void draw_cut_handle(UiContext& context, Memory& memory, const Rectangle& scene, const ScreenPlace& screen) {
+void draw_cut_handle(UiContext& context, CutHandleMemory& memory, const Rectangle& scene, const ScreenPlace& screen) {
     const Cut* cut = movable_cut(context);
-    if (!cut || cut->node != memory.dragged_cut) memory.dragged_plane = 0;
+    if (!cut || cut->node != memory.node) memory.dragged = 0;
     if (!cut) return;
-    memory.dragged_cut = cut->node;
+    memory.node = cut->node;
     const Document& document = context.session.document();
     const double length = 5 * em() * screen.unit();
     const Vec3 &normal = cut->plane.normal, &origin = cut->plane.origin;
-    const Vec3 middle = origin + memory.dragged_plane * normal;
+    const Vec3 middle = origin + memory.dragged * normal;
     const auto from = screen.of(middle), to = screen.of(middle + length * normal);
     if (!from || !to) {
-        memory.dragged_plane = 0;
+        memory.dragged = 0;
         return;
     }
-    if (memory.dragged_plane != 0)
+    if (memory.dragged != 0)
         draw_outline(screen, scene, corners_of(middle, normal, document.box),
                      packed(palette(context.state.theme).accent));
     const Dragged dragged = drag(context, "move cut", *from, "Drag the plane to where this cut is to be made");
-    if (dragged.moved) memory.dragged_plane += share_along(*from, *to) * length;
-    if (!dragged.released || memory.dragged_plane == 0) return;
-    context.actions.runs.redo_cut(cut->node, document.options, cut->plane.shifted(memory.dragged_plane));
-    memory.dragged_plane = 0;
+    if (dragged.moved) memory.dragged += share_along(*from, *to) * length;
+    if (!dragged.released || memory.dragged == 0) return;
+    context.actions.runs.redo_cut(cut->node, document.options, cut->plane.shifted(memory.dragged));
+    memory.dragged = 0;
 }
 
 }  // namespace
 
-void draw_plane_handles(UiContext& context, Memory& memory, const Rectangle& scene) {
+void draw_plane_handles(UiContext& context, CutHandleMemory& memory, const Rectangle& scene) {
     const ScreenPlace screen(context.camera, scene, body_area(context.state, scene));
     draw_clip_handles(context, scene, screen);
     draw_cut_handle(context, memory, scene, screen);

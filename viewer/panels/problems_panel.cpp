@@ -30,19 +30,22 @@ std::string measure_of(const Defect& defect) {
 
 // A button that runs again with an option, or opens again what could not be opened; before it a field for the value if
 // the text left that to the reader.
-void draw_option(UiContext& context, Memory& memory, OptionText advice) {
+void draw_option(UiContext& context, ProblemsMemory& memory, OptionText advice) {
     const Document& document = context.session.document();
     const bool opens = !document.error.empty();
     ImGui::PushID(advice.name.c_str());
     ImGui::BeginDisabled(document.progress.running);
+    auto [found, is_new] = memory.advised.try_emplace(advice.name + " " + advice.text, AdvisedRun{advice.text, "", {}});
+    AdvisedRun& run = found->second;
     if (advice.text.empty()) {
-        auto [value, is_new] = memory.advised.try_emplace(advice.name);
-        if (is_new) value->second = usual_value(advice.name, document.options, document.checked.get());
-        context.widgets.input_text(("--" + advice.name).c_str(), &value->second);
-        advice.text = value->second;
+        if (is_new) run.value = usual_value(advice.name, document.options, document.checked.get());
+        context.widgets.input_text(("--" + advice.name).c_str(), &run.value);
+        advice.text = run.value;
     }
-    const std::optional<RunOptions> options =
-        advice.text.empty() ? std::nullopt : options_with(document.options, advice);
+    if (run.value != run.made_for)
+        run.options = run.value.empty() ? std::nullopt : options_with(document.options, advice);
+    run.made_for = run.value;
+    const std::optional<RunOptions>& options = run.options;
     const char* does = opens ? "Reads the file again" : "Checks the surface and runs again";
     const std::string tip = options ? fmt::format("{} with --{} {}", does, advice.name, advice.text)
                                     : fmt::format("Needs a value of --{}", advice.name);
@@ -61,7 +64,7 @@ void draw_option(UiContext& context, Memory& memory, OptionText advice) {
 
 // Where a text advises options that the run did not have: a button for each. A file that could not be opened needs
 // those by which it is read. Where the surface is at hand, repairs have buttons of their own.
-void draw_advice(UiContext& context, Memory& memory, const std::string& text) {
+void draw_advice(UiContext& context, ProblemsMemory& memory, const std::string& text) {
     const Document& document = context.session.document();
     const bool opens = !document.error.empty(), repairs = context.session.can_repair();
     ImGui::PushID(text.c_str());  // several texts may advise the same
@@ -74,16 +77,15 @@ void draw_advice(UiContext& context, Memory& memory, const std::string& text) {
 
 class ProblemList {
  public:
-    ProblemList(UiContext& context, Memory& memory, const CheckedSoup& checked)
-        : context_(context), memory_(memory), checked_(checked), colors_(palette(context.state.theme)) {}
+    ProblemList(UiContext& context, ProblemsMemory& memory, ListKeys& keys, const CheckedSoup& checked)
+        : context_(context), memory_(memory), keys_(keys), checked_(checked), colors_(palette(context.state.theme)) {}
 
     void draw() {
         draw_groups();
         ImGui::Spacing();
         const auto& defects = checked_.diagnosis.defects;
         for (std::size_t i = 0; i < defects.size(); ++i)
-            if (memory_.defect_group < 0 || group_of(defects[i]) == memory_.defect_group)
-                listed_.push_back(static_cast<int>(i));
+            if (memory_.group < 0 || group_of(defects[i]) == memory_.group) listed_.push_back(static_cast<int>(i));
         if (context_.widgets.small_button("Copy list", "All that is listed below, with places and remedies"))
             context_.actions.window.copy(text());
         ImGui::SameLine();
@@ -118,14 +120,14 @@ class ProblemList {
     // A line for each; a click lists only these. Many remedies would leave no room for the list.
     void draw_groups() {
         const std::map<int, Group> all = groups();
-        for (const auto& [key, group] : all) draw_group(key, group, all.size() <= 4 || memory_.defect_group == key);
+        for (const auto& [key, group] : all) draw_group(key, group, all.size() <= 4 || memory_.group == key);
     }
 
     void draw_group(int key, const Group& group, bool with_advice) {
         const Defect& first = *group.first;
-        const bool chosen = memory_.defect_group == key;
+        const bool chosen = memory_.group == key;
         const std::string label = fmt::format("{} {}", name(first.severity), name(first.kind));
-        if (ImGui::Selectable(("##" + label).c_str(), chosen)) memory_.defect_group = chosen ? -1 : key;
+        if (ImGui::Selectable(("##" + label).c_str(), chosen)) memory_.group = chosen ? -1 : key;
         context_.widgets.record(label);
         explain(fmt::format("To do: {}.\n{}", advice(first),
                             chosen ? "A click lists all again." : "A click lists only these."));
@@ -158,7 +160,7 @@ class ProblemList {
         constexpr float least_entries = 4;  // where what is above takes all the room
         ImGui::BeginChild("##defects", {0, std::max(ImGui::GetContentRegionAvail().y, least_entries * entry_height())},
                           true);
-        if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) memory_.list = Memory::List::defects;
+        if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) keys_.list = ListKeys::List::defects;
         take_steps();
         ImGuiListClipper clipper;
         clipper.Begin(static_cast<int>(listed_.size()), entry_height() + ImGui::GetStyle().ItemSpacing.y);
@@ -170,9 +172,10 @@ class ProblemList {
 
     // As far as keys have asked for; the entry comes into sight.
     void take_steps() {
-        if (memory_.list != Memory::List::defects || memory_.list_steps == 0 || listed_.empty()) return;
-        const int steps = std::exchange(memory_.list_steps, 0), last = static_cast<int>(listed_.size()) - 1;
-        const auto at = std::find(listed_.begin(), listed_.end(), memory_.chosen_defect);
+        const int steps = listed_.empty() ? 0 : keys_.take(ListKeys::List::defects);
+        if (steps == 0) return;
+        const int last = static_cast<int>(listed_.size()) - 1;
+        const auto at = std::find(listed_.begin(), listed_.end(), memory_.chosen);
         const int next = at == listed_.end() ? 0 : std::clamp(static_cast<int>(at - listed_.begin()) + steps, 0, last);
         fly_to(listed_[static_cast<std::size_t>(next)]);
         const float height = entry_height() + ImGui::GetStyle().ItemSpacing.y;
@@ -185,7 +188,7 @@ class ProblemList {
         const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(index)];
         ImGui::PushID(index);
         const ImVec2 start = ImGui::GetCursorPos();
-        if (ImGui::Selectable("##defect", memory_.chosen_defect == index, 0, {0, entry_height()})) fly_to(index);
+        if (ImGui::Selectable("##defect", memory_.chosen == index, 0, {0, entry_height()})) fly_to(index);
         context_.widgets.record(fmt::format("defect {}", index + 1));
         const ImVec2 end = ImGui::GetCursorPos();
         const std::string where = place(defect, checked_.soup);
@@ -204,7 +207,7 @@ class ProblemList {
 
     void fly_to(int index) {
         const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(index)];
-        memory_.chosen_defect = index;
+        memory_.chosen = index;
         if (!defect.where.allFinite()) return;
         const Soup& soup = checked_.soup;
         const double radius =
@@ -228,7 +231,8 @@ class ProblemList {
     }
 
     UiContext& context_;
-    Memory& memory_;
+    ProblemsMemory& memory_;
+    ListKeys& keys_;
     const CheckedSoup& checked_;
     const Palette& colors_;
     std::vector<int> listed_;  // indices of defects
@@ -240,7 +244,7 @@ void draw_message(const char* head, const std::string& text, const Palette& colo
     ImGui::Spacing();
 }
 
-void draw_remarks(UiContext& context, Memory& memory) {
+void draw_remarks(UiContext& context, ProblemsMemory& memory) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
     if (!document.error.empty()) {
@@ -263,12 +267,16 @@ void draw_remarks(UiContext& context, Memory& memory) {
 
 }  // namespace
 
-void draw_problems(UiContext& context, Memory& memory) {
+void draw_problems(UiContext& context, ProblemsMemory& memory, ListKeys& keys) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
-    if (memory.advised_for != document.path) {
-        memory.advised_for = document.path;
+    if (std::string key = key_of(document); memory.advised_for != key) {
+        memory.advised_for = std::move(key);
         memory.advised.clear();
+    }
+    if (memory.of != document.checked.get()) {
+        memory.of = document.checked.get();
+        memory.group = memory.chosen = memory.repairs.action = memory.repairs.place = -1;
     }
     if (document.checked && document.error.empty()) {
         const bool clean = document.checked->diagnosis.clean();
@@ -277,9 +285,9 @@ void draw_problems(UiContext& context, Memory& memory) {
         ImGui::Spacing();
     }
     draw_remarks(context, memory);
-    draw_repairs(context, memory);
+    draw_repairs(context, memory.repairs);
     const auto checked = document.checked;  // a button may exchange it
-    if (checked && !checked->diagnosis.defects.empty()) ProblemList(context, memory, *checked).draw();
+    if (checked && !checked->diagnosis.defects.empty()) ProblemList(context, memory, keys, *checked).draw();
 }
 
 }  // namespace kerf::view

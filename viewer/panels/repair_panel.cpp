@@ -80,7 +80,7 @@ void draw_levels(UiContext& context) {
     draw_wrap_button(context);
 }
 
-void draw_plan(UiContext& context, Memory& memory) {
+void draw_plan(UiContext& context, RepairMemory& memory) {
     const std::string& plan = context.session.document().options.input_options.repair;
     if (memory.plan_of != plan || ImGui::IsWindowAppearing()) memory.plan = memory.plan_of = plan;
     context.widgets.input_text("Steps", &memory.plan);
@@ -121,7 +121,7 @@ void draw_before_and_after(UiContext& context) {
 // What was done, an action a line; the places of the one that was clicked follow.
 class ActionList {
  public:
-    ActionList(UiContext& context, Memory& memory, const RepairReport& report)
+    ActionList(UiContext& context, RepairMemory& memory, const RepairReport& report)
         : context_(context), memory_(memory), report_(report), colors_(palette(context.state.theme)) {}
 
     void draw() {
@@ -145,14 +145,14 @@ class ActionList {
     }
 
     void draw_action(const StepReport& step, const RepairAction& action, int number) {
-        const bool is_refused = *action.refused_because != '\0', is_chosen = memory_.chosen_action == number;
+        const bool is_refused = *action.refused_because != '\0', is_chosen = memory_.action == number;
         const std::string text = broken(words_of(step, action), ImGui::GetContentRegionAvail().x);
         const ImVec2 start = ImGui::GetCursorPos();
         const float height = ImGui::CalcTextSize(text.c_str()).y;
         ImGui::PushID(number);
         if (ImGui::Selectable("##action", is_chosen, 0, {0, height})) {
             const int last = static_cast<int>(action.places.size()) - 1;
-            fly_to(action, number, is_chosen && memory_.chosen_repair < last ? memory_.chosen_repair + 1 : 0);
+            fly_to(action, number, is_chosen && memory_.place < last ? memory_.place + 1 : 0);
         }
         context_.widgets.record(fmt::format("action {}", number + 1));
         explain(action.places.empty() ? "" : "A click flies to the first place, and then from place to place.");
@@ -160,7 +160,7 @@ class ActionList {
         ImGui::SetCursorPos(start);
         show(text, is_refused ? colors_.warning : colors_.text);
         ImGui::SetCursorPos(end);
-        if (memory_.chosen_action == number && action.places.size() > 1) draw_places(action, number);
+        if (memory_.action == number && action.places.size() > 1) draw_places(action, number);
         ImGui::PopID();
     }
 
@@ -177,15 +177,15 @@ class ActionList {
                 std::string text = fmt::format("{}: ({:.5g}, {:.5g}, {:.5g})", i + 1, place.where.x(), place.where.y(),
                                                place.where.z());
                 if (*action.measure != '\0') text += fmt::format(", {:.4g} {}", place.measure, action.measure);
-                if (ImGui::Selectable(text.c_str(), memory_.chosen_repair == i)) fly_to(action, number, i);
+                if (ImGui::Selectable(text.c_str(), memory_.place == i)) fly_to(action, number, i);
                 context_.widgets.record(fmt::format("repaired place {}", i + 1));
             }
         ImGui::EndChild();
     }
 
     void fly_to(const RepairAction& action, int number, int place_number) {
-        memory_.chosen_action = number;
-        memory_.chosen_repair = place_number;
+        memory_.action = number;
+        memory_.place = place_number;
         if (action.places.empty()) return;
         const RepairPlace& place = action.places[static_cast<std::size_t>(place_number)];
         if (!place.where.allFinite()) return;
@@ -201,24 +201,24 @@ class ActionList {
     }
 
     UiContext& context_;
-    Memory& memory_;
+    RepairMemory& memory_;
     const RepairReport& report_;
     const Palette& colors_;
 };
 
-void draw_ending(UiContext& context, Memory& memory) {
+void draw_ending(UiContext& context, RepairMemory& memory) {
     Session& session = context.session;
     const Document& document = session.document();
     if (!document.surface_saved_as.empty())
         show_wrapped("Saved as " + document.surface_saved_as, palette(context.state.theme).dim);
-    if (memory.surface_of != document.path) {
-        memory.surface_of = document.path;
-        memory.surface_to = std::filesystem::path(document.path).stem().string() + "_repaired.obj";
+    if (memory.save_of != document.path) {
+        memory.save_of = document.path;
+        memory.save_to = std::filesystem::path(document.path).stem().string() + "_repaired.obj";
     }
-    context.widgets.input_text("Save to", &memory.surface_to);
-    ImGui::BeginDisabled(!session.can_repair() || memory.surface_to.empty());
+    context.widgets.input_text("Save to", &memory.save_to);
+    ImGui::BeginDisabled(!session.can_repair() || memory.save_to.empty());
     if (context.widgets.small_button("Save surface", "Writes it, as kerf repair does: .obj with patches, or .stl"))
-        session.save_surface(memory.surface_to);
+        session.save_surface(memory.save_to);
     ImGui::EndDisabled();
     const bool has_run = document.trace || !document.folder.empty();
     if (has_run || document.has_problems() || document.progress.running) return;
@@ -244,16 +244,11 @@ void draw_repairs_of(UiContext& context, DefectKind kind) {
     ImGui::PopID();
 }
 
-void draw_repairs(UiContext& context, Memory& memory) {
+void draw_repairs(UiContext& context, RepairMemory& memory) {
     const Document& document = context.session.document();
     const bool is_there = context.session.can_repair() || context.session.is_repairing();
     if (!is_there || !document.checked || !document.error.empty()) return;
     const auto checked = document.checked;  // a button may exchange it
-    if (memory.repairs_of != checked.get()) {
-        memory.repairs_of = checked.get();
-        memory.chosen_action = memory.chosen_repair = memory.chosen_defect = -1;
-        memory.defect_group = -1;
-    }
     if (checked->diagnosis.defects.empty() && document.options.input_options.repair.empty() && !document.unrepaired)
         return;
     draw_levels(context);

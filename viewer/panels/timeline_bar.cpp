@@ -11,7 +11,7 @@ namespace {
 
 class TimelineBar {
  public:
-    TimelineBar(UiContext& context, Memory& memory)
+    TimelineBar(UiContext& context, TimelineMemory& memory)
         : context_(context),
           memory_(memory),
           steps_(context.steps),
@@ -84,12 +84,12 @@ class TimelineBar {
         const Step& step = steps_[current_];
         const std::vector<FailurePlace> places = failure_places(context_.session.document(), context_.state.node, step);
         if (places.empty()) return;
-        if (memory_.place_node != context_.state.node || memory_.place_step != step ||
-            memory_.chosen_place >= static_cast<int>(places.size()))  // a cut that was made again has others
-            memory_.chosen_place = -1;
-        memory_.place_node = context_.state.node;
-        memory_.place_step = step;
-        const int count = static_cast<int>(places.size()), chosen = memory_.chosen_place;
+        if (memory_.node != context_.state.node || memory_.step != step ||
+            memory_.chosen >= static_cast<int>(places.size()))  // a cut that was made again has others
+            memory_.chosen = -1;
+        memory_.node = context_.state.node;
+        memory_.step = step;
+        const int count = static_cast<int>(places.size()), chosen = memory_.chosen;
         ImGui::SameLine(0, 1.2f * em());
         if (control("previous place", Icon::left, "Fly to the place before", chosen > 0)) fly_to(places, chosen - 1);
         if (control("next place", Icon::right, "Fly to the next place where it failed", chosen + 1 < count))
@@ -99,7 +99,7 @@ class TimelineBar {
     }
 
     void fly_to(const std::vector<FailurePlace>& places, int index) {
-        memory_.chosen_place = index;
+        memory_.chosen = index;
         const FailurePlace& place = places[static_cast<std::size_t>(index)];
         const double diagonal = diagonal_of(context_.session.document());
         context_.actions.camera.fly_to(place.where, place.radius > 0 ? 1.5 * place.radius : 0.02 * diagonal,
@@ -217,7 +217,7 @@ class TimelineBar {
     }
 
     UiContext& context_;
-    Memory& memory_;
+    TimelineMemory& memory_;
     const std::vector<Step>& steps_;
     const Palette& colors_;
     std::size_t current_;
@@ -226,6 +226,6 @@ class TimelineBar {
 
 }  // namespace
 
-void draw_timeline(UiContext& context, Memory& memory) { TimelineBar(context, memory).draw(); }
+void draw_timeline(UiContext& context, TimelineMemory& memory) { TimelineBar(context, memory).draw(); }
 
 }  // namespace kerf::view

@@ -35,17 +35,17 @@ constexpr float fold_size = 0.85f;  // of the button before a node, in ems
 
 class TreeTable {
  public:
-    TreeTable(UiContext& context, Memory& memory)
+    TreeTable(UiContext& context, TreeMemory& memory)
         : context_(context), memory_(memory), colors_(palette(context.state.theme)) {}
 
     void draw() {
         const Tree& tree = context_.session.document().tree;
         rows_ = tree.in_order();
-        const TreeColumns columns(rows_, context_.state.times, memory_.tree_columns, room());
+        const TreeColumns columns(rows_, context_.state.times, memory_.columns, room());
         total_load_ = columns.total_load;
-        const bool is_sortable = memory_.tree_order.by && columns.shown[*memory_.tree_order.by];
-        if (!is_sortable) memory_.tree_order = {};
-        is_sortable ? sort_rows(rows_, memory_.tree_order) : leave_out_folded();
+        const bool is_sortable = memory_.order.by && columns.shown[*memory_.order.by];
+        if (!is_sortable) memory_.order = {};
+        is_sortable ? sort_rows(rows_, memory_.order) : leave_out_folded();
         // Widths that a user has changed stay as long as the columns are the same.
         std::string id = fmt::format("##tree {}", tree.levels());
         for (const bool shown : columns.shown) id += shown ? '1' : '0';
@@ -64,7 +64,7 @@ class TreeTable {
     }
 
  private:
-    bool is_tree() const { return !memory_.tree_order.by; }
+    bool is_tree() const { return !memory_.order.by; }
 
     void leave_out_folded() {
         // The node that is shown comes into sight when it is chosen.
@@ -89,12 +89,12 @@ class TreeTable {
     }
 
     void draw_head(TreeColumn column) {
-        const bool chosen = memory_.tree_order.by == column, sorts = column == node_column || column >= facets_column;
+        const bool chosen = memory_.order.by == column, sorts = column == node_column || column >= facets_column;
         const ImVec2 at = ImGui::GetCursorScreenPos();
         if (sorts) {
             const std::string label = fmt::format("sort by {}", title(column));
             if (ImGui::InvisibleButton(label.c_str(), {ImGui::GetContentRegionAvail().x, line_height()}))
-                memory_.tree_order = memory_.tree_order.after_click(column);
+                memory_.order = memory_.order.after_click(column);
             context_.widgets.record(label);
             explain(column == node_column ? meaning(column) : fmt::format("{}. A click sorts by it.", meaning(column)));
             if (ImGui::IsItemHovered())
@@ -106,7 +106,7 @@ class TreeTable {
         column >= facets_column ? show_right(title(column), color) : show(title(column), color);
         // Down: what deserves a look is at the top.
         if (chosen)
-            draw_icon(*ImGui::GetWindowDrawList(), memory_.tree_order.reversed ? Icon::up : Icon::down,
+            draw_icon(*ImGui::GetWindowDrawList(), memory_.order.reversed ? Icon::up : Icon::down,
                       {at.x - 0.1f * em(), at.y + line_height() / 2}, 0.5f * em(), packed(colors_.accent));
     }
 
@@ -257,7 +257,7 @@ class TreeTable {
     }
 
     UiContext& context_;
-    Memory& memory_;
+    TreeMemory& memory_;
     const Palette& colors_;
     std::vector<const TreeRow*> rows_;
     double total_load_ = 0;
@@ -277,20 +277,20 @@ std::string summary(const Document& document) {
 
 float width_of_button(const char* label) { return width_of(label) + 2 * ImGui::GetStyle().FramePadding.x; }
 
-void draw_column_menu(UiContext& context, Memory& memory) {
+void draw_column_menu(UiContext& context, TreeMemory& memory) {
     if (context.widgets.button("Columns", "What the tree says about cuts: tries, angles, areas"))
         ImGui::OpenPopup("##columns");
     if (!ImGui::BeginPopup("##columns")) return;
     for (int i = tries_column; i < column_count; ++i) {
         const auto column = static_cast<TreeColumn>(i);
-        bool chosen = memory.tree_columns.contains(i);
+        bool chosen = memory.columns.contains(i);
         if (context.widgets.checkbox(fmt::format("column {}", title(column)).c_str(), &chosen, meaning(column)))
-            set_in(memory.tree_columns, i, chosen);
+            set_in(memory.columns, i, chosen);
     }
     ImGui::EndPopup();
 }
 
-void draw_tree_head(UiContext& context, Memory& memory) {
+void draw_tree_head(UiContext& context, TreeMemory& memory) {
     ViewState& state = context.state;
     const float gap = 0.4f * em(), right = ImGui::GetContentRegionMax().x;
     const bool some_hidden =
@@ -332,7 +332,7 @@ void draw_without_tree(UiContext& context) {
 
 }  // namespace
 
-void draw_tree(UiContext& context, Memory& memory) {
+void draw_tree(UiContext& context, TreeMemory& memory) {
     const Document& document = context.session.document();
     if (!has_tree(document)) return draw_without_tree(context);
     draw_tree_head(context, memory);

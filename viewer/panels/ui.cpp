@@ -11,33 +11,46 @@
 
 namespace kerf::view {
 
+// What ImGui does not keep for the panels.
 struct Ui::Impl {
-    Memory memory;
+    FileBrowser browser;
+    TreeMemory tree;
+    ProblemsMemory problems;
+    ClipMemory clip;
+    ColorMemory color;
+    ParametersMemory parameters;
+    TimelineMemory timeline;
+    CutHandleMemory cut_handle;
+    ListKeys keys;
     Theme theme = Theme::light;
     float scale = 0;
+
+    void draw_problems_or_tree(UiContext& context);
+    void draw_left(UiContext& context, const Layout& layout);
+    void draw_right(UiContext& context, const Layout& layout);
 };
 
-namespace {
-
-void draw_problems_or_tree(UiContext& context, Memory& memory) {
+void Ui::Impl::draw_problems_or_tree(UiContext& context) {
     const Document& document = context.session.document();
     const bool remarks = context.state.panels.problems && has_remarks(document);
     const bool is_repaired = document.unrepaired && !has_tree(document);
     if (remarks && (document.has_problems() || is_repaired || !context.state.panels.tree))
-        return draw_problems(context, memory);
-    if (!remarks) return draw_tree(context, memory);
+        return draw_problems(context, problems, keys);
+    if (!remarks) return draw_tree(context, tree);
     if (!ImGui::BeginTabBar("##left")) return;
-    const auto tab = [&](const char* label, void (*draw)(UiContext&, Memory&)) {
+    const auto tab = [&](const char* label, const auto& draw) {
         const bool open = ImGui::BeginTabItem(label);
         context.widgets.record(label);
         if (!open) return;
-        draw(context, memory);
+        draw();
         ImGui::EndTabItem();
     };
-    tab("Tree", draw_tree);
-    tab("Problems", draw_problems);
+    tab("Tree", [&] { draw_tree(context, tree); });
+    tab("Problems", [&] { draw_problems(context, problems, keys); });
     ImGui::EndTabBar();
 }
+
+namespace {
 
 // Lines of the selection as it will wrap; about.
 float selection_height(const std::string& text) {
@@ -45,19 +58,21 @@ float selection_height(const std::string& text) {
     return std::min(lines + 3, 16.f) * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeight();
 }
 
-void draw_left(UiContext& context, Memory& memory, const Layout& layout) {
+}  // namespace
+
+void Ui::Impl::draw_left(UiContext& context, const Layout& layout) {
     begin_place("##left column", layout.left);
     draw_border(layout.left, ImGuiDir_Right);
     const bool selected = !context.facts.selection.empty();
     const float below = selected ? selection_height(context.facts.selection) : 0;
     ImGui::BeginChild("##upper", {0, -below});
-    draw_problems_or_tree(context, memory);
+    draw_problems_or_tree(context);
     ImGui::EndChild();
     if (selected) draw_selection(context);
     ImGui::End();
 }
 
-void draw_right(UiContext& context, Memory& memory, const Layout& layout) {
+void Ui::Impl::draw_right(UiContext& context, const Layout& layout) {
     begin_place("##right column", layout.right);
     draw_border(layout.right, ImGuiDir_Left);
     ImGui::BeginChild("##sections");  // scrolls
@@ -65,13 +80,15 @@ void draw_right(UiContext& context, Memory& memory, const Layout& layout) {
     if (panels.display) {
         draw_display(context);
         draw_regions(context);
-        draw_clip(context, memory);
+        draw_clip(context, clip);
     }
-    if (panels.display || panels.quality) draw_color(context, memory);
-    draw_parameters(context, memory);
+    if (panels.display || panels.quality) draw_color(context, color, keys);
+    draw_parameters(context, parameters);
     ImGui::EndChild();
     ImGui::End();
 }
+
+namespace {
 
 float label_pad() { return 0.2f * em(); }
 
@@ -124,16 +141,15 @@ void Ui::draw(UiContext& context, float width, float height) {
         set_style(impl_->theme, impl_->scale > 0 ? impl_->scale : 1);
     }
     const Layout layout = layout_of(context.state, context.session.document(), context.settings.panels, width, height);
-    Memory& memory = impl_->memory;
-    if (ImGui::IsMouseClicked(0) && ImGui::GetIO().WantCaptureMouse) memory.list = Memory::List::none;
-    draw_menu(context, memory);
+    if (ImGui::IsMouseClicked(0) && ImGui::GetIO().WantCaptureMouse) leave_list();
+    draw_menu(context, impl_->browser);
     draw_splitters(context, layout);  // before the panels: of windows that stay where they are the first is in front
-    if (layout.has_left) draw_left(context, impl_->memory, layout);
-    if (layout.has_right) draw_right(context, impl_->memory, layout);
+    if (layout.has_left) impl_->draw_left(context, layout);
+    if (layout.has_right) impl_->draw_right(context, layout);
     if (layout.has_timeline) {
         begin_place("##timeline", layout.timeline);
         draw_border(layout.timeline, ImGuiDir_Up);
-        draw_timeline(context, impl_->memory);
+        draw_timeline(context, impl_->timeline);
         ImGui::End();
     }
     begin_place("##status", layout.status);
@@ -141,10 +157,10 @@ void Ui::draw(UiContext& context, float width, float height) {
     draw_status(context);
     ImGui::End();
     draw_overlays(context, layout.scene);
-    if (has_body(context.session.document())) draw_plane_handles(context, memory, layout.scene);
+    if (has_body(context.session.document())) draw_plane_handles(context, impl_->cut_handle, layout.scene);
     draw_keys(context);
-    draw_browser(context, impl_->memory);
-    if (std::exchange(memory.list_steps, 0) != 0) memory.list = Memory::List::none;  // it is not shown any more
+    draw_browser(context, impl_->browser);
+    if (std::exchange(impl_->keys.steps, 0) != 0) leave_list();  // it is not shown any more
 }
 
 void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
@@ -168,18 +184,18 @@ bool Ui::close_menu() {
 }
 
 bool Ui::step_in_list(int count) {
-    if (impl_->memory.list == Memory::List::none) return false;
-    impl_->memory.list_steps += count;
+    if (impl_->keys.list == ListKeys::List::none) return false;
+    impl_->keys.steps += count;
     return true;
 }
 
-void Ui::leave_list() { impl_->memory.list = Memory::List::none; }
+void Ui::leave_list() { impl_->keys.list = ListKeys::List::none; }
 
-void Ui::open_browser() { impl_->memory.browser.requested = true; }
+void Ui::open_browser() { impl_->browser.requested = true; }
 
 bool Ui::wants_keyboard() const {
     const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    return ImGui::GetIO().WantTextInput || popup || impl_->memory.browser.open || impl_->memory.browser.requested;
+    return ImGui::GetIO().WantTextInput || popup || impl_->browser.open || impl_->browser.requested;
 }
 
 void go_to_node(UiContext& context, NodeId node) {
@@ -225,6 +241,12 @@ const Color* color_in_legend(const SceneFacts& facts, const std::string& text) {
     for (const LegendEntry& entry : facts.categories)
         if (entry.text == text) return &entry.color;
     return nullptr;
+}
+
+std::string key_of(const Document& document) {
+    std::string key = document.path;
+    for (const OptionText& option : option_texts(document.options, false)) key += "\n" + option.text;
+    return key;
 }
 
 double diagonal_of(const Document& document) {

@@ -12,11 +12,11 @@ namespace {
 
 class WorstInterfaces {
  public:
-    WorstInterfaces(UiContext& context, Memory& memory)
+    WorstInterfaces(UiContext& context, WorstInterfacesMemory& memory)
         : context_(context),
           memory_(memory),
           colors_(palette(context.state.theme)),
-          by_{memory.worst_by_angle ? angle_column : dihedral_column, false},
+          by_{memory.by_angle ? angle_column : dihedral_column, false},
           rows_(context.session.document().tree.in_order()) {
         std::erase_if(rows_, [&](const TreeRow* row) { return !number_in(*row, *by_.by); });
         sort_rows(rows_, by_);
@@ -24,10 +24,10 @@ class WorstInterfaces {
 
     void draw() {
         if (rows_.empty()) return show_wrapped("No angles of interfaces are known: nothing has been cut.", colors_.dim);
-        if (context_.widgets.radio("By dihedral", !memory_.worst_by_angle)) memory_.worst_by_angle = false;
+        if (context_.widgets.radio("By dihedral", !memory_.by_angle)) memory_.by_angle = false;
         explain("The smallest angle between interface and surface along the contour");
         ImGui::SameLine(0, em());
-        if (context_.widgets.radio("By angle", memory_.worst_by_angle)) memory_.worst_by_angle = true;
+        if (context_.widgets.radio("By angle", memory_.by_angle)) memory_.by_angle = true;
         explain("The smallest angle of a triangle of the interface");
         constexpr ImGuiTableFlags flags =
             ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoSavedSettings;
@@ -60,7 +60,7 @@ class WorstInterfaces {
         ImGui::TableNextRow();
         ImGui::TableSetColumnIndex(0);
         const std::string label = fmt::format("worst interface {}", i + 1);
-        if (ImGui::Selectable(fmt::format("{}##{}", i + 1, label).c_str(), memory_.chosen_interface == row.id,
+        if (ImGui::Selectable(fmt::format("{}##{}", i + 1, label).c_str(), memory_.chosen == row.id,
                               ImGuiSelectableFlags_SpanAllColumns))
             choose(row.id);
         const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
@@ -75,37 +75,37 @@ class WorstInterfaces {
     }
 
     void choose(NodeId node) {
-        memory_.chosen_interface = memory_.awaited_interface = node;
+        memory_.chosen = memory_.awaited = node;
         context_.state.step = {Stage::interface, -1};
         reveal(context_, node);
         go_to_node(context_, node);
     }
 
     UiContext& context_;
-    Memory& memory_;
+    WorstInterfacesMemory& memory_;
     const Palette& colors_;
     TreeOrder by_;
     std::vector<const TreeRow*> rows_;
 };
 
 // The angle with the surface needs the surface, which may have to be made first.
-void fly_when_there(UiContext& context, Memory& memory) {
-    if (memory.awaited_interface == 0) return;
-    const NodeId node = memory.awaited_interface;
+void fly_when_there(UiContext& context, WorstInterfacesMemory& memory) {
+    if (memory.awaited == 0) return;
+    const NodeId node = memory.awaited;
     const Document& document = context.session.document();
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
     const std::shared_ptr<const NodeSurface> surface = cut ? context.session.surface(node) : nullptr;
     if (cut && !surface && context.state.node == node) return;
-    memory.awaited_interface = 0;
+    memory.awaited = 0;
     if (!surface || context.state.node != node) return;
     const std::optional<InterfacePlace> place =
-        memory.worst_by_angle ? smallest_angle(cut->interface) : smallest_dihedral(cut->interface, *surface);
+        memory.by_angle ? smallest_angle(cut->interface) : smallest_dihedral(cut->interface, *surface);
     if (place) context.actions.camera.fly_to(place->where, 2 * place->radius, Vec3::Zero());
 }
 
 }  // namespace
 
-void draw_worst_interfaces(UiContext& context, Memory& memory) {
+void draw_worst_interfaces(UiContext& context, WorstInterfacesMemory& memory) {
     fly_when_there(context, memory);
     if (context.widgets.header("Worst interfaces", false)) WorstInterfaces(context, memory).draw();
 }
