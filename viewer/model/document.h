@@ -139,6 +139,7 @@ struct Document {
     std::vector<std::string> notes;
     Progress progress;
 
+    bool is_opening() const;          ///< nothing of it is there yet
     bool has_surfaces_alone() const;  ///< the folder is one of kerf decompose: its parts have no cells
     bool has_problems() const;        ///< the surface cannot be meshed as it is, or could not be read
 };

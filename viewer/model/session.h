@@ -118,8 +118,8 @@ class Session {
     const std::vector<std::string>& failures() const;
 
  private:
-    class Impl;
-    std::unique_ptr<Impl> impl_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace kerf::view

@@ -1,5 +1,6 @@
-// Surfaces are checked, and repaired, on the loader's thread, always from what their files said.
-#include "viewer/model/session_impl.h"
+#include "viewer/model/repairs.h"
+
+#include <utility>
 
 #include "core/error.h"
 #include "geometry/box.h"
@@ -7,12 +8,13 @@
 #include "viewer/model/advice.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/node_surface.h"
+#include "viewer/model/opened_run.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {
 
 // The surface as the file has it comes before the first that is repaired.
-Loader::Work Session::Impl::checking(const InputOptions& options, std::shared_ptr<const Scope> scope) {
+Loader::Work Repairs::checking(const InputOptions& options, std::shared_ptr<const Scope> scope) {
     const InputOptions plain = without_repairs(options);
     const bool knows_plain = !history_.empty() && same_input(plain, history_.unrepaired().options);
     return [this, files = files_, path = document_.options.input, options, plain, scope = std::move(scope),
@@ -28,13 +30,31 @@ Loader::Work Session::Impl::checking(const InputOptions& options, std::shared_pt
     };
 }
 
-void Session::Impl::check_files_in_background() {
-    const auto scope = std::shared_ptr<const Scope>(open_.scope);
-    post(open_, checking(document_.options.input_options, scope),
-         [this](const std::string& message) { note_failure(message); });
+void Repairs::check() {
+    background_.post(background_.open, checking(document_.options.input_options, background_.open.scope));
 }
 
-void Session::Impl::take_checked(std::vector<CheckedSurface> states) {
+void Repairs::begin(std::shared_ptr<const InputFiles> files) {
+    files_ = std::move(files);
+    check();
+}
+
+void Repairs::check_again() {
+    if (files_ && document_.checked) check();
+}
+
+void Repairs::forget() {
+    background_.repair.reset();
+    files_.reset();
+    history_.clear();
+}
+
+void Repairs::next_frame() {
+    if (is_repairing())
+        document_.progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
+}
+
+void Repairs::take_checked(std::vector<CheckedSurface> states) {
     for (CheckedSurface& state : states)
         if (same_input(state.options, without_repairs(state.options)))
             history_.begin(std::move(state));
@@ -46,16 +66,17 @@ void Session::Impl::take_checked(std::vector<CheckedSurface> states) {
 }
 
 // A run has told more since, if there is one.
-void Session::Impl::show_checked() {
+void Repairs::show_checked() {
     const CheckedSurface& state = history_.shown();
     document_.checked = state.checked;
     document_.unrepaired = state.surface ? history_.unrepaired().checked : nullptr;
     document_.surface_saved_as.clear();
-    store_.erase({Store::Kind::surface, not_repaired});
-    store_.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::on_surface; });
+    Store& store = pair_.now.store;
+    store.erase({Store::Kind::surface, not_repaired});
+    store.erase_if([](const Store::Key& key) { return key.kind == Store::Kind::on_surface; });
     std::erase(document_.notes, shown_note_);
     shown_note_ = state.note;
-    if (!state.note.empty() && !is_set(document_.options, *advised_option(state.note))) add_note(state.note);
+    if (!state.note.empty() && !is_set(document_.options, *advised_option(state.note))) add_note(state.note, document_);
     const TreeRow* uncut = document_.tree.find(1);
     if (document_.trace || !document_.folder.empty() || !uncut || !uncut->leaf()) return;
     show_its_surface();
@@ -69,24 +90,20 @@ void Session::Impl::show_checked() {
     document_.region_names = oriented.region_names;
 }
 
-void Session::Impl::show_its_surface() {
+void Repairs::show_its_surface() {
     const CheckedSurface& state = history_.shown();
     const bool is_as_read = document_.soup.get() == &files_->soup;
     if (!state.surface && is_as_read) return;
     const Store::Key key{Store::Kind::surface, 1};
-    const Soup* soup = state.surface ? &state.checked->soup : &files_->soup;
     if (state.surface) {
-        document_.soup = {state.checked, soup};
-        store_.insert(key, state.surface, bytes_of(*state.surface));
+        document_.soup = {state.checked, &state.checked->soup};
+        pair_.now.store.insert(key, state.surface, bytes_of(*state.surface));
     } else {
-        document_.soup = {files_, soup};
-        store_.erase(key);
-        failed_.erase(key);
+        document_.soup = {files_, &files_->soup};
+        fetched_.drop(key);
     }
-    document_.box.extend(box_around_finite(soup->vertices));
-    document_.patch_names = soup->patch_names;
-    document_.input_vertices = static_cast<std::int64_t>(soup->vertices.size());
-    document_.input_facets = static_cast<std::int64_t>(soup->facets.size());
+    document_.box.extend(box_around_finite(document_.soup->vertices));
+    set_input(*document_.soup, document_);
     document_.volume = 0;
     document_.region_names.clear();
     document_.tree = {};
@@ -95,66 +112,66 @@ void Session::Impl::show_its_surface() {
     root.facets = document_.input_facets;
 }
 
-bool Session::Impl::can_repair() const {
-    return files_ && document_.checked && !history_.empty() && !document_.progress.running && !opening_ &&
-           open_.jobs == 0;
+bool Repairs::can_repair() const {
+    return files_ && document_.checked && !history_.empty() && !document_.progress.running &&
+           background_.open.jobs == 0;
 }
 
-void Session::Impl::repair(const InputOptions& options) {
+void Repairs::repair(const InputOptions& options) {
     if (!can_repair()) return;
-    failures_.clear();
-    mending_.reset();
-    mending_since_ = std::chrono::steady_clock::now();
-    const auto end = [this] { document_.progress = {}; };
-    const auto take = [this, end, options](const Loader::Completion& completion) {
-        end();
+    background_.forget_failures();
+    background_.repair.reset();
+    since_ = std::chrono::steady_clock::now();
+    const auto take = [this, options](const Loader::Completion& completion) {
         show_surface_again();
         document_.options.input_options = options;
         completion();
     };
-    const auto work = [check = checking(options, mending_.scope), take]() -> Loader::Completion {
+    const auto work = [check = checking(options, background_.repair.scope), take]() -> Loader::Completion {
         return [take, completion = check()] { take(completion); };
     };
     document_.progress = {};
     document_.progress.running = document_.progress.ours = true;
     document_.progress.stage = "repair";
-    post(mending_, work, [this, end](const std::string& message) {
-        end();
-        note_failure(message);
+    background_.post(background_.repair, work, [this](const std::string& message) {
+        document_.progress = {};
+        background_.note_failure(message);
     });
 }
 
-void Session::Impl::cancel_repair() {
+void Repairs::cancel() {
     if (!is_repairing()) return;
-    mending_.reset();
+    background_.repair.reset();
     document_.progress = {};
-    note_failure("The repair was cancelled.");
+    background_.note_failure("The repair was cancelled.");
 }
 
-void Session::Impl::undo_repair() {
-    if (!can_undo_repair()) return;
+void Repairs::undo() {
+    if (!can_undo()) return;
     history_.undo();
-    show_surface_again();
-    document_.options.input_options = history_.shown().options;
-    show_checked();
+    show_state();
 }
 
-void Session::Impl::redo_repair() {
-    if (!can_redo_repair()) return;
+void Repairs::redo() {
+    if (!can_redo()) return;
     history_.redo();
+    show_state();
+}
+
+void Repairs::show_state() {
     show_surface_again();
     document_.options.input_options = history_.shown().options;
     show_checked();
 }
 
 // What a run has made of it is kept to compare with.
-void Session::Impl::show_surface_again() {
-    failures_.clear();
+void Repairs::show_surface_again() {
+    background_.forget_failures();
     document_.progress = {};
     if (!document_.trace && document_.folder.empty()) return;
-    set_aside(document_);
-    forget_data();
-    scratch_.reset();
+    pair_.set_aside(document_);
+    fetched_.forget();
+    pair_.now.scratch.reset();
     Document surface;
     surface.kind = Document::Kind::surface;
     surface.path = document_.path;
@@ -164,22 +181,20 @@ void Session::Impl::show_surface_again() {
     surface.box = document_.box;
     surface.patch_colours = files_->soup.patch_colours;
     surface.notes = files_->soup.notes;
-    surface.patch_names = files_->soup.patch_names;
-    surface.input_vertices = static_cast<std::int64_t>(files_->soup.vertices.size());
-    surface.input_facets = static_cast<std::int64_t>(files_->soup.facets.size());
+    set_input(files_->soup, surface);
     surface.soup = {files_, &files_->soup};
     surface.tree.at(1).facets = surface.input_facets;
     document_ = std::move(surface);
 }
 
-void Session::Impl::save_surface(const std::string& path) {
+void Repairs::save(const std::string& path) {
     if (!can_repair()) return;
-    failures_.clear();
-    const auto write = [this, path = absolute_path(path), options = document_.options]() -> Loader::Completion {
-        repair_file(options.input, options.input_options, path);
-        return [this, path] { document_.surface_saved_as = path; };
-    };
-    post(open_, write, [this](const std::string& message) { note_failure(message); });
+    background_.forget_failures();
+    background_.post(background_.open,
+                     [this, path = absolute_path(path), options = document_.options]() -> Loader::Completion {
+                         repair_file(options.input, options.input_options, path);
+                         return [this, path] { document_.surface_saved_as = path; };
+                     });
 }
 
 }  // namespace kerf::view

@@ -1,0 +1,50 @@
+// The run that is shown and the one before it, to compare with; and what makes a new one of it, or a copy.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "viewer/model/redo.h"
+#include "viewer/model/run_follower.h"
+
+namespace kerf::view {
+
+class RunPair {
+ public:
+    RunPair(Background& background, ShownPair& pair, Fetched& fetched, const RunFollower& follower)
+        : background_(background), pair_(pair), now_(pair.now), fetched_(fetched), follower_(follower) {}
+
+    /// Once Session::start_run(), Repairs::repair() or redo_cut() has something to show, what was shown before is kept,
+    /// whole, to compare with: the other document, until the next one of these or Session::open(); nullptr if there is
+    /// none.
+    const Document* other_document() const { return pair_.other ? &pair_.other->document : nullptr; }
+    /// Session::document() is the one before, other_document() the one after.
+    bool shows_before() const { return pair_.shows_before; }
+    /// Shows the other document. Not while anything is under way.
+    void swap();
+    bool can_swap() const;
+
+    /// Makes the cut of one node again with other options, in the background; needs a trace. The result takes the
+    /// place of that cut in Document::trace; what lay below it is gone, and so are measures of the whole run.
+    /// It is made at the plane if there is one, else where it was (view::redo_cut()).
+    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane = {});
+
+    /// A finished run is open that goes with this session.
+    bool can_save() const;
+    /// Copies it, in the background, to a place where it stays, as kerf mesh would have written it there: only a run
+    /// of Kerf is ever replaced. Its trace goes beside it, to its name and ".trace". At the end Document::saved_as is
+    /// the folder, or Session::failures() says why not.
+    void save(const std::string& path);
+
+ private:
+    void start_redo();
+    void take_redone(NodeId node, const RedoneCut& redone);
+
+    Background& background_;
+    ShownPair& pair_;
+    Shown& now_;
+    Fetched& fetched_;
+    const RunFollower& follower_;
+};
+
+}  // namespace kerf::view

@@ -1,0 +1,48 @@
+// What is shown, and what was shown before the last change.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "viewer/model/document.h"
+#include "viewer/model/replayer.h"
+#include "viewer/model/run_process.h"
+#include "viewer/model/store.h"
+
+namespace kerf::view {
+
+/// A cut that is to be made again.
+struct CutAgain {
+    NodeId node = 1;
+    RunOptions options;
+    std::optional<Plane> plane;
+};
+
+/// A document with all that belongs to it.
+struct Shown {
+    static constexpr std::size_t store_bytes = std::size_t{4} << 30;
+
+    Document document;
+    std::shared_ptr<Replayer> replayer;      ///< of its trace; only the loader's thread looks inside
+    std::set<NodeId> folder_parts;           ///< of which its folder has files that are those of the tree
+    std::shared_ptr<ScratchFolder> scratch;  ///< that its folder is in
+    std::deque<CutAgain> cuts_again;         ///< that wait for the one under way: each changes the trace
+    Store store{store_bytes};
+};
+
+/// Two documents to compare, one of which is shown. `now` stays where it is, but what is in it is replaced: only its
+/// address may be kept.
+struct ShownPair {
+    Shown now;
+    std::optional<Shown> other;
+    bool shows_before = false;  ///< `now` is the one before, `other` the one after
+
+    /// What was shown before, `before` and all but the document of `now`, becomes the other one. What follows belongs
+    /// to a new document, whose store is empty.
+    void set_aside(Document before);
+    void swap();
+};
+
+}  // namespace kerf::view
