@@ -62,7 +62,7 @@ class NumberedBox : public testing::Test {
     }
     // Of a patch by its outward normal.
     std::int32_t patch_towards(const Vec3& normal) {
-        const auto surface = driver_->app().session().surface(1);
+        const auto surface = driver_->app().session().fetched().surface(1);
         for (std::size_t f = 0; f < surface->facets.size(); ++f) {
             const auto p = [&](std::size_t k) {
                 return surface->vertices[static_cast<std::size_t>(surface->facets[f][k])];

@@ -120,7 +120,7 @@ TEST(CutHandle, MovesThePlaneOfACut) {
                                  *seen_from_target(camera, before.origin);
     const Eigen::Vector2f along = Eigen::Vector2d(seen.x(), -seen.y()).normalized().cast<float>() * 60;
     drag_item(driver, "move cut", along.x(), along.y());
-    driver.await("the cut", [&] { return driver.app().session().can_swap_runs(); });
+    driver.await("the cut", [&] { return driver.app().session().pair().can_swap(); });
     const Plane& after = driver.document().trace->find(1)->plane;
     const double pixels = static_cast<double>(driver.app().scene_area().height);
     const double moved = 60 / (seen.norm() * pixels) * 0.05 * camera.height;  // as it is seen near the plane

@@ -126,7 +126,7 @@ TEST_F(RegionsShown, EachFacetIsDrawnOnceThroughGlassAndAsAWall) {
     std::int64_t outer = 0, walls = 0;
     std::map<std::string, std::int64_t> outer_of;
     for (const NodeId part : document().tree.parts_below(1)) {
-        const auto surface = driver_->app().session().part_surface(part);
+        const auto surface = driver_->app().session().fetched().part_surface(part);
         ASSERT_TRUE(surface);
         for (const std::int32_t neighbour : surface->neighbour) {
             if (neighbour < 0) ++outer_of[*region_of(document(), part)], ++outer;
@@ -181,7 +181,7 @@ TEST_F(RegionsShown, MoveAsWholes) {
 
 TEST_F(RegionsShown, WhatIsPickedNamesThem) {
     for (const NodeId part : document().tree.parts_below(1)) {
-        const auto surface = driver_->app().session().part_surface(part);
+        const auto surface = driver_->app().session().fetched().part_surface(part);
         ASSERT_TRUE(surface);
         const auto wall = std::find_if(surface->neighbour.begin(), surface->neighbour.end(), [&](std::int32_t other) {
             return other >= 0 && region_of(document(), other) != region_of(document(), part);

@@ -175,7 +175,7 @@ TEST_F(RepairPanel, LooksAsItShould) {
     open(480, 360);
     InputOptions options;
     options.weld_tolerance = 0.01;
-    driver_->app().session().repair(options);
+    driver_->app().session().repairs().repair(options);
     driver_->show_panels(false);
     await_repair();
     driver_->state().step = {Stage::before_repair, -1};

@@ -41,7 +41,7 @@ class RepairSession : public testing::Test {
         test::write_off(path_, soup.vertices, soup.facets);
         session_.open(path_);
         settle();
-        ASSERT_TRUE(session_.can_repair()) << session_.document().error;
+        ASSERT_TRUE(session_.repairs().can_repair()) << session_.document().error;
     }
     void settle() {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -57,22 +57,22 @@ class RepairSession : public testing::Test {
         return options;
     }
     void repair(const std::string& plan) {
-        session_.repair(by(plan));
-        EXPECT_TRUE(session_.is_repairing());
+        session_.repairs().repair(by(plan));
+        EXPECT_TRUE(session_.repairs().is_repairing());
         EXPECT_TRUE(session_.document().progress.running);
         settle();
         EXPECT_FALSE(session_.document().progress.running);
     }
     std::shared_ptr<const NodeSurface> surface(NodeId node) {
-        session_.surface(node);
+        session_.fetched().surface(node);
         settle();
-        return session_.surface(node);
+        return session_.fetched().surface(node);
     }
     float farthest(NodeId node) {
         const auto of = surface(node);
-        session_.values_on(of, ColorBy::deviation);
+        session_.fetched().values_on(of, ColorBy::deviation);
         settle();
-        const auto values = session_.values_on(of, ColorBy::deviation);
+        const auto values = session_.fetched().values_on(of, ColorBy::deviation);
         if (!values || values->values.size() != of->facets.size()) return -1;
         return *std::max_element(values->values.begin(), values->values.end());
     }
@@ -97,7 +97,7 @@ TEST_F(RepairSession, ShowsWhatACommandMakesOfTheFileAndWhatItWas) {
     open(read_);
     const auto before = surface(1);
     ASSERT_TRUE(session_.document().has_problems());
-    EXPECT_FALSE(session_.surface(not_repaired)) << "nothing is repaired yet";
+    EXPECT_FALSE(session_.fetched().surface(not_repaired)) << "nothing is repaired yet";
     EXPECT_TRUE(why_without_values(session_.document(), ColorBy::deviation));
     for (const char* plan : {"weld=0.01", "weld=0.01,clean", "exact", "near", "full", "none"}) {
         SCOPED_TRACE(plan);
@@ -119,31 +119,31 @@ TEST_F(RepairSession, ShowsWhatACommandMakesOfTheFileAndWhatItWas) {
 
 TEST_F(RepairSession, GoesBackAndForth) {
     open(read_);
-    EXPECT_FALSE(session_.can_undo_repair());
+    EXPECT_FALSE(session_.repairs().can_undo());
     repair("weld=0.01");
     const auto welded = session_.document().checked;
     const auto welded_surface = surface(1);
     repair("weld=0.01,clean");
     const auto cleaned = session_.document().checked;
-    EXPECT_FALSE(session_.can_redo_repair());
-    session_.undo_repair();
+    EXPECT_FALSE(session_.repairs().can_redo());
+    session_.repairs().undo();
     EXPECT_EQ(session_.document().checked, welded);
     EXPECT_EQ(session_.document().options.input_options.repair, "weld=0.01");
     EXPECT_EQ(surface(1), welded_surface) << "at once";
-    session_.undo_repair();
-    EXPECT_FALSE(session_.can_undo_repair());
+    session_.repairs().undo();
+    EXPECT_FALSE(session_.repairs().can_undo());
     EXPECT_TRUE(session_.document().has_problems());
     EXPECT_FALSE(session_.document().unrepaired);
     EXPECT_EQ(surface(1)->facets.size(), read_.facets.size());
-    session_.redo_repair();
-    session_.redo_repair();
+    session_.repairs().redo();
+    session_.repairs().redo();
     EXPECT_EQ(session_.document().checked, cleaned);
-    session_.redo_repair();  // there is nothing more
+    session_.repairs().redo();  // there is nothing more
     EXPECT_EQ(session_.document().checked, cleaned);
-    session_.undo_repair();
+    session_.repairs().undo();
     repair("clean");
-    EXPECT_FALSE(session_.can_redo_repair()) << "what was undone is forgotten";
-    session_.undo_repair();
+    EXPECT_FALSE(session_.repairs().can_redo()) << "what was undone is forgotten";
+    session_.repairs().undo();
     EXPECT_EQ(session_.document().checked, welded);
 }
 
@@ -151,9 +151,9 @@ TEST_F(RepairSession, EndsWhenItIsCancelledAndChangesNothing) {
     open(read_);
     const auto checked = session_.document().checked;
     for (const bool by_run : {false, true}) {
-        session_.repair(by("full"));
-        by_run ? session_.cancel_run() : session_.cancel_repair();
-        EXPECT_FALSE(session_.is_repairing());
+        session_.repairs().repair(by("full"));
+        by_run ? session_.cancel_run() : session_.repairs().cancel();
+        EXPECT_FALSE(session_.repairs().is_repairing());
         EXPECT_FALSE(session_.document().progress.running);
         ASSERT_FALSE(session_.failures().empty());
         EXPECT_EQ(session_.failures().back(), "The repair was cancelled.");
@@ -161,11 +161,11 @@ TEST_F(RepairSession, EndsWhenItIsCancelledAndChangesNothing) {
     settle();
     EXPECT_EQ(session_.document().checked, checked);
     EXPECT_EQ(session_.document().options.input_options.repair, "");
-    session_.repair(by("full"));
+    session_.repairs().repair(by("full"));
     session_.open(path_);  // something else is open before it ends
     settle();
     EXPECT_EQ(session_.document().options.input_options.repair, "");
-    session_.repair(by("weld=1e9"));  // or it fails
+    session_.repairs().repair(by("weld=1e9"));  // or it fails
     settle();
     EXPECT_FALSE(session_.document().progress.running);
 }
@@ -179,8 +179,8 @@ TEST_F(RepairSession, IsThereFromTheBeginningOn) {
     settle();
     expect_what_a_command_makes();
     ASSERT_TRUE(session_.document().unrepaired);
-    EXPECT_TRUE(session_.can_undo_repair());
-    session_.undo_repair();
+    EXPECT_TRUE(session_.repairs().can_undo());
+    session_.repairs().undo();
     EXPECT_FALSE(session_.document().unrepaired);
     EXPECT_EQ(session_.document().options.input_options.repair, "");
 }
@@ -191,12 +191,12 @@ TEST_F(RepairSession, SavesWhatKerfRepairWrites) {
     for (const char* ending : {".obj", ".stl"}) {
         const std::string own = folder_.file(std::string("own") + ending);
         repair_file(path_, session_.document().options.input_options, own);
-        session_.save_surface(folder_.file(std::string("saved") + ending));
+        session_.repairs().save(folder_.file(std::string("saved") + ending));
         settle();
         EXPECT_EQ(session_.document().surface_saved_as, folder_.file(std::string("saved") + ending));
         EXPECT_EQ(read_file(own), read_file(session_.document().surface_saved_as));
     }
-    session_.save_surface(folder_.file("surface.step"));
+    session_.repairs().save(folder_.file("surface.step"));
     settle();
     ASSERT_FALSE(session_.failures().empty());
     EXPECT_NE(session_.failures().back().find(".obj or .stl"), std::string::npos);
@@ -214,13 +214,13 @@ TEST_F(RepairSession, GoesOnBehindARun) {
     ASSERT_TRUE(session_.document().trace) << session_.document().progress.message;
     EXPECT_EQ(steps_of(session_.document(), 1).front().stage, Stage::before_repair);
     EXPECT_EQ(surface(not_repaired)->facets.size(), read_.facets.size());
-    session_.undo_repair();
+    session_.repairs().undo();
     EXPECT_FALSE(session_.document().trace);
     EXPECT_TRUE(session_.document().has_problems());
     EXPECT_EQ(surface(1)->facets.size(), read_.facets.size());
     ASSERT_TRUE(session_.other_document());
     EXPECT_TRUE(session_.other_document()->trace);
-    session_.redo_repair();
+    session_.repairs().redo();
     expect_what_a_command_makes();
 }
 
@@ -229,7 +229,7 @@ TEST_F(RepairSession, WrapsAndUnwraps) {
     InputOptions options;
     options.wrap = true;
     options.wrapping.gap = Length::percent(10);
-    session_.repair(options);
+    session_.repairs().repair(options);
     settle();
     ASSERT_TRUE(session_.document().checked->wrapped);
     expect_what_a_command_makes();
@@ -237,7 +237,7 @@ TEST_F(RepairSession, WrapsAndUnwraps) {
     ASSERT_TRUE(surface(not_repaired));
     EXPECT_GE(farthest(1), 0);
     EXPECT_LE(farthest(1), (1 + 1e-6) * session_.document().checked->wrapped->distance_to_input);
-    session_.undo_repair();
+    session_.repairs().undo();
     EXPECT_FALSE(session_.document().options.input_options.wraps());
     EXPECT_FALSE(session_.document().unrepaired);
 }

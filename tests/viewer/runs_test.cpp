@@ -38,7 +38,7 @@ struct OuterFacets {
 
 OuterFacets outer_facets(Driver& driver, NodeId node) {
     std::shared_ptr<const NodeSurface> surface;
-    driver.await("a surface", [&] { return (surface = driver.app().session().surface(node)) != nullptr; });
+    driver.await("a surface", [&] { return (surface = driver.app().session().fetched().surface(node)) != nullptr; });
     OuterFacets outer;
     for (std::size_t f = 0; f < surface->facets.size(); ++f) {
         const auto corner = [&](std::size_t i) -> const Vec3& {
@@ -101,7 +101,8 @@ TEST(Runs, TheWorstCellsAreThoseOfAllParts) {
     EXPECT_TRUE(driver.document().progress.running);
     const auto parts_listed = [&] {
         std::set<NodeId> parts;
-        for (const WorstCell& cell : *driver.app().session().worst_cells(ColorBy::shape, 100)) parts.insert(cell.part);
+        for (const WorstCell& cell : *driver.app().session().fetched().worst_cells(ColorBy::shape, 100))
+            parts.insert(cell.part);
         return parts;
     };
     const std::set<NodeId> before = parts_listed();
@@ -113,7 +114,7 @@ TEST(Runs, TheWorstCellsAreThoseOfAllParts) {
     EXPECT_LT(before.size(), 4u);
     EXPECT_GT(parts_listed().size(), before.size());
     const MeasureHistogram& histogram = *driver.document().histograms[4];
-    EXPECT_NEAR(driver.app().session().worst_cells(ColorBy::shape, 100)->front().value, histogram.min, 1e-6);
+    EXPECT_NEAR(driver.app().session().fetched().worst_cells(ColorBy::shape, 100)->front().value, histogram.min, 1e-6);
 }
 
 // A row is marked as long as its cell is selected.
@@ -217,7 +218,7 @@ TEST(Runs, TwoAreComparedUnderOneCamera) {
     driver.click("Re-run cut of node 1");
     driver.await("the cut", [&] { return driver.document().tree.parts_below(1).size() == 2 && !session.busy(); });
     EXPECT_FALSE(driver.document().histograms[0]) << "of cells that are gone";
-    EXPECT_FALSE(session.can_save_run()) << "no run has made this";
+    EXPECT_FALSE(session.pair().can_save()) << "no run has made this";
     driver.click("A");
     driver.settle();
     EXPECT_EQ(driver.document().tree.parts_below(1).size(), 5u);
@@ -236,7 +237,7 @@ TEST(Runs, ATemporaryRunIsSaved) {
         driver.state().panels.parameters = true;
         driver.frame();
         const auto save_to = [&](const std::string& path) {
-            session.save_run(path);
+            session.pair().save(path);
             driver.await("the copy", [&] { return !session.busy(); });
         };
         fs::create_directory(folder.file("mine"));
@@ -259,7 +260,7 @@ TEST(Runs, ATemporaryRunIsSaved) {
         driver.await("the copy", [&] { return !session.busy(); });
         EXPECT_TRUE(session.failures().empty());
         EXPECT_EQ(driver.document().saved_as, place);
-        EXPECT_FALSE(session.can_save_run());
+        EXPECT_FALSE(session.pair().can_save());
     }
     EXPECT_EQ(run_kerf({"verify", place}).exit_code, 0);
     Driver driver;
@@ -277,7 +278,7 @@ TEST(Runs, AnOldErrorLeavesTheStatusBar) {
     Driver driver(options);
     driver.open(asset_path("cube"));
     Session& session = driver.app().session();
-    session.redo_cut(1, {});
+    session.pair().redo_cut(1, {});
     ASSERT_EQ(session.failures().size(), 1u);
     RunOptions run;
     run.decompose.parts = 2;

@@ -179,7 +179,7 @@ TEST(Explosion, SistersPartByTheirCut) {
 
 // The layer of a step has these edges of the node's surface, each where it is.
 void expect_edges(Driver& driver, const Step& step, const std::vector<SurfaceEdge>& edges) {
-    const auto surface = driver.app().session().surface(driver.state().node);
+    const auto surface = driver.app().session().fetched().surface(driver.state().node);
     const BuiltScene& built = driver.app().scene();
     const Layer* layer = built.scene.find(layer_of(step.stage));
     ASSERT_TRUE(surface && layer) << name(step);

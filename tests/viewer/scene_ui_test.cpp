@@ -363,11 +363,11 @@ TEST(SceneUi, ACellAndItsNeighbours) {
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
     driver.await("the cells", [&] {
-        return driver.app().session().cells(2) && driver.app().session().cells(3) &&
-               driver.app().session().part_surface(2);
+        return driver.app().session().fetched().cells(2) && driver.app().session().fetched().cells(3) &&
+               driver.app().session().fetched().part_surface(2);
     });
-    const auto own = driver.app().session().cells(2), other = driver.app().session().cells(3);
-    const auto surface = driver.app().session().part_surface(2);
+    const auto own = driver.app().session().fetched().cells(2), other = driver.app().session().fetched().cells(3);
+    const auto surface = driver.app().session().fetched().part_surface(2);
     std::int32_t cell = -1;  // all of its corners lie inside, but for one on the interface alone
     for (std::size_t t = 0; t < own->tets.size() && cell < 0; ++t) {
         int at_interface = 0, at_boundary = 0;
@@ -427,8 +427,9 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
     state.panels.quality = true;
     driver.await("the worst cells", [&] { return driver.app().widgets().find("worst 1").has_value(); });
     state.color = ColorBy::radius_edge;  // the worst lie inside and at the surface
-    driver.await("the largest cells", [&] { return driver.app().session().worst_cells(state.color, 100) != nullptr; });
-    const auto worst = driver.app().session().worst_cells(state.color, 100);
+    driver.await("the largest cells",
+                 [&] { return driver.app().session().fetched().worst_cells(state.color, 100) != nullptr; });
+    const auto worst = driver.app().session().fetched().worst_cells(state.color, 100);
     driver.click("worst 1");
     EXPECT_EQ(state.selection.index, (*worst)[0].cell);
     driver.keys_in_one_frame({{.key = key_down}, {.key = key_down}});
@@ -439,9 +440,10 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
     // A cell inside is seen through the others, one at the surface from where the camera goes.
     Session& session = driver.app().session();
     const auto seen_from = [&](const WorstCell& cell, const Vec3& back) {
-        driver.await("the cells", [&] { return session.cells(cell.part) && session.part_surface(cell.part); });
-        return direction_to_cell(*session.cells(cell.part), *session.part_surface(cell.part), *session.surface(1),
-                                 cell.cell, back);
+        driver.await("the cells",
+                     [&] { return session.fetched().cells(cell.part) && session.fetched().part_surface(cell.part); });
+        return direction_to_cell(*session.fetched().cells(cell.part), *session.fetched().part_surface(cell.part),
+                                 *session.fetched().surface(1), cell.cell, back);
     };
     std::size_t at = 2;
     for (const bool at_surface : {false, true}) {

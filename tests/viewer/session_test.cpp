@@ -114,7 +114,7 @@ TEST_F(SessionTest, OpensASurfaceAndChecksIt) {
     EXPECT_TRUE(session_.pending());
     EXPECT_EQ(document().title, "cube.stl");
     ASSERT_TRUE(reach(session_, [&] { return document().soup != nullptr; }));
-    EXPECT_TRUE(session_.surface(1)) << "the first picture does not wait for the check";
+    EXPECT_TRUE(session_.fetched().surface(1)) << "the first picture does not wait for the check";
     EXPECT_EQ(document().kind, Document::Kind::surface);
     EXPECT_EQ(document().error, "");
     EXPECT_NEAR(document().box.diagonal().norm(), std::sqrt(3.0), 1e-6);
@@ -128,12 +128,12 @@ TEST_F(SessionTest, OpensASurfaceAndChecksIt) {
     ASSERT_TRUE(document().tree.rows[0].centroid);
     EXPECT_LT((*document().tree.rows[0].centroid - document().box.center()).norm(), 0.1);
 
-    const auto surface = get(session_, [&] { return session_.surface(1); });
+    const auto surface = get(session_, [&] { return session_.fetched().surface(1); });
     ASSERT_TRUE(surface);
     EXPECT_EQ(surface->facets, document().soup->facets);
     EXPECT_EQ(surface->vertices, document().soup->vertices);
-    EXPECT_EQ(session_.surface(2), nullptr);
-    EXPECT_EQ(session_.cells(1), nullptr);
+    EXPECT_EQ(session_.fetched().surface(2), nullptr);
+    EXPECT_EQ(session_.fetched().cells(1), nullptr);
     EXPECT_EQ(failures_of(session_), "");
     EXPECT_FALSE(session_.poll());
 }
@@ -156,7 +156,7 @@ TEST_F(SessionTest, SaysWhyAFileCannotBeOpened) {
     EXPECT_EQ(document().error, "");
     session_.close();
     EXPECT_EQ(document().kind, Document::Kind::none);
-    EXPECT_EQ(session_.surface(1), nullptr);
+    EXPECT_EQ(session_.fetched().surface(1), nullptr);
 }
 
 TEST_F(SessionTest, ShowsASurfaceWithDefects) {
@@ -169,7 +169,7 @@ TEST_F(SessionTest, ShowsASurfaceWithDefects) {
     EXPECT_FALSE(document().checked->diagnosis.clean());
     EXPECT_TRUE(document().has_problems());
     EXPECT_EQ(document().error, "");
-    EXPECT_TRUE(get(session_, [&] { return session_.surface(1); }));
+    EXPECT_TRUE(get(session_, [&] { return session_.fetched().surface(1); }));
 
     session_.start_run(options(2), true);
     ASSERT_TRUE(settle(session_));
@@ -268,7 +268,7 @@ TEST_F(OwnRun, TheRunBeforeIsKeptForComparison) {
     EXPECT_NE(document().progress.message.find("too few"), std::string::npos) << document().progress.message;
     EXPECT_EQ(document().tree.parts_below(1).size(), 3u);
     for (const NodeId part : document().tree.parts_below(1))
-        EXPECT_TRUE(get(session_, [&] { return session_.cells(part); }));
+        EXPECT_TRUE(get(session_, [&] { return session_.fetched().cells(part); }));
 }
 
 TEST_F(OwnRun, WithoutTetrahedra) {
@@ -280,10 +280,10 @@ TEST_F(OwnRun, WithoutTetrahedra) {
     EXPECT_EQ(document().tree.parts_below(1).size(), 5u);
     for (const NodeId part : document().tree.parts_below(1)) {
         EXPECT_EQ(document().tree.find(part)->state, NodeState::waiting);
-        EXPECT_TRUE(get(session_, [&] { return session_.part_surface(part); }));
-        EXPECT_EQ(session_.cells(part), nullptr);
+        EXPECT_TRUE(get(session_, [&] { return session_.fetched().part_surface(part); }));
+        EXPECT_EQ(session_.fetched().cells(part), nullptr);
     }
-    EXPECT_EQ(session_.worst_cells(ColorBy::shape, 3), nullptr);
+    EXPECT_EQ(session_.fetched().worst_cells(ColorBy::shape, 3), nullptr);
     EXPECT_FALSE(document().histograms[0]);
 }
 
@@ -307,7 +307,7 @@ TEST_F(OwnRun, CanBeCancelled) {
     EXPECT_FALSE(fs::exists(folder_.file("fine")));
     EXPECT_TRUE(document().trace);
     for (const TreeRow& row : document().tree.rows) EXPECT_NE(row.state, NodeState::meshing);
-    EXPECT_TRUE(get(session_, [&] { return session_.surface(2); }));
+    EXPECT_TRUE(get(session_, [&] { return session_.fetched().surface(2); }));
     session_.cancel_run();  // there is none
 }
 
@@ -370,8 +370,8 @@ TEST_F(Data, SurfacesOfTraceAndFolderAgree) {
     EXPECT_TRUE(by_trace_.document().box.isApprox(by_folder_.document().box));
     for (const TreeRow& row : tree.rows) {
         SCOPED_TRACE(row.id);
-        const auto a = get(by_trace_, [&] { return by_trace_.surface(row.id); });
-        const auto b = get(by_folder_, [&] { return by_folder_.surface(row.id); });
+        const auto a = get(by_trace_, [&] { return by_trace_.fetched().surface(row.id); });
+        const auto b = get(by_folder_, [&] { return by_folder_.fetched().surface(row.id); });
         ASSERT_TRUE(a) << failures_of(by_trace_);
         ASSERT_TRUE(b) << failures_of(by_folder_);
         EXPECT_EQ(a->facets.size(), b->facets.size());
@@ -429,7 +429,7 @@ TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
     for (const TreeRow& row : document().tree.rows) {
         SCOPED_TRACE(row.id);
         for (Session* session : {&session_, &folder}) {
-            const auto surface = get(*session, [&] { return session->surface(row.id); });
+            const auto surface = get(*session, [&] { return session->fetched().surface(row.id); });
             ASSERT_TRUE(surface) << failures_of(*session);
             EXPECT_TRUE(is_closed(*surface));
             EXPECT_NEAR(volume_of(*surface), row.volume, 1e-9 * document().volume);
@@ -444,7 +444,7 @@ TEST_F(Data, ATraceGivesTheNumbersThatItsCutsReferTo) {
     for (const TreeRow& row : by_trace_.document().tree.rows) {
         const Surface expected = replay(trace, row.id);
         EXPECT_TRUE(to_bytes(replayer.surface(row.id)->arrays()) == to_bytes(expected.arrays())) << row.id;
-        const auto surface = get(by_trace_, [&] { return by_trace_.surface(row.id); });
+        const auto surface = get(by_trace_, [&] { return by_trace_.fetched().surface(row.id); });
         EXPECT_EQ(surface->vertices, expected.arrays().vertices);
         EXPECT_EQ(surface->facets, expected.arrays().facets);
     }
@@ -455,8 +455,8 @@ TEST_F(Data, PartsHaveTheirSurfacesAndCells) {
     for (const NodeId part : by_folder_.document().tree.parts_below(1)) {
         SCOPED_TRACE(part);
         const TreeRow& row = *by_folder_.document().tree.find(part);
-        const auto surface = get(by_folder_, [&] { return by_folder_.part_surface(part); });
-        const auto cells = get(by_folder_, [&] { return by_folder_.cells(part); });
+        const auto surface = get(by_folder_, [&] { return by_folder_.fetched().part_surface(part); });
+        const auto cells = get(by_folder_, [&] { return by_folder_.fetched().cells(part); });
         ASSERT_TRUE(surface && cells) << failures_of(by_folder_);
         EXPECT_EQ(static_cast<std::int64_t>(surface->facets.size()), row.facets);
         EXPECT_EQ(static_cast<std::int64_t>(cells->tets.size()), row.tets);
@@ -483,8 +483,8 @@ TEST_F(Data, PartsHaveTheirSurfacesAndCells) {
             }
         }
     }
-    EXPECT_EQ(by_folder_.cells(1), nullptr);
-    EXPECT_EQ(by_folder_.part_surface(2), nullptr);
+    EXPECT_EQ(by_folder_.fetched().cells(1), nullptr);
+    EXPECT_EQ(by_folder_.fetched().part_surface(2), nullptr);
     EXPECT_FALSE(by_folder_.pending());
 }
 
@@ -521,9 +521,9 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
         SCOPED_TRACE(name(color));
         std::vector<WorstCell> all;
         for (const NodeId part : parts) {
-            const auto values = get(by_folder_, [&] { return by_folder_.cell_values(part, color); });
-            const auto at_facets = get(by_folder_, [&] { return by_folder_.facet_values(part, color); });
-            const auto cells = get(by_folder_, [&] { return by_folder_.cells(part); });
+            const auto values = get(by_folder_, [&] { return by_folder_.fetched().cell_values(part, color); });
+            const auto at_facets = get(by_folder_, [&] { return by_folder_.fetched().facet_values(part, color); });
+            const auto cells = get(by_folder_, [&] { return by_folder_.fetched().cells(part); });
             ASSERT_TRUE(values && at_facets && cells) << failures_of(by_folder_);
             ASSERT_EQ(values->size(), cells->tets.size());
             for (std::size_t i = 0; i < values->size(); ++i) {
@@ -537,7 +537,7 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
                 ASSERT_EQ((*at_facets)[f], (*values)[static_cast<std::size_t>(cells->tet_at_facet[f])]);
         }
         if (is_kind(color)) {
-            EXPECT_EQ(by_folder_.worst_cells(color, 10), nullptr);
+            EXPECT_EQ(by_folder_.fetched().worst_cells(color, 10), nullptr);
             continue;
         }
         const bool small = color == ColorBy::min_dihedral || color == ColorBy::shape;
@@ -545,7 +545,7 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
             return small ? a.value < b.value : a.value > b.value;
         });
         for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{100}, all.size() + 1}) {
-            const auto worst = get(by_folder_, [&] { return by_folder_.worst_cells(color, count); });
+            const auto worst = get(by_folder_, [&] { return by_folder_.fetched().worst_cells(color, count); });
             ASSERT_TRUE(worst) << failures_of(by_folder_);
             ASSERT_EQ(worst->size(), std::min(count, all.size()));
             for (std::size_t i = 0; i < worst->size(); ++i) {
@@ -570,7 +570,7 @@ TEST_F(SessionTest, CellsAreOfTheCoreTheShellOrAnotherMesher) {
                                                                           : CellOrigin::shell;
             ASSERT_EQ(origins[i], static_cast<float>(expected)) << i;
         }
-        const auto at_facets = get(session_, [&] { return session_.facet_values(part, ColorBy::origin); });
+        const auto at_facets = get(session_, [&] { return session_.fetched().facet_values(part, ColorBy::origin); });
         ASSERT_TRUE(at_facets);
         for (std::size_t f = 0; f < at_facets->size(); ++f)
             ASSERT_EQ((*at_facets)[f], origins[static_cast<std::size_t>(cells.tet_at_facet[f])]);
@@ -578,8 +578,8 @@ TEST_F(SessionTest, CellsAreOfTheCoreTheShellOrAnotherMesher) {
     for (const NodeId part : {2, 3}) {
         SCOPED_TRACE(part);
         // Without the cells, and with them.
-        const auto origins = get(session_, [&] { return session_.cell_values(part, ColorBy::origin); });
-        const auto cells = get(session_, [&] { return session_.cells(part); });
+        const auto origins = get(session_, [&] { return session_.fetched().cell_values(part, ColorBy::origin); });
+        const auto cells = get(session_, [&] { return session_.fetched().cells(part); });
         ASSERT_TRUE(origins && cells) << failures_of(session_);
         EXPECT_EQ(*origins, values_of_cells(*cells, ColorBy::origin));
         ASSERT_EQ(origins->size(), cells->tets.size());
@@ -593,11 +593,11 @@ TEST_F(Data, WhatCannotBeReadIsSaidOnce) {
     open_apart();
     const NodeId part = by_folder_.document().tree.parts_below(1).front();
     fs::resize_file(part_file_of(folder_.file("run"), part), 1000);
-    EXPECT_EQ(get(by_folder_, [&] { return by_folder_.cells(part); }), nullptr);
-    EXPECT_EQ(get(by_folder_, [&] { return by_folder_.cells(part); }), nullptr);
+    EXPECT_EQ(get(by_folder_, [&] { return by_folder_.fetched().cells(part); }), nullptr);
+    EXPECT_EQ(get(by_folder_, [&] { return by_folder_.fetched().cells(part); }), nullptr);
     ASSERT_EQ(by_folder_.failures().size(), 1u);
     EXPECT_NE(by_folder_.failures()[0].find("part_"), std::string::npos);
-    EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.part_surface(part); }));
+    EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.fetched().part_surface(part); }));
 }
 
 TEST_F(Data, AnotherTraceInThePlaceOfItsOwnIsNotTaken) {
@@ -623,8 +623,8 @@ TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old);
     EXPECT_EQ(by_folder_.other_document(), nullptr);
-    by_folder_.redo_cut(2, test::options_of(*old));
-    by_folder_.redo_cut(1, test::options_of(*old));
+    by_folder_.pair().redo_cut(2, test::options_of(*old));
+    by_folder_.pair().redo_cut(1, test::options_of(*old));
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     const Document& d = by_folder_.document();
@@ -636,10 +636,10 @@ TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
     EXPECT_TRUE(to_bytes(*by_folder_.other_document()->trace->find(1)) == to_bytes(*old->find(1)));
     EXPECT_EQ(d.tree.parts_below(1), (std::vector<NodeId>{2, 3}));
     EXPECT_EQ(d.tree.find(1)->leaves, 2);
-    EXPECT_EQ(by_folder_.cells(4), nullptr);
-    EXPECT_EQ(by_folder_.cells(2), nullptr);
-    EXPECT_EQ(by_folder_.part_surface(2), nullptr);
-    const auto surface = get(by_folder_, [&] { return by_folder_.surface(3); });
+    EXPECT_EQ(by_folder_.fetched().cells(4), nullptr);
+    EXPECT_EQ(by_folder_.fetched().cells(2), nullptr);
+    EXPECT_EQ(by_folder_.fetched().part_surface(2), nullptr);
+    const auto surface = get(by_folder_, [&] { return by_folder_.fetched().surface(3); });
     ASSERT_TRUE(surface);
     EXPECT_EQ(surface->facets, replay(*old, 3).arrays().facets);
 }
@@ -653,7 +653,7 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     RunOptions other = test::options_of(*old);
     other.decompose.cut.criterion = Criterion::volume;
     other.decompose.cut.axis = 2;
-    by_folder_.redo_cut(2, other);
+    by_folder_.pair().redo_cut(2, other);
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     const Document& d = by_folder_.document();
@@ -666,7 +666,7 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     EXPECT_EQ(d.tree.find(2)->plane()->normal, d.trace->find(2)->plane.normal);
     double volume = 0;
     for (const NodeId half : {4, 5}) {
-        const auto surface = get(by_folder_, [&] { return by_folder_.surface(half); });
+        const auto surface = get(by_folder_, [&] { return by_folder_.fetched().surface(half); });
         ASSERT_TRUE(surface);
         EXPECT_TRUE(is_closed(*surface));
         EXPECT_EQ(static_cast<std::int64_t>(surface->facets.size()), d.tree.find(half)->facets);
@@ -674,24 +674,25 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     }
     EXPECT_NEAR(volume, d.tree.find(2)->volume, 1e-9 * volume);
     for (const NodeId part : d.tree.parts_below(3))  // the others are as they were
-        EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.cells(part); }));
+        EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.fetched().cells(part); }));
     // A part may be cut, too, also by a straight cut.
     other.decompose.cut.contour = ContourMethod::straight;
-    by_folder_.redo_cut(4, other);
+    by_folder_.pair().redo_cut(4, other);
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     ASSERT_TRUE(d.trace->find(4));
     EXPECT_EQ(d.trace->find(4)->strategy, CutStrategy::straight);
-    const auto split = get(by_folder_, [&] { return by_folder_.surface(4); });
+    const auto split = get(by_folder_, [&] { return by_folder_.fetched().surface(4); });
     EXPECT_EQ(split->facets, d.trace->find(4)->split_parent.facets);
     volume = 0;
-    for (const NodeId half : {8, 9}) volume += volume_of(*get(by_folder_, [&] { return by_folder_.surface(half); }));
+    for (const NodeId half : {8, 9})
+        volume += volume_of(*get(by_folder_, [&] { return by_folder_.fetched().surface(half); }));
     EXPECT_NEAR(volume, volume_of(*split), 1e-9 * volume);
 }
 
 TEST_F(SessionTest, ACutIsMadeAgainOnlyInATrace) {
     open(test::asset_path("cube"));
-    session_.redo_cut(1, {});
+    session_.pair().redo_cut(1, {});
     ASSERT_TRUE(settle(session_));
     EXPECT_EQ(session_.failures().size(), 1u);
 }
@@ -720,8 +721,8 @@ TEST_F(SessionTest, FollowsTheFolderOfARunUnderWay) {
     EXPECT_EQ(document().folder, output);
     EXPECT_EQ(document().tree.parts_below(1).size(), 6u);
     for (const NodeId part : document().tree.parts_below(1))
-        EXPECT_TRUE(get(session_, [&] { return session_.cells(part); })) << failures_of(session_);
-    const auto whole = get(session_, [&] { return session_.surface(1); });
+        EXPECT_TRUE(get(session_, [&] { return session_.fetched().cells(part); })) << failures_of(session_);
+    const auto whole = get(session_, [&] { return session_.fetched().surface(1); });
     ASSERT_TRUE(whole);
     EXPECT_EQ(whole->facets.size(), 51840u);
 }
@@ -779,10 +780,10 @@ TEST_F(SessionTest, ShowsAnInterruptedRun) {
     EXPECT_TRUE(document().tree.find(1)->plane());
     int done = 0;
     for (const NodeId part : document().tree.parts_below(1)) {
-        EXPECT_TRUE(get(session_, [&] { return session_.part_surface(part); }));
+        EXPECT_TRUE(get(session_, [&] { return session_.fetched().part_surface(part); }));
         if (document().tree.find(part)->state != NodeState::done) continue;
         ++done;
-        const auto cells = get(session_, [&] { return session_.cells(part); });
+        const auto cells = get(session_, [&] { return session_.fetched().cells(part); });
         ASSERT_TRUE(cells) << failures_of(session_);
         EXPECT_EQ(static_cast<std::int64_t>(cells->tets.size()), document().tree.find(part)->tets);
     }
@@ -821,7 +822,7 @@ TEST_F(SessionTest, FollowsAnEventsFile) {
     EXPECT_EQ(document().folder, folder_.file("run"));
     EXPECT_TRUE(document().trace);
     EXPECT_TRUE(document().histograms[0]);
-    EXPECT_TRUE(get(session_, [&] { return session_.cells(5); }));
+    EXPECT_TRUE(get(session_, [&] { return session_.fetched().cells(5); }));
     EXPECT_EQ(failures_of(session_), "");
 
     open(events);  // the whole at once
@@ -840,7 +841,7 @@ TEST_F(SessionTest, EventsOfAFailedRunSayWhy) {
     EXPECT_FALSE(document().progress.running);
     EXPECT_EQ(document().progress.message, "It is open.");
     EXPECT_EQ(document().tree.parts_below(1), (std::vector<NodeId>{2, 3}));
-    EXPECT_EQ(session_.surface(1), nullptr);
+    EXPECT_EQ(session_.fetched().surface(1), nullptr);
 }
 
 TEST_F(SessionTest, EventsSayWhatHasFilledAPart) {

@@ -158,7 +158,7 @@ TEST_F(SolvedCube, TellsWhatIsAtAPlace) {
     state.color = ColorBy::von_mises;
     driver_->settle();
     const NodeId part = 2;
-    const auto surface = driver_->app().session().part_surface(part);
+    const auto surface = driver_->app().session().fetched().part_surface(part);
     ASSERT_TRUE(surface);
     const Selection vertex = {Selection::Kind::vertex, part, 0, surface->vertices[0]};
     const std::string text = describe_selection(driver_->app().session(), vertex, 0);

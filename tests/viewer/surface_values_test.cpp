@@ -154,21 +154,21 @@ class RemeshedRun : public testing::Test {
         ASSERT_TRUE(session_.document().remeshed);
         EXPECT_EQ(steps_of(session_.document(), 1).front(), (Step{Stage::before_remeshing, -1}));
         EXPECT_EQ(steps_of(session_.document(), 2).front(), (Step{Stage::input, -1}));
-        const auto before = get([&] { return session_.surface(0); });
-        const auto after = get([&] { return session_.surface(1); });
+        const auto before = get([&] { return session_.fetched().surface(0); });
+        const auto after = get([&] { return session_.fetched().surface(1); });
         ASSERT_TRUE(before && after);
         EXPECT_EQ(before->facets.size(), soup_.facets.size());
         EXPECT_GT(after->facets.size(), 2 * soup_.facets.size());
         const double allowed = 1e-3 * Vec3(2, 2, 4).norm();
         for (const auto& surface : {before, after}) {
-            const auto values = get([&] { return session_.values_on(surface, ColorBy::deviation); });
+            const auto values = get([&] { return session_.fetched().values_on(surface, ColorBy::deviation); });
             ASSERT_TRUE(values);
             EXPECT_EQ(values->surface, surface);
             ASSERT_EQ(values->values.size(), surface->facets.size());
             EXPECT_LE(*std::max_element(values->values.begin(), values->values.end()), allowed);
-            EXPECT_EQ(session_.values_on(surface, ColorBy::deviation), values) << "kept";
+            EXPECT_EQ(session_.fetched().values_on(surface, ColorBy::deviation), values) << "kept";
         }
-        EXPECT_FALSE(session_.values_on(after, ColorBy::size)) << "none is asked for";
+        EXPECT_FALSE(session_.fetched().values_on(after, ColorBy::size)) << "none is asked for";
         EXPECT_STREQ(why_without_values(session_.document(), ColorBy::size),
                      "No size is asked for: --size and its like do that.");
         EXPECT_EQ(why_without_values(session_.document(), ColorBy::deviation), nullptr);
@@ -188,13 +188,13 @@ TEST_F(RemeshedRun, ShowsWhatWasThereBefore) {
     ASSERT_TRUE(advice);
     EXPECT_EQ(words_of(*advice), "Remesh the surface");
     EXPECT_FALSE(session_.document().remeshed);
-    EXPECT_FALSE(session_.surface(0));
+    EXPECT_FALSE(session_.fetched().surface(0));
     EXPECT_TRUE(why_without_values(session_.document(), ColorBy::deviation));
     run(true);
     EXPECT_TRUE(session_.document().notes.empty()) << "the advice was followed";
     expect_both_surfaces();
-    const auto part = get([&] { return session_.part_surface(2); });
-    const auto of_part = get([&] { return session_.values_on(part, ColorBy::deviation); });
+    const auto part = get([&] { return session_.fetched().part_surface(2); });
+    const auto of_part = get([&] { return session_.fetched().values_on(part, ColorBy::deviation); });
     ASSERT_TRUE(of_part);
     for (std::size_t f = 0; f < part->facets.size(); ++f)
         EXPECT_EQ(std::isnan(of_part->values[f]), part->is_interface(static_cast<std::int32_t>(f)));
@@ -217,8 +217,8 @@ TEST_F(RemeshedRun, KnowsTheSizesThatWereAskedFor) {
     options.sizes.inside = {"sphere:1,1,1,0.2=0.1"};
     session_.start_run(options, false);
     ASSERT_TRUE(settle());
-    const auto surface = get([&] { return session_.surface(1); });
-    const auto values = get([&] { return session_.values_on(surface, ColorBy::size); });
+    const auto surface = get([&] { return session_.fetched().surface(1); });
+    const auto values = get([&] { return session_.fetched().values_on(surface, ColorBy::size); });
     ASSERT_TRUE(values);
     for (std::size_t v = 0; v < values->values.size(); ++v) {
         const double outside = std::max(0.0, (surface->vertices[v] - Vec3::Ones()).norm() - 0.2);

@@ -177,7 +177,7 @@ TEST_F(CutWing, AClickOnTheWorstInterfaceFliesThere) {
         EXPECT_EQ(driver_->state().node, cut.node);
         EXPECT_EQ(name(driver_->state().step), "interface");
         driver_->settle();
-        const auto surface = driver_->app().session().surface(cut.node);
+        const auto surface = driver_->app().session().fetched().surface(cut.node);
         ASSERT_TRUE(surface);
         const std::optional<InterfacePlace> worst =
             by_angle ? smallest_angle(cut.interface) : smallest_dihedral(cut.interface, *surface);

@@ -161,7 +161,7 @@ TEST(Ui, ShowsSomeCellsAndTheWorst) {
     EXPECT_FALSE(state.filter);
 
     driver.await("the worst cells", [&] { return driver.app().widgets().find("worst 1").has_value(); });
-    const WorstCell worst = driver.app().session().worst_cells(state.color, 100)->front();
+    const WorstCell worst = driver.app().session().fetched().worst_cells(state.color, 100)->front();
     EXPECT_NEAR(worst.value, histogram.min, 1e-4 * histogram.min);
     const double height = driver.app().camera().height;
     driver.click("worst 1");
@@ -286,7 +286,7 @@ TEST(Ui, PicksTheFacetThatIsSeen) {
     options.auto_run = false;
     Driver driver(options);
     driver.open(asset_path("cylinder"));
-    const auto surface = driver.app().session().surface(1);
+    const auto surface = driver.app().session().fetched().surface(1);
     ASSERT_TRUE(surface);
     const Rectangle scene = driver.app().scene_area(), body = body_area(driver.state(), scene);
     const Camera camera = driver.app().camera();

@@ -42,7 +42,7 @@ void Desk::complain(const std::string& text) {
 ViewOrigin Desk::origin_of_picture() const {
     const Document& document = view_.session.document();
     ViewOrigin origin;
-    const bool is_temporary = view_.session.can_save_run() || document.kind == Document::Kind::surface;
+    const bool is_temporary = view_.session.pair().can_save() || document.kind == Document::Kind::surface;
     const std::string& input = !document.saved_as.empty() ? document.saved_as
                                : is_temporary             ? document.options.input
                                                           : document.path;

@@ -54,8 +54,9 @@ void Navigation::fly_to(const Vec3& point, double radius, const Vec3& back) {
 void Navigation::resolve_turn() {
     if (!turning_to_) return;
     const Selection& s = *turning_to_;
-    const auto cells = view_.session.cells(s.owner);
-    const auto part = view_.session.part_surface(s.owner), shown = surface_of(view_.session, view_.state.node);
+    const auto cells = view_.session.fetched().cells(s.owner);
+    const auto part = view_.session.fetched().part_surface(s.owner),
+               shown = surface_of(view_.session, view_.state.node);
     const bool is_known = cells && part && shown;
     if (!is_known && view_.session.pending()) return;
     if (is_known && view_.state.selection == s && view_.state.camera)

@@ -58,13 +58,13 @@ void Opening::start_run(const RunOptions& options, bool volume) {
 }
 
 void Opening::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
-    view_.session.redo_cut(node, options, plane);
+    view_.session.pair().redo_cut(node, options, plane);
 }
 
 // Under the same camera, so that what is alike stays where it is. Numbers of cells mean others there.
 void Opening::swap_runs() {
-    if (!view_.session.can_swap_runs()) return;
-    view_.session.swap_runs();
+    if (!view_.session.pair().can_swap()) return;
+    view_.session.pair().swap();
     view_.state.camera = view_.camera;
     if (view_.state.selection.kind != Selection::Kind::place) view_.state.selection = {};
     view_.unresolved.reset();
@@ -75,18 +75,18 @@ void Opening::swap_runs() {
 void Opening::repair(const InputOptions& options) {
     opened_ = view_.session.document().path;  // whether it is meshed then is the user's to say
     show_before_repair(false);
-    view_.session.repair(options);
+    view_.session.repairs().repair(options);
 }
 
 void Opening::undo_repair() {
     show_before_repair(false);
-    view_.session.undo_repair();
+    view_.session.repairs().undo();
     view_.session_changed = true;
 }
 
 void Opening::redo_repair() {
     show_before_repair(false);
-    view_.session.redo_repair();
+    view_.session.repairs().redo();
     view_.session_changed = true;
 }
 

@@ -122,8 +122,8 @@ struct Document {
     std::shared_ptr<const Trace> trace;             ///< with all stages, if there is one
     Tree tree;
     std::string folder;                          ///< of the parts; empty: none
-    std::string surface_saved_as;                ///< where Session::save_surface() has written `checked`
-    std::string saved_as;                        ///< where Session::save_run() has put a copy of it; empty: nowhere
+    std::string surface_saved_as;                ///< where Repairs::save() has written `checked`
+    std::string saved_as;                        ///< where RunPair::save() has put a copy of it; empty: nowhere
     double cut_seconds = -1, mesh_seconds = -1;  ///< of the whole run, wall clock; negative: not known
     std::optional<Solution> solution;            ///< that was opened, and stands on these parts
     RunOptions options;                          ///< of the run, or those of the next one

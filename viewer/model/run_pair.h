@@ -1,4 +1,4 @@
-// The run that is shown and the one before it, to compare with; and what makes a new one of it, or a copy.
+// What is done with the run that is shown: it changes places with the one before, a cut is made again, it is saved.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,7 @@ class RunPair {
     RunPair(Background& background, ShownPair& pair, Fetched& fetched, const RunFollower& follower)
         : background_(background), pair_(pair), now_(pair.now), fetched_(fetched), follower_(follower) {}
 
-    /// Once Session::start_run(), Repairs::repair() or redo_cut() has something to show, what was shown before is kept,
-    /// whole, to compare with: the other document, until the next one of these or Session::open(); nullptr if there is
-    /// none.
-    const Document* other_document() const { return pair_.other ? &pair_.other->document : nullptr; }
-    /// Session::document() is the one before, other_document() the one after.
-    bool shows_before() const { return pair_.shows_before; }
-    /// Shows the other document. Not while anything is under way.
+    /// Shows Session::other_document(). Not while anything is under way.
     void swap();
     bool can_swap() const;
 

@@ -5,7 +5,6 @@
 
 #include "viewer/model/document_loader.h"
 #include "viewer/model/own_runs.h"
-#include "viewer/model/run_pair.h"
 
 namespace kerf::view {
 
@@ -90,45 +89,14 @@ bool Session::busy() const {
 bool Session::pending() const { return document().is_opening() || parts_->fetched.pending(); }
 
 const Document& Session::document() const { return parts_->pair.now.document; }
+const Document* Session::other_document() const { return parts_->pair.other ? &parts_->pair.other->document : nullptr; }
+bool Session::shows_before() const { return parts_->pair.shows_before; }
 void Session::start_run(RunOptions options, bool volume) { parts_->own_runs.start(std::move(options), volume); }
 void Session::cancel_run() { parts_->own_runs.cancel(); }
-void Session::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
-    parts_->runs.redo_cut(node, options, plane);
-}
-const Document* Session::other_document() const { return parts_->runs.other_document(); }
-bool Session::shows_before() const { return parts_->runs.shows_before(); }
-bool Session::can_swap_runs() const { return parts_->runs.can_swap(); }
-void Session::swap_runs() { parts_->runs.swap(); }
-bool Session::can_save_run() const { return parts_->runs.can_save(); }
-void Session::save_run(const std::string& path) { parts_->runs.save(path); }
-std::shared_ptr<const NodeSurface> Session::surface(NodeId node) { return parts_->fetched.surface(node); }
-std::shared_ptr<const NodeSurface> Session::part_surface(NodeId part) { return parts_->fetched.part_surface(part); }
-std::shared_ptr<const SurfaceValues> Session::values_on(const std::shared_ptr<const NodeSurface>& surface,
-                                                        ColorBy color) {
-    return parts_->fetched.values_on(surface, color);
-}
-std::shared_ptr<const PartCells> Session::cells(NodeId part) { return parts_->fetched.cells(part); }
-std::shared_ptr<const std::vector<float>> Session::cell_values(NodeId part, ColorBy color) {
-    return parts_->fetched.cell_values(part, color);
-}
-std::shared_ptr<const std::vector<float>> Session::facet_values(NodeId part, ColorBy color) {
-    return parts_->fetched.facet_values(part, color);
-}
-std::shared_ptr<const std::vector<WorstCell>> Session::worst_cells(ColorBy color, std::size_t count) {
-    return parts_->fetched.worst_cells(color, count);
-}
-std::shared_ptr<const PartSolution> Session::solution(NodeId part, std::size_t number) {
-    return parts_->fetched.solution(part, number);
-}
-bool Session::can_repair() const { return parts_->repairs.can_repair(); }
-void Session::repair(const InputOptions& options) { parts_->repairs.repair(options); }
-bool Session::is_repairing() const { return parts_->repairs.is_repairing(); }
-void Session::cancel_repair() { parts_->repairs.cancel(); }
-bool Session::can_undo_repair() const { return parts_->repairs.can_undo(); }
-bool Session::can_redo_repair() const { return parts_->repairs.can_redo(); }
-void Session::undo_repair() { parts_->repairs.undo(); }
-void Session::redo_repair() { parts_->repairs.redo(); }
-void Session::save_surface(const std::string& path) { parts_->repairs.save(path); }
+Fetched& Session::fetched() { return parts_->fetched; }
+Repairs& Session::repairs() { return parts_->repairs; }
+RunPair& Session::pair() { return parts_->runs; }
+const RunPair& Session::pair() const { return parts_->runs; }
 const std::vector<std::string>& Session::failures() const { return parts_->background.failures(); }
 
 }  // namespace kerf::view

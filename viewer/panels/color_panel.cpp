@@ -164,7 +164,7 @@ void draw_worst_cells(UiContext& context, WorstCellsMemory& memory, ListKeys& ke
     if (!is_measure(context.state.color))
         return show_wrapped("Choose a measure of cells under Colour, for example the minimum dihedral angle.",
                             colors.dim);
-    const auto cells = context.session.worst_cells(context.state.color, 100);
+    const auto cells = context.session.fetched().worst_cells(context.state.color, 100);
     if (!cells) return show("Reading the cells...", colors.dim);
     if (cells->empty()) return show("No cells have been written yet.", colors.dim);
     draw_worst_table(context, memory, keys, *cells);

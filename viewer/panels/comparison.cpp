@@ -131,7 +131,7 @@ void compare_runs(const Document& before, const Document& now, const Palette& co
 // Which of the two is shown.
 void draw_switch(UiContext& context) {
     const bool shows_before = context.session.shows_before();
-    ImGui::BeginDisabled(!context.session.can_swap_runs());
+    ImGui::BeginDisabled(!context.session.pair().can_swap());
     const bool wants_a = context.widgets.radio("A##run", shows_before);
     explain("What was there before the last run or cut was made, under the same camera (key B)");
     ImGui::SameLine();
@@ -146,14 +146,14 @@ void draw_saving(UiContext& context, ComparisonMemory& memory) {
     const Document& document = session.document();
     const Palette& colors = palette(context.state.theme);
     if (!document.saved_as.empty()) show_wrapped("Saved as " + document.saved_as, colors.dim);
-    if (!session.can_save_run()) return;
+    if (!session.pair().can_save()) return;
     if (memory.save_of != document.path) {
         memory.save_of = document.path;
         memory.save_to = std::filesystem::path(document.options.input).stem().string() + "_run";
     }
     context.widgets.input_text("Save to", &memory.save_to);
     if (context.widgets.button("Save run", "Keeps this run, which is removed else when the viewer ends"))
-        session.save_run(memory.save_to);
+        session.pair().save(memory.save_to);
 }
 
 }  // namespace

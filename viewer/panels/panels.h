@@ -56,7 +56,7 @@ class RunActions {
 class RepairActions {
  public:
     virtual ~RepairActions() = default;
-    /// Session::repair() and its like; what was selected is no more.
+    /// Repairs::repair() and its like; what was selected is no more.
     virtual void repair(const InputOptions& options) = 0;
     virtual void undo_repair() = 0;
     virtual void redo_repair() = 0;

@@ -66,7 +66,7 @@ void draw_option(UiContext& context, ProblemsMemory& memory, OptionText advice) 
 // those by which it is read. Where the surface is at hand, repairs have buttons of their own.
 void draw_advice(UiContext& context, ProblemsMemory& memory, const std::string& text) {
     const Document& document = context.session.document();
-    const bool opens = !document.error.empty(), repairs = context.session.can_repair();
+    const bool opens = !document.error.empty(), repairs = context.session.repairs().can_repair();
     ImGui::PushID(text.c_str());  // several texts may advise the same
     for (const OptionText& advice : advised_options(text))
         if (!is_set(document.options, advice) && (!opens || is_input_option(advice.name)) &&

@@ -52,7 +52,7 @@ void draw_step_button(UiContext& context, const std::string& label, const std::s
     const std::string& plan = context.session.document().options.input_options.repair;
     const std::string more = with_repairs(plan, words);
     const bool is_done = more == plan;
-    ImGui::BeginDisabled(is_done || !context.session.can_repair());
+    ImGui::BeginDisabled(is_done || !context.session.repairs().can_repair());
     const std::string tip = is_done ? "This was done already" : fmt::format("{} (--repair {})", what, more);
     if (context.widgets.small_button(label.c_str(), tip.c_str())) repair_by(context, more);
     ImGui::EndDisabled();
@@ -61,7 +61,7 @@ void draw_step_button(UiContext& context, const std::string& label, const std::s
 void draw_wrap_button(UiContext& context) {
     InputOptions options = context.session.document().options.input_options;
     ImGui::SameLine();
-    ImGui::BeginDisabled(options.wraps() || !context.session.can_repair());
+    ImGui::BeginDisabled(options.wraps() || !context.session.repairs().can_repair());
     const char* tip = "A new closed surface around all of it (--surface wrap); --gap and --offset are under Parameters";
     if (context.widgets.small_button("wrap", tip)) {
         options.wrap = true;
@@ -86,7 +86,7 @@ void draw_plan(UiContext& context, RepairMemory& memory) {
     context.widgets.input_text("Steps", &memory.plan);
     explain(repair_words());
     const std::string error = error_of_plan(memory.plan);
-    ImGui::BeginDisabled(!error.empty() || memory.plan == plan || !context.session.can_repair());
+    ImGui::BeginDisabled(!error.empty() || memory.plan == plan || !context.session.repairs().can_repair());
     const char* tip = !error.empty() ? error.c_str() : "Repairs the surface of the file by these steps";
     if (context.widgets.small_button("Repair by these", tip)) repair_by(context, memory.plan);
     ImGui::EndDisabled();
@@ -97,10 +97,10 @@ void draw_plan(UiContext& context, RepairMemory& memory) {
         ImGui::EndDisabled();
         return pressed && enabled;
     };
-    if (control("Undo", "The surface before the last repair (Ctrl+Z)", context.session.can_undo_repair()))
+    if (control("Undo", "The surface before the last repair (Ctrl+Z)", context.session.repairs().can_undo()))
         context.actions.repairs.undo_repair();
     if (control("Redo", "The surface after the repair that was undone (Ctrl+Shift+Z)",
-                context.session.can_redo_repair()))
+                context.session.repairs().can_redo()))
         context.actions.repairs.redo_repair();
 }
 
@@ -216,9 +216,9 @@ void draw_ending(UiContext& context, RepairMemory& memory) {
         memory.save_to = std::filesystem::path(document.path).stem().string() + "_repaired.obj";
     }
     context.widgets.input_text("Save to", &memory.save_to);
-    ImGui::BeginDisabled(!session.can_repair() || memory.save_to.empty());
+    ImGui::BeginDisabled(!session.repairs().can_repair() || memory.save_to.empty());
     if (context.widgets.small_button("Save surface", "Writes it, as kerf repair does: .obj with patches, or .stl"))
-        session.save_surface(memory.save_to);
+        session.repairs().save(memory.save_to);
     ImGui::EndDisabled();
     const bool has_run = document.trace || !document.folder.empty();
     if (has_run || document.has_problems() || document.progress.running) return;
@@ -246,7 +246,7 @@ void draw_repairs_of(UiContext& context, DefectKind kind) {
 
 void draw_repairs(UiContext& context, RepairMemory& memory) {
     const Document& document = context.session.document();
-    const bool is_there = context.session.can_repair() || context.session.is_repairing();
+    const bool is_there = context.session.repairs().can_repair() || context.session.repairs().is_repairing();
     if (!is_there || !document.checked || !document.error.empty()) return;
     const auto checked = document.checked;  // a button may exchange it
     if (checked->diagnosis.defects.empty() && document.options.input_options.repair.empty() && !document.unrepaired)

@@ -94,7 +94,7 @@ void fly_when_there(UiContext& context, WorstInterfacesMemory& memory) {
     const NodeId node = memory.awaited;
     const Document& document = context.session.document();
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
-    const std::shared_ptr<const NodeSurface> surface = cut ? context.session.surface(node) : nullptr;
+    const std::shared_ptr<const NodeSurface> surface = cut ? context.session.fetched().surface(node) : nullptr;
     if (cut && !surface && context.state.node == node) return;
     memory.awaited = 0;
     if (!surface || context.state.node != node) return;

@@ -14,7 +14,7 @@ bool CellLayers::find_colors(const std::shared_ptr<const PartCells>& cells, cons
                              CellColors& colors) {
     const ColorBy color = context_.state.color;
     const bool needs_values = context_.needs_values();
-    if (needs_values) colors.values = context_.session.cell_values(cells->part, color);
+    if (needs_values) colors.values = context_.session.fetched().cell_values(cells->part, color);
     colors.solved = SolvedNodes(context_, sink_, cells->part, cells->vertices, cells->edges);
     const SolvedNodes& solved = colors.solved;
     if ((needs_values && !colors.values) || (context_.needs_solution() && !solved.found)) return false;
@@ -95,7 +95,7 @@ void CellLayers::number_cells(Layer& layer, const PartCells& cells, const NodeSu
 bool CellLayers::add(NodeId part, const NodeSurface& surface) {
     const ViewState& state = context_.state;
     const auto& ring = context_.ring;
-    const auto cells = context_.session.cells(part);
+    const auto cells = context_.session.fetched().cells(part);
     CellColors colors;
     if (!cells || !find_colors(cells, surface, colors)) return false;
     CellChoice& choice = colors.choice;
@@ -145,8 +145,8 @@ void CellLayers::add_selected(const NodeSurface* shown) {
     const ViewState& state = context_.state;
     const Selection& s = state.selection;
     if (s.kind != Selection::Kind::cell || !lies_below(s.owner, state.node) || !context_.is_shown(s.owner)) return;
-    const auto cells = sink_.awaited(context_.session.cells(s.owner));
-    const auto surface = sink_.awaited(context_.session.part_surface(s.owner));
+    const auto cells = sink_.awaited(context_.session.fetched().cells(s.owner));
+    const auto surface = sink_.awaited(context_.session.fetched().part_surface(s.owner));
     const auto index = static_cast<std::size_t>(s.index);
     if (!cells || !surface || s.index < 0 || index >= cells->tets.size()) return;
     if (is_seen(*cells, *surface, shown, s.index)) return;

@@ -111,7 +111,7 @@ void CutLayers::add_axes(const TreeRow& row) {
 
 void CutLayers::add_plane(const Plane& plane) {
     if (!context_.state.plane) return;
-    const auto surface = context_.session.surface(context_.state.node);
+    const auto surface = context_.session.fetched().surface(context_.state.node);
     const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : context_.document.box;
     // Where the section lies in the plane, its own colour is what is to be seen.
     if (context_.step.stage < Stage::triangulation) {
@@ -204,7 +204,7 @@ void CutLayers::add_halves(const NodeSurface* parent) {
     if (contour) contour->ranges = contours;
     for (const NodeId half : {2 * node, 2 * node + 1}) {
         if (!context_.is_shown(half)) continue;
-        const auto surface = sink_.awaited(context_.session.surface(half));
+        const auto surface = sink_.awaited(context_.session.fetched().surface(half));
         const Vec3 offset = context_.offset_of(half);
         if (surface &&
             surfaces_.add(LayerKind::half, surface, half, half_color(half), context_.colors.interface, offset))

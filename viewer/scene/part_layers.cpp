@@ -22,7 +22,7 @@ void PartLayers::add(const std::shared_ptr<const NodeSurface>& surface) {
     if (!context_.ring && !context_.has_filter()) return;
     if (context_.state.explode > 0) {
         for (const NodeId part : parts)
-            if (const auto own = context_.is_shown(part) ? context_.session.part_surface(part) : nullptr)
+            if (const auto own = context_.is_shown(part) ? context_.session.fetched().part_surface(part) : nullptr)
                 add_outline(part, own, context_.offset_of(part));
     } else if (surface) {
         add_outline(context_.state.node, surface, Vec3::Zero());
@@ -30,7 +30,7 @@ void PartLayers::add(const std::shared_ptr<const NodeSurface>& surface) {
 }
 
 void PartLayers::add_part(NodeId part) {
-    const auto surface = sink_.awaited(context_.session.part_surface(part));
+    const auto surface = sink_.awaited(context_.session.fetched().part_surface(part));
     if (!surface) return;
     const ViewState& state = context_.state;
     const Vec3 offset = context_.offset_of(part);
@@ -57,7 +57,7 @@ void PartLayers::add_facets(NodeId part, const std::shared_ptr<const NodeSurface
     const ColorBy color = context_.state.color;
     const Vec3 offset = context_.offset_of(part);
     std::shared_ptr<const std::vector<float>> values;
-    if (context_.needs_values()) values = sink_.awaited(context_.session.facet_values(part, color));
+    if (context_.needs_values()) values = sink_.awaited(context_.session.fetched().facet_values(part, color));
     FacetChoice choice;
     choice.smooth = context_.state.shading == Shading::smooth;
     const FacetColors colors(context_, sink_, surface);

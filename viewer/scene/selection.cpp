@@ -134,7 +134,7 @@ std::string describe_cell(const Document& document, const PartCells& cells, std:
 // What was found at vertices of a part, as means over them, a fact a line; empty if nothing was, or is not there yet.
 std::string describe_solution(Session& session, NodeId part, int load_case, std::span<const std::int32_t> vertices) {
     if (!session.document().solution) return "";
-    const auto found = session.solution(part, static_cast<std::size_t>(load_case));
+    const auto found = session.fetched().solution(part, static_cast<std::size_t>(load_case));
     if (!found) return "";
     Vec3 displacement = Vec3::Zero();
     std::array<double, 6> stress = {};
@@ -164,8 +164,8 @@ std::string describe_solution(Session& session, NodeId part, int load_case, std:
 std::shared_ptr<const NodeSurface> surface_of(Session& session, NodeId owner) {
     const bool is_part = is_leaf(session.document(), owner) && !session.document().folder.empty();
     if (is_part)
-        if (auto surface = session.part_surface(owner)) return surface;
-    return session.surface(owner);
+        if (auto surface = session.fetched().part_surface(owner)) return surface;
+    return session.fetched().surface(owner);
 }
 
 std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode) {
@@ -176,7 +176,7 @@ std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode)
     s.kind = hit.is_cell ? Selection::Kind::cell : Selection::Kind::facet;
     const bool has_cells = is_leaf(session.document(), hit.owner) && !session.document().folder.empty();
     if (!hit.is_cell && mode == PickMode::cell && has_cells) {
-        const auto cells = session.cells(hit.owner);
+        const auto cells = session.fetched().cells(hit.owner);
         if (!cells) return std::nullopt;
         if (static_cast<std::size_t>(hit.element) < cells->tet_at_facet.size()) {
             s.kind = Selection::Kind::cell;
@@ -185,7 +185,7 @@ std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode)
     }
     if (mode == PickMode::vertex) {
         if (hit.is_cell) {
-            const auto cells = session.cells(hit.owner);
+            const auto cells = session.fetched().cells(hit.owner);
             if (!cells) return std::nullopt;
             s.index = nearest_vertex(cells->vertices, cells->tets[static_cast<std::size_t>(hit.element)], hit.point);
         } else {
@@ -222,7 +222,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
     if (s.kind == Selection::Kind::defect) return describe_defect(session.document(), s);
     const auto index = static_cast<std::size_t>(s.index);
     if (s.kind == Selection::Kind::cell) {
-        const auto cells = session.cells(s.owner);
+        const auto cells = session.fetched().cells(s.owner);
         return cells && index < cells->tets.size() ? describe_cell(session.document(), *cells, index) : "";
     }
     const auto surface = surface_of(session, s.owner);
@@ -232,7 +232,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
     if (index < surface->vertices.size())
         return describe_vertex(*surface, owner_text(session.document(), s.owner), index);
     // Vertices inside of a part come after those of its surface.
-    const auto cells = session.cells(s.owner);
+    const auto cells = session.fetched().cells(s.owner);
     if (!cells || index >= cells->vertices.size()) return "";
     return fmt::format("vertex {} of part {}, inside of it\nglobal number {}\n{}\n", index, s.owner,
                        cells->vertex_number[index], place_text(cells->vertices[index]));
@@ -242,7 +242,7 @@ std::vector<std::int32_t> vertices_of(Session& session, const Selection& s) {
     const auto index = static_cast<std::size_t>(s.index);
     if (s.kind == Selection::Kind::vertex) return {s.index};
     if (s.kind == Selection::Kind::cell)
-        if (const auto cells = session.cells(s.owner); cells && index < cells->tets.size())
+        if (const auto cells = session.fetched().cells(s.owner); cells && index < cells->tets.size())
             return {cells->tets[index].begin(), cells->tets[index].end()};
     if (s.kind == Selection::Kind::facet)
         if (const auto surface = surface_of(session, s.owner); surface && index < surface->facets.size())
@@ -275,7 +275,7 @@ std::vector<Vec3> selected_points(Session& session, const Selection& s) {
         const auto v = static_cast<std::size_t>(vertex);
         if (surface && v < surface->vertices.size())
             points.push_back(surface->vertices[v]);
-        else if (const auto cells = is_cell || surface ? session.cells(s.owner) : nullptr;
+        else if (const auto cells = is_cell || surface ? session.fetched().cells(s.owner) : nullptr;
                  cells && v < cells->vertices.size())
             points.push_back(cells->vertices[v]);
     }
@@ -328,7 +328,7 @@ std::optional<Vec3> direction_to_cell(const PartCells& cells, const NodeSurface&
 
 std::optional<std::array<std::int64_t, 4>> selected_cell(Session& session, const Selection& s) {
     if (s.kind != Selection::Kind::cell) return std::nullopt;
-    const auto cells = session.cells(s.owner);
+    const auto cells = session.fetched().cells(s.owner);
     const auto index = static_cast<std::size_t>(s.index);
     if (!cells || index >= cells->tets.size()) return std::nullopt;
     std::array<std::int64_t, 4> numbers = {};

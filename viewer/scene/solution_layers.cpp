@@ -8,7 +8,7 @@ SolvedNodes::SolvedNodes(const SceneContext& context, LayerSink& sink, NodeId pa
                          const EdgePoints& edges) {
     const ViewState& state = context.state;
     if (!context.needs_solution()) return;
-    found = sink.awaited(context.session.solution(part, static_cast<std::size_t>(state.load_case)));
+    found = sink.awaited(context.session.fetched().solution(part, static_cast<std::size_t>(state.load_case)));
     if (!found) return;
     const double factor = state.drawn_deformation();
     for (std::size_t v = 0; state.deform != 0 && v < vertices.size(); ++v)
@@ -38,7 +38,7 @@ void SolvedNodes::add_edges(const ViewState& state, const EdgePoints& edges) {
 
 // Interfaces of a part, which come last, are seen only where parts are apart.
 std::size_t SolutionLayers::triangles_seen(const Layer& layer) const {
-    const auto surface = context_.session.part_surface(layer.owner);
+    const auto surface = context_.session.fetched().part_surface(layer.owner);
     if (!layer.closed || !surface || context_.state.explode > 0) return layer.geometry->triangle_count();
     return input_triangles(*layer.geometry, *surface);
 }
@@ -81,8 +81,8 @@ void SolutionLayers::add_vectors() {
     std::shared_ptr<const void> source;
     const std::vector<NodeId> parts = sink_.drawn_parts();
     for (const NodeId part : parts) {
-        const auto surface = context_.session.part_surface(part);
-        const auto solution = sink_.awaited(context_.session.solution(part, number));
+        const auto surface = context_.session.fetched().part_surface(part);
+        const auto solution = sink_.awaited(context_.session.fetched().solution(part, number));
         if (!surface || !solution) continue;
         if (!source) source = solution;
         add_arrows(*surface, *solution, context_.offset_of(part), arrows);

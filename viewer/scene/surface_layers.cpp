@@ -85,7 +85,8 @@ PartFacets chosen_facets(const SceneContext& context, NodeId part, const NodeSur
 
 FacetColors::FacetColors(const SceneContext& context, LayerSink& sink,
                          const std::shared_ptr<const NodeSurface>& surface)
-    : patches(context.patch_values(*surface)), values(context.session.values_on(surface, context.state.color)) {
+    : patches(context.patch_values(*surface)),
+      values(context.session.fetched().values_on(surface, context.state.color)) {
     if (context.session.pending()) sink.awaited(values);
 }
 
@@ -147,7 +148,7 @@ void SurfaceLayers::add_features(const std::shared_ptr<const NodeSurface>& surfa
 }
 
 void SurfaceLayers::add_of_file(NodeId which) {
-    const auto surface = sink_.awaited(context_.session.surface(which));
+    const auto surface = sink_.awaited(context_.session.fetched().surface(which));
     if (!surface || context_.state.is_hidden(1)) return;
     const SceneColors& colors = context_.colors;
     Layer* layer = add(LayerKind::file_surface, surface, which, colors.surface, colors.interface);
@@ -159,7 +160,7 @@ void SurfaceLayers::add_of_file(NodeId which) {
 void SurfaceLayers::add_parts() {
     for (const NodeId part : context_.document.tree.parts_below(context_.state.node)) {
         if (!context_.is_shown(part)) continue;
-        const auto surface = sink_.awaited(context_.session.part_surface(part));
+        const auto surface = sink_.awaited(context_.session.fetched().part_surface(part));
         const Color color = context_.color_of(part);
         const Vec3 offset = context_.offset_of(part);
         if (surface && add(LayerKind::part, surface, part, color, color, offset)) add_features(surface, part, offset);
@@ -172,7 +173,7 @@ void SurfaceLayers::add_context() {
     if (!context_.state.context) return;
     for (NodeId node = context_.state.node; node > 1; node /= 2) {
         const NodeId other = node ^ 1;
-        const auto surface = sink_.awaited(context_.session.surface(other));
+        const auto surface = sink_.awaited(context_.session.fetched().surface(other));
         if (!surface) continue;
         FacetChoice choice;
         choice.wanted = [&](std::int32_t f) { return !surface->is_interface(f); };
