@@ -14,6 +14,7 @@
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 #include "viewer/driver.h"
+#include "viewer/golden_image.h"
 #include "viewer/scene/cell_shapes.h"
 
 namespace kerf::test {
@@ -257,6 +258,37 @@ TEST(Layers, HaveTheNumbersOfTheCut) {
     driver.state().step = {Stage::tetrahedra, -1};
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::part).triangles, part_facets);
+}
+
+// Where parts are whole and together what lies between them is not drawn, and nobody sees that it is not: as pictures
+// of parts that are apart by next to nothing, which draw all.
+TEST(Layers, OfPartsThatAreTogetherDrawNoInside) {
+    Driver driver;
+    driver.show_panels(false);
+    driver.open(asset_path("hollow_box"));
+    driver.state().step = {Stage::tetrahedra, -1};
+    const auto count_inside = [&] {
+        driver.settle();
+        std::int64_t inside = 0;
+        for (const Layer& layer : driver.app().scene().scene.layers)
+            for (const Range& range : layer.ranges) inside += range.inside ? range.count : 0;
+        return inside;
+    };
+    const Image together = driver.picture();
+    std::int64_t interfaces = 0;
+    for (const NodeId part : driver.document().tree.parts_below(1)) {
+        const auto surface = driver.app().session().part_surface(part);
+        for (std::int32_t f = 0; surface && f < std::ssize(surface->facets); ++f)
+            interfaces += surface->is_interface(f);
+    }
+    EXPECT_GT(interfaces, 0);
+    EXPECT_EQ(count_inside(), interfaces);
+    driver.state().explode = 1e-9;
+    EXPECT_EQ(count_inside(), 0);
+    EXPECT_LT(compare(together, driver.picture()).differing, most_differing);
+    driver.state().explode = 0;
+    driver.state().set_hidden(2, true);
+    EXPECT_EQ(count_inside(), 0) << "one looks at the insides";
 }
 
 // Here multiple paths are removed, and each stage shows its own edges.

@@ -126,10 +126,11 @@ void TrianglePainter::set_scale(ShaderProgram& program, const ColorScale& scale)
 }
 
 void TrianglePainter::draw_ranges(ShaderProgram& program, const PaintJob& job, bool colored) {
+    const bool hides_inside = job.hides_backs();
     job.geometry.bind_triangles();
     for (std::size_t i = 0; i < job.layer.ranges.size(); ++i) {
         const Range& range = job.layer.ranges[i];
-        if (range.count == 0) continue;
+        if (range.count == 0 || (range.inside && hides_inside)) continue;
         program.set("range", static_cast<unsigned>(i));
         program.set("offset", range.offset);
         if (colored) program.set("color", range.color);

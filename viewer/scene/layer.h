@@ -77,6 +77,8 @@ struct Range {
     NodeId owner = 0;                    ///< the node or part that it belongs to
     std::array<float, 3> offset = {};    ///< added to the positions after clipping
     Color color;                         ///< of Fill::plain, lines and points
+    /// Of a closed layer: other layers are before it from everywhere outside. Drawn only where backs are to be seen.
+    bool inside = false;
 };
 
 /// How triangles get their colour.

@@ -19,6 +19,7 @@ void PartLayers::add(const std::shared_ptr<const NodeSurface>& surface) {
     for (const NodeId part : parts)
         if (context_.is_shown(part) && context_.document.tree.find(part)->state == NodeState::done) add_part(part);
     cells_.add_selected(surface.get());
+    mark_inside(parts.size());
     if (!context_.ring && !context_.has_filter()) return;
     if (context_.state.explode > 0) {
         for (const NodeId part : parts)
@@ -26,6 +27,27 @@ void PartLayers::add(const std::shared_ptr<const NodeSurface>& surface) {
                 add_outline(part, own, context_.offset_of(part));
     } else if (surface) {
         add_outline(context_.state.node, surface, Vec3::Zero());
+    }
+}
+
+// Where all parts of the body are there, whole and together, nobody sees what lies between them: most of the triangles
+// of many parts.
+void PartLayers::mark_inside(std::size_t part_count) {
+    const ViewState& state = context_.state;
+    std::vector<Layer>& layers = sink_.layers();
+    const bool is_whole = layers.size() == part_count && std::all_of(layers.begin(), layers.end(), [](const Layer& l) {
+                              return l.kind == LayerKind::part && l.closed && l.opacity == 1;
+                          });
+    if (!is_whole || state.node != 1 || state.explode > 0 || context_.side) return;
+    for (Layer& layer : layers) {
+        const auto surface = context_.session.part_surface(layer.owner);
+        if (!surface) continue;
+        Range& outer = layer.ranges.front();
+        Range inner = outer;
+        inner.first = outer.count = static_cast<std::uint32_t>(input_triangles(*layer.geometry, *surface));
+        inner.count -= outer.count;
+        inner.inside = true;
+        layer.ranges.push_back(inner);
     }
 }
 

@@ -61,6 +61,7 @@ class PartLayers {
     void add_facets(NodeId part, const std::shared_ptr<const NodeSurface>& surface, const PartFacets& chosen,
                     const SolvedNodes& solved);
     void add_outline(NodeId owner, const std::shared_ptr<const NodeSurface>& surface, const Vec3& offset);
+    void mark_inside(std::size_t part_count);
     void extend_by_motion(const NodeSurface& surface, const PartSolution* solution, const Vec3& offset);
 
     const SceneContext& context_;
