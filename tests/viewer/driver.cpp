@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/app/keys.h"
+#include "viewer/panels/imgui_input.h"
 
 namespace kerf::test {
 
@@ -54,7 +54,7 @@ void Driver::frame(float seconds) {
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = seconds;
     // As ImGui's backend of GLFW sets them before every frame.
-    io.MousePos = {mouse_x_ / options_.pixels_per_unit, mouse_y_ / options_.pixels_per_unit};
+    view::put_mouse(mouse_x_ / options_.pixels_per_unit, mouse_y_ / options_.pixels_per_unit);
     io.DisplaySize = {static_cast<float>(options_.width), static_cast<float>(options_.height)};
     io.DisplayFramebufferScale = {options_.pixels_per_unit, options_.pixels_per_unit};
     app_->frame(size(), panels_);
@@ -111,12 +111,12 @@ void Driver::move_to(float x, float y) {
 }
 
 void Driver::press(int button) {
-    ImGui::GetIO().MouseDown[button] = true;
+    view::put_mouse_button(button, true);
     frame();
 }
 
 void Driver::release(int button) {
-    ImGui::GetIO().MouseDown[button] = false;
+    view::put_mouse_button(button, false);
     frame();
 }
 
@@ -142,9 +142,9 @@ void Driver::drag(float from_x, float from_y, float to_x, float to_y, int button
 
 void Driver::wheel(float x, float y, float notches) {
     move_to(x, y);
-    ImGui::GetIO().MouseWheel = notches;
+    view::put_mouse_wheel(notches);
     frame();
-    ImGui::GetIO().MouseWheel = 0;
+    view::put_mouse_wheel(0);
     frame();
 }
 
@@ -187,14 +187,10 @@ void Driver::drag_over(const std::string& label, float from, float to) {
 }
 
 void Driver::key(int key, bool control, bool shift) {
-    ImGuiIO& io = ImGui::GetIO();
     app_->press({.key = key, .control = control, .shift = shift});
-    io.KeyCtrl = control;
-    io.KeyShift = shift;
-    io.KeysDown[key] = true;
+    view::put_key(key, true, control, shift);
     frame();
-    io.KeysDown[key] = false;
-    io.KeyCtrl = io.KeyShift = false;
+    view::put_key(key, false, false, false);
     frames(2);
 }
 

@@ -4,6 +4,7 @@
 
 #include "viewer/app/settings.h"
 #include "viewer/model/timeline.h"
+#include "viewer/panels/imgui_input.h"
 
 namespace kerf::view {
 
@@ -119,8 +120,7 @@ void App::frame(const FrameSize& size, bool panels) {
     view_.size = size;
     // Else it is iconified.
     if (panels && size.width > 1) view_.settings.window = {size.width, size.height, size.scale};
-    if (ImVec2& mouse = ImGui::GetIO().MousePos; ImGui::IsMousePosValid(&mouse))
-        mouse = {mouse.x * size.pixels_per_unit_x, mouse.y * size.pixels_per_unit_y};
+    scale_mouse(size.pixels_per_unit_x, size.pixels_per_unit_y);
     if (view_.frames_wanted > 0) --view_.frames_wanted;
     follow_session();
     desk_.clear_notice();

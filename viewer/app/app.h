@@ -28,7 +28,7 @@ class App {
     const Settings& settings() const { return view_.settings; }
 
     /// Takes ImGui's input and lays out the next picture: with the panels, or only the scene with its legend. Requires
-    /// io.DeltaTime to be set, and io.MousePos to be anew before every frame, in the window's units.
+    /// io.DeltaTime to be set, and the mouse to be put anew before every frame, in the window's units.
     void frame(const FrameSize& size, bool panels);
     /// Paints what the last frame has laid out: most of a frame's time where the CPU draws, so only if it is looked at.
     void paint();

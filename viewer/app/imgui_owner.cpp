@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "viewer/app/keys.h"
+#include "viewer/panels/imgui_input.h"
 
 namespace kerf::view {
 
@@ -16,25 +17,28 @@ ImGuiOwner::ImGuiOwner() {
     io.LogFilename = nullptr;
     io.ConfigInputTextCursorBlink = false;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    io.KeyMap[ImGuiKey_Tab] = key_tab;
-    io.KeyMap[ImGuiKey_LeftArrow] = key_left;
-    io.KeyMap[ImGuiKey_RightArrow] = key_right;
-    io.KeyMap[ImGuiKey_UpArrow] = key_up;
-    io.KeyMap[ImGuiKey_DownArrow] = key_down;
-    io.KeyMap[ImGuiKey_PageUp] = key_page_up;
-    io.KeyMap[ImGuiKey_PageDown] = key_page_down;
-    io.KeyMap[ImGuiKey_Home] = key_home;
-    io.KeyMap[ImGuiKey_End] = key_end;
-    io.KeyMap[ImGuiKey_Delete] = key_delete;
-    io.KeyMap[ImGuiKey_Backspace] = key_backspace;
-    io.KeyMap[ImGuiKey_Space] = key_space;
-    io.KeyMap[ImGuiKey_Enter] = key_enter;
-    io.KeyMap[ImGuiKey_Escape] = key_escape;
-    io.KeyMap[ImGuiKey_KeyPadEnter] = key_keypad_enter;
-    for (const auto& [name, letter] :
-         {std::pair(ImGuiKey_A, 'A'), std::pair(ImGuiKey_C, 'C'), std::pair(ImGuiKey_V, 'V'),
-          std::pair(ImGuiKey_X, 'X'), std::pair(ImGuiKey_Y, 'Y'), std::pair(ImGuiKey_Z, 'Z')})
-        io.KeyMap[name] = key_of(letter);
+    const std::pair<ImGuiKey, int> keys[] = {{ImGuiKey_Tab, key_tab},
+                                             {ImGuiKey_LeftArrow, key_left},
+                                             {ImGuiKey_RightArrow, key_right},
+                                             {ImGuiKey_UpArrow, key_up},
+                                             {ImGuiKey_DownArrow, key_down},
+                                             {ImGuiKey_PageUp, key_page_up},
+                                             {ImGuiKey_PageDown, key_page_down},
+                                             {ImGuiKey_Home, key_home},
+                                             {ImGuiKey_End, key_end},
+                                             {ImGuiKey_Delete, key_delete},
+                                             {ImGuiKey_Backspace, key_backspace},
+                                             {ImGuiKey_Space, key_space},
+                                             {ImGuiKey_Enter, key_enter},
+                                             {ImGuiKey_Escape, key_escape},
+                                             {imgui_keypad_enter, key_keypad_enter},
+                                             {ImGuiKey_A, key_of('A')},
+                                             {ImGuiKey_C, key_of('C')},
+                                             {ImGuiKey_V, key_of('V')},
+                                             {ImGuiKey_X, key_of('X')},
+                                             {ImGuiKey_Y, key_of('Y')},
+                                             {ImGuiKey_Z, key_of('Z')}};
+    for (const auto& [key, number] : keys) number_imgui_key(key, number);
 }
 
 ImGuiOwner::~ImGuiOwner() { ImGui::DestroyContext(); }

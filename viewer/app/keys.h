@@ -1,4 +1,4 @@
-// Numbers of keys as GLFW and ImGui's io.KeysDown have them, for code that knows no window.
+// Numbers of keys as GLFW has them, for code that knows no window.
 #pragma once
 
 namespace kerf::view {

@@ -6,6 +6,7 @@
 #include <imgui_stdlib.h>
 
 #include "viewer/panels/icons.h"
+#include "viewer/panels/imgui_input.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {
@@ -187,11 +188,10 @@ class Dialog {
     }
 
     void take_keys() {
-        const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
-        if (pressed(ImGuiKey_Escape) && !typing_) return close();
-        if (pressed(ImGuiKey_UpArrow)) move(-1);
-        if (pressed(ImGuiKey_DownArrow)) move(1);
-        if (pressed(ImGuiKey_Enter) && !typing_ && browser_.chosen >= 0) activate(browser_.chosen);
+        if (is_imgui_key_pressed(ImGuiKey_Escape) && !typing_) return close();
+        if (is_imgui_key_pressed(ImGuiKey_UpArrow)) move(-1);
+        if (is_imgui_key_pressed(ImGuiKey_DownArrow)) move(1);
+        if (is_imgui_key_pressed(ImGuiKey_Enter) && !typing_ && browser_.chosen >= 0) activate(browser_.chosen);
     }
 
     void move(int direction) {
