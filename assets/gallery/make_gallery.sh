@@ -10,7 +10,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 kerf=build/kerf into=assets/gallery cad=
-groups=(cap pipe stages packing lattice regions reference stress bracket cad)
+groups=(cap pipe stages surfaces packing lattice regions reference stress bracket cad)
 asked=()
 while [[ $# -gt 0 ]]; do
     case $1 in
@@ -55,6 +55,17 @@ draw_stages() {
         if [[ $stage = split || $stage = tetrahedra ]]; then apart=(--explode 0.3); fi
         draw "stages/$stage.png" "$opened" --stage "$stage" "${apart[@]}" --camera assets/cameras/first_cut.json \
             --no-legend --antialias 2 --resolution 320x240
+    done
+}
+
+# Of the viewer's start page, which shows them without their captions: viewer/panels/welcome.cpp.
+draw_surfaces() {
+    local surface
+    echo '{"axes": false, "edges": false, "legend": false}' >"$work/bare.json"
+    mkdir -p "$into/surfaces"
+    for surface in assets/*.stl; do
+        draw "surfaces/$(basename "$surface" .stl).png" "$surface" --stage input --state "$work/bare.json" \
+            --antialias 2 --resolution 400x300
     done
 }
 

@@ -20,6 +20,7 @@ view::AppOptions app_options(const Driver::Options& options) {
     app.shader_folder = KERF_SHADERS;
     app.kerf_program = KERF_PROGRAM;
     app.config_folder = options.config_folder;
+    app.example_folder = options.example_folder;
     app.screenshot_folder = options.screenshot_folder;
     app.auto_run = options.auto_run;
     app.volume = options.volume;

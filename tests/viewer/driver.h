@@ -25,7 +25,7 @@ class Driver {
         std::int32_t parts = 4;
         ContourMethod contour = ContourMethod::min_cut;
         Remeshing remeshing = Remeshing::where_needed;
-        std::string config_folder, screenshot_folder = ".";
+        std::string config_folder, example_folder, screenshot_folder = ".";
     };
     explicit Driver(const Options& options);
     Driver() : Driver(Options()) {}

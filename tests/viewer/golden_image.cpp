@@ -8,15 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "support/file_contents.h"
-
-// Static: programs that link Debian's libstb have these functions a second time.
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#include <stb_image.h>
-
 namespace kerf::test {
 
 namespace {
@@ -65,17 +56,6 @@ std::string candidate_path(const std::string& name, const std::string& drawn_by)
     return (folder / fmt::format("{}.png", name)).string();
 }
 
-view::Image read_png(const std::string& path) {
-    const std::string file = bytes_of_file(path);
-    view::Image image;
-    stbi_uc* pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
-                                            static_cast<int>(file.size()), &image.width, &image.height, nullptr, 3);
-    if (pixels == nullptr) return {};
-    image.rgb.assign(pixels, pixels + std::size_t{3} * image.width * image.height);
-    stbi_image_free(pixels);
-    return image;
-}
-
 ImageDifference compare(const view::Image& a, const view::Image& b) {
     ImageDifference difference;
     difference.same_size = a.width == b.width && a.height == b.height;
@@ -101,7 +81,7 @@ testing::AssertionResult is_golden(const std::string& name, const view::Image& p
         view::write_png(candidate, picture);
         return testing::AssertionFailure() << golden << " is missing; the candidate is " << candidate;
     }
-    const ImageDifference difference = compare(read_png(golden), picture);
+    const ImageDifference difference = compare(view::read_png(golden), picture);
     if (difference.same_size && difference.differing <= most_differing) return testing::AssertionSuccess();
     view::write_png(candidate, picture);
     const std::string how = difference.same_size ? fmt::format("{:.3f} % of the pixels are off, by up to {}",

@@ -10,9 +10,6 @@
 
 namespace kerf::test {
 
-/// A picture without pixels if the file is no PNG.
-view::Image read_png(const std::string& path);
-
 /// How two pictures differ.
 struct ImageDifference {
     bool same_size = false;

@@ -316,7 +316,9 @@ TEST(Colourings, OfPatchesAreThoseOfTheFile) {
 }
 
 TEST(WholeWindow, EmptyOpenedAndAtAStage) {
-    Driver driver;
+    Driver::Options options;
+    options.example_folder = asset_folder();
+    Driver driver(options);
     expect_golden_window("ui-empty", driver);
     driver.state().times = false;
     driver.open(asset_path("cylinder"));

@@ -277,7 +277,7 @@ TEST(Layers, OfPartsThatAreTogetherDrawNoInside) {
     const Image together = driver.picture();
     std::int64_t interfaces = 0;
     for (const NodeId part : driver.document().tree.parts_below(1)) {
-        const auto surface = driver.app().session().part_surface(part);
+        const auto surface = driver.app().session().fetched().part_surface(part);
         for (std::int32_t f = 0; surface && f < std::ssize(surface->facets); ++f)
             interfaces += surface->is_interface(f);
     }

@@ -522,7 +522,7 @@ TEST(Ui, RemembersThemeAndRecentFiles) {
     Driver driver(options);
     EXPECT_EQ(driver.state().theme, Theme::dark);
     ASSERT_FALSE(driver.app().settings().recent.empty());
-    EXPECT_TRUE(driver.app().settings().recent.front().ends_with("cube.stl"));
+    EXPECT_TRUE(driver.app().settings().recent.front().path.ends_with("cube.stl"));
 }
 
 }  // namespace

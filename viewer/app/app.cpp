@@ -24,7 +24,10 @@ ViewState of_scene(ViewState state) {
 
 App::App(const Gl& gl, AppOptions options) : view_(gl, std::move(options)) {}
 
-App::~App() { save_settings(view_.options.config_folder, view_.settings); }
+App::~App() {
+    keep_sizes(view_.settings, view_.session.document());
+    save_settings(view_.options.config_folder, view_.settings);
+}
 
 void App::follow_session() {
     Session& session = view_.session;
@@ -85,9 +88,9 @@ void App::lay_out(bool panels) {
     view_.area = scene_rectangle(view_.state, view_.session.document(), view_.settings.panels, io.DisplaySize.x,
                                  io.DisplaySize.y, panels);
     view_.body = body_area(view_.state, view_.area);
-    UiContext context{view_.state, view_.session, view_.settings, view_.facts,
-                      view_.steps, actions_,      widgets_,       view_.camera};
-    if (panels) input_.take();
+    UiContext context{view_.state, view_.session, view_.settings, view_.facts,        view_.steps,
+                      actions_,    widgets_,      view_.camera,   gallery_.examples()};
+    if (panels) input_.take(context);
     playing_.go_on();
     build_scene();
     navigation_.project_scene();

@@ -9,8 +9,12 @@
 #include <vector>
 
 #include "viewer/app/desk.h"
+#include "viewer/app/gallery.h"
 #include "viewer/app/imgui_owner.h"
 #include "viewer/app/labels.h"
+#include "viewer/app/navigation.h"
+#include "viewer/app/opening.h"
+#include "viewer/app/playing.h"
 #include "viewer/app/scene_input.h"
 
 namespace kerf::view {
@@ -68,7 +72,8 @@ class App {
     Labels labels_{view_};
     Desk desk_{view_};
     Ui ui_;
-    SceneInput input_{view_, ui_, opening_, navigation_, playing_, desk_};
+    SceneInput input_{view_, ui_, navigation_};
+    Gallery gallery_{view_};
     Actions actions_{opening_, navigation_, playing_, opening_, opening_, desk_};
     Widgets widgets_;
     SceneBuilder builder_;

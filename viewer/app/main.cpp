@@ -27,6 +27,14 @@ AppOptions options_beside_this_program() {
     return options;
 }
 
+// In a clone the program lies in build/, and assets/ beside it.
+std::string folder_of_examples() {
+    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+    const std::filesystem::path installed = folder / "share" / "kerf" / "examples";
+    std::error_code ignored;
+    return (std::filesystem::exists(installed, ignored) ? installed : folder / "assets").string();
+}
+
 int run(int argc, const char* const* argv) {
     const ViewCommand command = parse_view_command(argc, argv);
     if (!command.print.empty()) {
@@ -44,6 +52,7 @@ int run(int argc, const char* const* argv) {
         take_screenshot(command, options);
     } else {
         options.config_folder = user_config_folder();
+        options.example_folder = folder_of_examples();
         view_in_window(command, options);
     }
     return 0;

@@ -79,12 +79,6 @@ void Navigation::clip_through_selection(bool faces_eye) {
     snap_to(view_.state.clip, Plane(middle, normal), view_.session.document().box);
 }
 
-void Navigation::look(Direction direction) {
-    Camera camera = view_.camera;
-    look_from(camera, direction);
-    view_.state.camera = camera;
-}
-
 // Without a camera in the state everything fits, whatever is shown.
 void Navigation::update_camera() {
     if (view_.state.camera) {
@@ -123,31 +117,6 @@ void Navigation::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const 
     const float height = std::max(view_.body.height, 1.f);
     fit(camera, box, view_.body.width / height);
     camera.height *= view_.area.height / height;
-}
-
-bool Navigation::take_digit(int key) {
-    Camera camera = view_.camera;
-    switch (key >= key_keypad_0 ? key - key_keypad_0 : key - key_0) {
-        case 1:
-            look_from(camera, Direction::front);
-            break;
-        case 3:
-            look_from(camera, Direction::right);
-            break;
-        case 7:
-            look_from(camera, Direction::top);
-            break;
-        case 9:
-            camera.turn = (Eigen::AngleAxisd(M_PI, Vec3::UnitZ()) * camera.turn).normalized();
-            break;
-        case 5:
-            camera.perspective = !camera.perspective;
-            break;
-        default:
-            return false;
-    }
-    view_.state.camera = view_.camera = camera;  // the next key of this frame goes on from here
-    return true;
 }
 
 // Towards what is seen under the cursor, and not through it.

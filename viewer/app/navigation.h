@@ -16,10 +16,8 @@ class Navigation : public CameraActions {
     void fly_to(const Vec3& point, double radius, const Vec3& back) override;
     void turn_to_selection() override { turning_to_ = view_.state.selection; }
     void clip_through_selection(bool faces_eye) override;
-    void look(Direction direction) override;
+    void take_camera(const Camera& camera) override { view_.state.camera = view_.camera = camera; }
 
-    /// By a digit as Blender has them; false: it means nothing.
-    bool take_digit(int key);
     /// Towards what is seen under the cursor, and not through it.
     void zoom(float x, float y, float notches);
     /// From now on the camera turns about what was hit.

@@ -11,10 +11,11 @@ constexpr double usual_explosion = 0.4;  // of parts that are nothing but surfac
 }  // namespace
 
 void Opening::open_files(const std::vector<std::string>& paths) {
+    keep_sizes(view_.settings, view_.session.document());
     RunOptions run = view_.options.run;
     run.input_options.more_files.assign(paths.begin() + 1, paths.end());
     view_.session.open(paths.front(), run);
-    for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(view_.settings, *path);
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(view_.settings, *path, today());
     save_settings(view_.options.config_folder, view_.settings);
     const ViewState before = view_.state;
     // The next step of an analysis is seen in the same colours.

@@ -20,13 +20,13 @@ class Opening : public FileActions, public RunActions, public RepairActions {
     void start_run(const RunOptions& options, bool volume) override;
     void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) override;
     void swap_runs() override;
+    void show_other() override;
     void repair(const InputOptions& options) override;
     void undo_repair() override;
     void redo_repair() override;
     void show_before_repair(bool before) override;
 
     void show(const ViewState& state, const ChosenView& chosen);
-    void show_other();  ///< what was before, or after it
     /// After something has arrived: runs what is to be run, and completes the view.
     void follow();
 

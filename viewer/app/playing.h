@@ -11,8 +11,8 @@ class Playing : public PlayActions {
 
     void toggle_play() override;
     void toggle_motion() override;
-    void move_step(int direction);
-    void move_node(int direction);
+    void move_step(int count) override;
+    void move_node(int count) override;
     void go_on();  ///< as far as time has
 
  private:

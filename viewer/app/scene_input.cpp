@@ -1,6 +1,6 @@
 #include "viewer/app/scene_input.h"
 
-#include <algorithm>
+#include <string>
 #include <utility>
 
 #include <imgui.h>
@@ -20,53 +20,24 @@ bool is_of_facets(LayerKind kind) {
            kind == LayerKind::part;
 }
 
+// As keys are called in menus: "Ctrl+Shift+Z".
+std::string words_of(const KeyEvent& event) {
+    constexpr std::pair<int, const char*> named[] = {
+        {key_space, "Space"}, {key_escape, "Escape"}, {key_right, "Right"}, {key_left, "Left"},
+        {key_down, "Down"},   {key_up, "Up"},         {key_home, "Home"},   {key_f12, "F12"},
+    };
+    std::string text = std::string(event.control ? "Ctrl+" : "") + (event.shift ? "Shift+" : "");
+    for (const auto& [key, name] : named)
+        if (event.key == key) return text + name;
+    const bool is_keypad = event.key >= key_keypad_0 && event.key <= key_keypad_0 + 9;
+    const int character = is_keypad ? event.key - key_keypad_0 + key_0 : event.key;
+    return character > key_space && character < 127 ? text + static_cast<char>(character) : "";
+}
+
 }  // namespace
 
-void SceneInput::take_character_key(const KeyEvent& event) {
-    if (navigation_.take_digit(event.key)) return;
-    ViewState& state = view_.state;
-    if (event.key == key_of('H')) state.panels.keys = !state.panels.keys;
-    if (event.key == key_of('F')) navigation_.frame_selection();
-    if (event.key == key_of('C'))
-        event.shift ? navigation_.clip_through_selection(false) : void(state.clip.on = !state.clip.on);
-    if (event.key == key_of('E')) state.edges = !state.edges;
-    if (event.key == key_of('B')) opening_.show_other();
-    if (event.key == key_of('N')) state.neighbours = !state.neighbours;
-    if (event.key == key_space) playing_.toggle_play();
-}
-
-void SceneInput::take_control_key(const KeyEvent& event) {
-    if (event.repeat) return;
-    if (event.key == key_of('O')) ui_.open_browser();
-    if (event.key == key_of('R')) opening_.reload();
-    if (event.key == key_of('Q')) window_.quit();
-    if (event.key == key_of('Z')) event.shift ? opening_.redo_repair() : opening_.undo_repair();
-    if (event.key == key_of('Y')) opening_.redo_repair();
-}
-
-void SceneInput::take_key(const KeyEvent& event) {
-    if (event.key == key_escape && ui_.close_menu()) return;
-    if (ImGui::GetIO().WantTextInput || ui_.wants_keyboard()) return;
-    if (event.control) return take_control_key(event);
-    if (event.key == key_left) playing_.move_step(-1);
-    if (event.key == key_right) playing_.move_step(1);
-    if (event.key == key_up && !ui_.step_in_list(-1)) playing_.move_node(-1);
-    if (event.key == key_down && !ui_.step_in_list(1)) playing_.move_node(1);
-    if (event.repeat) return;
-    if (event.key == key_home) navigation_.fit_all();
-    if (event.key == key_f12) window_.take_screenshot();
-    if (event.key == key_escape) {
-        ui_.leave_list();
-        if (view_.state.panels.keys)
-            view_.state.panels.keys = false;
-        else
-            view_.state.selection = {};
-    }
-    take_character_key(event);
-}
-
-void SceneInput::take() {
-    for (const KeyEvent& event : std::exchange(key_events_, {})) take_key(event);
+void SceneInput::take(UiContext& context) {
+    for (const KeyEvent& event : std::exchange(key_events_, {})) ui_.press(context, words_of(event), event.repeat);
     take_mouse();
 }
 

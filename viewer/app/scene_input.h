@@ -4,37 +4,28 @@
 #include <vector>
 
 #include "viewer/app/navigation.h"
-#include "viewer/app/opening.h"
-#include "viewer/app/playing.h"
 #include "viewer/render/key_event.h"
 
 namespace kerf::view {
 
 class SceneInput {
  public:
-    SceneInput(View& view, Ui& ui, Opening& opening, Navigation& navigation, Playing& playing, WindowActions& window)
-        : view_(view), ui_(ui), opening_(opening), navigation_(navigation), playing_(playing), window_(window) {}
+    SceneInput(View& view, Ui& ui, Navigation& navigation) : view_(view), ui_(ui), navigation_(navigation) {}
 
     void press(const KeyEvent& event) { key_events_.push_back(event); }
-    void take();           ///< keys and mouse, as they are in this frame
-    void resolve_click();  ///< once the cells have arrived
+    void take(UiContext& context);  ///< keys and mouse, as they are in this frame
+    void resolve_click();           ///< once the cells have arrived
     bool is_dragging() const { return dragging_; }
     bool is_pressed() const { return pressed_in_scene_; }
 
  private:
-    void take_key(const KeyEvent& event);
-    void take_control_key(const KeyEvent& event);
-    void take_character_key(const KeyEvent& event);
     void take_mouse();
     void take_drag();
     void take_click(bool centers);
 
     View& view_;
     Ui& ui_;
-    Opening& opening_;
     Navigation& navigation_;
-    Playing& playing_;
-    WindowActions& window_;
     std::vector<KeyEvent> key_events_;  // that no frame has taken yet
     bool dragging_ = false, pressed_in_scene_ = false;
 };

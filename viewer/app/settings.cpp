@@ -1,7 +1,9 @@
 #include "viewer/app/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -29,6 +31,17 @@ WindowSize window_from(const nlohmann::json& settings) {
     return {static_cast<int>(width), static_cast<int>(height), scale};
 }
 
+// Paths alone, as they were written once, are fine.
+std::vector<RecentFile> recent_from(const nlohmann::json& settings) {
+    std::vector<RecentFile> recent;
+    for (const nlohmann::json& file : settings.value("recent", nlohmann::json::array()))
+        if (file.is_string())
+            recent.push_back({file.get<std::string>(), "", ""});
+        else
+            recent.push_back({file.at("path").get<std::string>(), file.value("day", ""), file.value("sizes", "")});
+    return recent;
+}
+
 std::string settings_file(const std::string& folder) { return folder + "/viewer.json"; }
 
 }  // namespace
@@ -47,7 +60,7 @@ Settings load_settings(const std::string& folder) {
     if (!json.is_object()) return settings;
     try {
         settings.theme = json.value("theme", "light") == "dark" ? Theme::dark : Theme::light;
-        settings.recent = json.value("recent", std::vector<std::string>());
+        settings.recent = recent_from(json);
         settings.browser_folder = json.value("browser_folder", "");
         const auto panels = json.value("panels", nlohmann::json::object());
         const auto size = [&](const char* name) {
@@ -67,8 +80,10 @@ void save_settings(const std::string& folder, const Settings& settings) {
     std::error_code ignored;
     std::filesystem::create_directories(folder, ignored);
     nlohmann::ordered_json json = {{"theme", settings.theme == Theme::dark ? "dark" : "light"},
-                                   {"recent", settings.recent},
+                                   {"recent", nlohmann::ordered_json::array()},
                                    {"browser_folder", settings.browser_folder}};
+    for (const RecentFile& file : settings.recent)
+        json["recent"].push_back({{"path", file.path}, {"day", file.day}, {"sizes", file.sizes}});
     const PanelSizes& panels = settings.panels;
     json["panels"] = {{"left", panels.left}, {"right", panels.right}, {"timeline", panels.timeline}};
     const WindowSize& window = settings.window;
@@ -82,11 +97,25 @@ void save_settings(const std::string& folder, const Settings& settings) {
     std::filesystem::rename(partial, path, ignored);
 }
 
-void remember(Settings& settings, const std::string& path) {
+void keep_sizes(Settings& settings, const Document& document) {
+    if (document.kind != Document::Kind::none && !settings.recent.empty())
+        settings.recent.front().sizes = sizes_of(document);
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm day = {};
+    std::array<char, 32> text = {};
+    if (localtime_r(&now, &day) == nullptr) return "";
+    return {text.data(), std::strftime(text.data(), text.size(), "%d %b %Y", &day)};
+}
+
+void remember(Settings& settings, const std::string& path, const std::string& day) {
     std::error_code error;
-    const std::string full = std::filesystem::absolute(path, error).lexically_normal().string();
-    std::erase(settings.recent, error ? path : full);
-    settings.recent.insert(settings.recent.begin(), error ? path : full);
+    const std::string absolute = std::filesystem::absolute(path, error).lexically_normal().string();
+    const std::string full = error ? path : absolute;
+    std::erase_if(settings.recent, [&](const RecentFile& file) { return file.path == full; });
+    settings.recent.insert(settings.recent.begin(), {full, day, ""});
     if (settings.recent.size() > most_recent) settings.recent.resize(most_recent);
 }
 

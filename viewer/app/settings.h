@@ -15,7 +15,11 @@ Settings load_settings(const std::string& folder);
 /// Does nothing if the folder is empty or cannot be written.
 void save_settings(const std::string& folder, const Settings& settings);
 
+/// What the start page will say of what is open: the file on top of the recent ones.
+void keep_sizes(Settings& settings, const Document& document);
+/// "26 Nov 2026", by the local time.
+std::string today();
 /// Puts a file on top of the recent ones.
-void remember(Settings& settings, const std::string& path);
+void remember(Settings& settings, const std::string& path, const std::string& day);
 
 }  // namespace kerf::view

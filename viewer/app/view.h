@@ -20,7 +20,8 @@ struct Gl;
 struct AppOptions {
     std::string shader_folder;
     std::string kerf_program;
-    std::string config_folder;  ///< of the settings; empty: none are read or kept
+    std::string config_folder;   ///< of the settings; empty: none are read or kept
+    std::string example_folder;  ///< surfaces for the start page; empty: none
     std::string screenshot_folder = ".";
     /// Surfaces that are opened are cut, and meshed if `volume`, with these options; `auto_run` false: only shown.
     bool auto_run = true, volume = true;

@@ -75,8 +75,11 @@ void draw_gizmo(UiContext& context, const Rectangle& scene) {
     std::array<bool, 6> hovered = {};
     for (std::size_t i = 0; i < placed.size(); ++i) {  // of two at one place the nearer one is clicked
         ImGui::SetCursorScreenPos({placed[i].at.x - radius, placed[i].at.y - radius});
-        if (ImGui::InvisibleButton(placed[i].end->label, {2 * radius, 2 * radius}))
-            context.actions.camera.look(placed[i].end->from);
+        if (ImGui::InvisibleButton(placed[i].end->label, {2 * radius, 2 * radius})) {
+            Camera camera = context.camera;
+            look_from(camera, placed[i].end->from);
+            context.actions.camera.take_camera(camera);
+        }
         hovered[i] = ImGui::IsItemHovered();
         context.widgets.record(placed[i].end->label);
         explain(placed[i].end->tip);

@@ -1,57 +1,65 @@
-#include "viewer/panels/parts.h"
+#include <string_view>
+
+#include "viewer/panels/commands.h"
 
 namespace kerf::view {
 
 namespace {
 
-struct Key {
-    const char* keys;
+struct MouseUse {
+    const char* button;
     const char* what;
 };
 
-constexpr Key moving[] = {{"Left button", "turn"},
-                          {"Right or middle button", "move; also Shift and the left one"},
-                          {"Wheel", "come closer to what is under the mouse"},
-                          {"Click", "select the facet, cell or vertex"},
-                          {"Double click", "turn about this point from now on"},
-                          {"Home", "fit everything"},
-                          {"F", "frame the selection"},
-                          {"1, 3, 7", "view from the front, the right, the top"},
-                          {"9", "view from the opposite side"},
-                          {"5", "perspective or parallel projection"}};
-constexpr Key stepping[] = {{"Left, right", "previous step, next step"},
-                            {"Up, down", "previous node, next node"},
-                            {"Space", "play the steps, or pause"},
-                            {"Up, down in a list", "previous, next defect or cell"},
-                            {"C", "clip plane on or off"},
-                            {"Shift+C", "clip plane through the selection"},
-                            {"N", "only the neighbours of a selected cell, or all"},
-                            {"E", "edges on or off"},
-                            {"B", "the run or the repair before, or the one after"},
-                            {"Ctrl+Z, Ctrl+Shift+Z", "undo the last repair, redo it"},
-                            {"Escape", "select nothing, close a menu or dialog"}};
-constexpr Key files[] = {{"Ctrl+O", "open a file or folder"},
-                         {"Ctrl+R", "read it again"},
-                         {"F12", "save the picture as PNG"},
-                         {"H", "show or hide this window"},
-                         {"Ctrl+Q", "quit"}};
+constexpr MouseUse mouse_uses[] = {{"Left button", "turn"},
+                                   {"Right or middle", "move; also Shift and the left button"},
+                                   {"Wheel", "come closer to what is under the mouse"},
+                                   {"Click", "select the facet, cell or vertex"},
+                                   {"Double click", "turn about this point from now on"}};
 
-template <std::size_t N>
-void draw_table(const char* title, const Key (&keys)[N], const Palette& colors) {
+void draw_row(const char* left, const char* right, const Palette& colors) {
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(0);
+    show(left, colors.text);
+    ImGui::TableSetColumnIndex(1);
+    show(right, colors.dim);
+}
+
+template <class DrawRows>
+void draw_table(const char* title, const Palette& colors, DrawRows draw_rows) {
     show(title, colors.accent);
     if (ImGui::BeginTable(title, 2, ImGuiTableFlags_NoSavedSettings)) {
-        ImGui::TableSetupColumn("##keys", ImGuiTableColumnFlags_WidthFixed, 12 * em());
+        ImGui::TableSetupColumn("##keys", ImGuiTableColumnFlags_WidthFixed, 10.5f * em());
         ImGui::TableSetupColumn("##what", ImGuiTableColumnFlags_WidthStretch);
-        for (const Key& key : keys) {
-            ImGui::TableNextRow();
-            ImGui::TableSetColumnIndex(0);
-            show(key.keys, colors.text);
-            ImGui::TableSetColumnIndex(1);
-            show(key.what, colors.dim);
-        }
+        draw_rows();
         ImGui::EndTable();
     }
     ImGui::Spacing();
+}
+
+void draw_mouse(const Palette& colors) {
+    draw_table("Mouse", colors, [&] {
+        for (const MouseUse& use : mouse_uses) draw_row(use.button, use.what, colors);
+    });
+}
+
+void draw_heading(const char* heading, const Palette& colors) {
+    draw_table(heading, colors, [&] {
+        for (const Command& command : commands())
+            if (*command.keys && std::string_view(command.heading) == heading)
+                draw_row(command.keys, command.name, colors);
+    });
+}
+
+void draw_all_keys(const Palette& colors) {
+    if (!ImGui::BeginTable("##keys of all", 2, ImGuiTableFlags_NoSavedSettings)) return;
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(0);
+    draw_mouse(colors);
+    for (const char* heading : {"Looking", "Files"}) draw_heading(heading, colors);
+    ImGui::TableSetColumnIndex(1);
+    for (const char* heading : {"Stepping", "Showing", "Help"}) draw_heading(heading, colors);
+    ImGui::EndTable();
 }
 
 }  // namespace
@@ -60,9 +68,8 @@ void draw_keys(UiContext& context) {
     bool& open = context.state.panels.keys;
     if (!open) return;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const Palette& colors = palette(context.state.theme);
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(33 * em(), screen.x), 0});
+    ImGui::SetNextWindowSize({std::min(60 * em(), screen.x), 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.3f * em());
     const bool shown = ImGui::Begin("Keys and mouse##keys window", &open,
@@ -70,9 +77,7 @@ void draw_keys(UiContext& context) {
                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PopStyleVar(2);
     if (shown) {
-        draw_table("Looking", moving, colors);
-        draw_table("Stepping and showing", stepping, colors);
-        draw_table("Files", files, colors);
+        draw_all_keys(palette(context.state.theme));
         if (context.widgets.button("Close keys")) open = false;
     }
     ImGui::End();

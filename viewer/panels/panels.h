@@ -34,12 +34,15 @@ class CameraActions {
     virtual void turn_to_selection() = 0;
     /// The clip plane with its normal, or facing the eye, goes through the middle of what is selected.
     virtual void clip_through_selection(bool faces_eye) = 0;
-    virtual void look(Direction direction) = 0;
+    /// Looks through it from now on, in this frame, too.
+    virtual void take_camera(const Camera& camera) = 0;
 };
 
 class PlayActions {
  public:
     virtual ~PlayActions() = default;
+    virtual void move_step(int count) = 0;  ///< so many steps of the node on, or back
+    virtual void move_node(int count) = 0;  ///< to the next node of the tree, 1, or the one before, -1
     virtual void toggle_play() = 0;
     virtual void toggle_motion() = 0;  ///< of the deformation
 };
@@ -51,6 +54,8 @@ class RunActions {
     /// At the plane, or where it was.
     virtual void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) = 0;
     virtual void swap_runs() = 0;
+    /// From what was before a run or a repair to what is after, and back.
+    virtual void show_other() = 0;
 };
 
 class RepairActions {
@@ -130,11 +135,29 @@ struct WindowSize {
     double scale = 1;
 };
 
+/// What was open once.
+struct RecentFile {
+    std::string path;
+    std::string day;    ///< when, "26 Nov 2026"; empty: not known
+    std::string sizes;  ///< as sizes_of() said; empty: not known
+};
+
+/// A surface to try that comes with the program.
+struct Example {
+    std::string name;  ///< "Bearing cap 14k"
+    std::string path;
+    std::int64_t facets = 0;
+    ImTextureID picture = nullptr;  ///< null: there is none
+};
+
+/// "6.21 k facets, 14.6 k tetrahedra", as far as they are known.
+std::string sizes_of(const Document& document);
+
 /// Settings that outlive the document, kept in the user's config folder.
 struct Settings {
     Theme theme = Theme::light;
-    std::vector<std::string> recent;  ///< files, the last one first
-    std::string browser_folder;       ///< of the file browser
+    std::vector<RecentFile> recent;  ///< the last one first
+    std::string browser_folder;      ///< of the file browser
     PanelSizes panels;
     WindowSize window;  ///< when it was last drawn
 };
@@ -147,7 +170,8 @@ struct UiContext {
     const std::vector<Step>& steps;  ///< of the node
     const Actions& actions;
     Widgets& widgets;
-    const Camera& camera;  ///< that is in use, also where the state has none
+    const Camera& camera;                  ///< that is in use, also where the state has none
+    const std::vector<Example>& examples;  ///< for the start page
 };
 
 /// A rectangle of the window in ImGui's units, y down.
@@ -180,14 +204,8 @@ class Ui {
     void draw(UiContext& context, float width, float height);
     /// Legend, gizmo and caption in the scene's rectangle: part of every picture, also without panels.
     void draw_overlays(UiContext& context, const Rectangle& scene);
-    void open_browser();
-    /// Closes what has popped up last, unless it is a dialog; false: there is none.
-    bool close_menu();
-    /// The list of defects or cells that was used last goes on by so many entries; false: none was.
-    bool step_in_list(int count);
-    void leave_list();
-    /// A dialog is open or a text field has the keyboard.
-    bool wants_keyboard() const;
+    /// Does what a key means, "Ctrl+Shift+Z", unless a dialog or a text field has the keyboard. `repeat`: it is held.
+    void press(UiContext& context, const std::string& key, bool repeat);
 
  private:
     struct Impl;

@@ -36,6 +36,23 @@ struct FileBrowser {
     void go_to(const std::filesystem::path& new_folder);
 };
 
+/// Of commands by their names.
+struct SearchBox {
+    bool requested = false;  ///< is to open in the next frame
+    std::string typed;
+    int chosen = 0;      ///< of those that are found
+    bool moved = false;  ///< the choice has, by keys, in this frame
+};
+
+/// Of the stages of one cut.
+struct Tour {
+    bool awaited = false;             ///< it begins as soon as there is a cut to show
+    bool has_run = false;             ///< to have one
+    NodeId node = 0;                  ///< whose cut is shown; 0: there is no tour
+    std::optional<Stage> go_to = {};  ///< what the next frame shows
+    std::optional<ViewState> before = {};
+};
+
 /// A collapsing section, and for how many frames more the panel scrolls to it: it grows when it opens.
 struct Section {
     bool open = false;
@@ -52,8 +69,18 @@ struct ListKeys {
     int take(List of) { return list == of ? std::exchange(steps, 0) : 0; }
 };
 
-void draw_menu(UiContext& context, FileBrowser& browser);
+/// What commands open, and where they go on.
+struct Dialogs {
+    FileBrowser browser;
+    SearchBox search;
+    Tour tour;
+    ListKeys list;
+};
+
+void draw_menu(UiContext& context, Dialogs& dialogs);
 void draw_browser(UiContext& context, FileBrowser& browser);
+/// Of commands, while it is open.
+void draw_search(UiContext& context, Dialogs& dialogs);
 
 struct TreeMemory {
     NodeId scrolled_to = 0;  ///< node that it has been scrolled to
@@ -158,11 +185,24 @@ struct TimelineMemory {
     NodeId node = 0;  ///< of that try
     Step step;
 };
-void draw_timeline(UiContext& context, TimelineMemory& memory);
+void draw_timeline(UiContext& context, TimelineMemory& memory, Dialogs& dialogs);
+
+/// Makes the cuts of the document again, in another process, so that their stages are there. What is open stays.
+void record_stages(UiContext& context);
+/// A guided tour of the cut of the node that is shown, else of the first one, as soon as there is one.
+void begin_tour(UiContext& context, Dialogs& dialogs);
+void end_tour(UiContext& context, Dialogs& dialogs);
+/// So many stages.
+void go_on_tour(UiContext& context, Dialogs& dialogs, int count);
+/// Before anything is drawn: shows the stage that was asked for.
+void follow_tour(UiContext& context, Dialogs& dialogs, const Rectangle& scene);
+/// In the timeline, while there is a tour.
+void draw_tour(UiContext& context, Dialogs& dialogs);
 
 void draw_status(UiContext& context);
 void draw_keys(UiContext& context);
-void draw_welcome(UiContext& context, const Rectangle& scene);
+/// The start page, while nothing is open.
+void draw_welcome(UiContext& context, Dialogs& dialogs, const Rectangle& scene);
 void draw_legend(UiContext& context, const Rectangle& scene);
 /// What the picture shows, at its upper left, in words for who does not know Kerf.
 void draw_caption(UiContext& context, const Rectangle& scene);

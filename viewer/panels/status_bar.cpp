@@ -9,14 +9,9 @@ namespace kerf::view {
 namespace {
 
 std::string facts_of(UiContext& context) {
-    const Document& document = context.session.document();
-    std::string text;
-    const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
-    if (document.input_facets > 0) add(number_of(document.input_facets, "facet"));
-    std::int64_t tets = 0;
-    for (const TreeRow& row : document.tree.rows) tets += row.leaf() ? std::max<std::int64_t>(0, row.tets) : 0;
-    if (tets > 0) add(compact(tets) + " tetrahedra");
-    if (context.facts.triangles > 0) add(number_of(context.facts.triangles, "triangle") + " drawn");
+    std::string text = sizes_of(context.session.document());
+    if (context.facts.triangles > 0)
+        text += (text.empty() ? "" : ", ") + number_of(context.facts.triangles, "triangle") + " drawn";
     return text;
 }
 
@@ -96,6 +91,15 @@ void draw_progress(UiContext& context) {
 }
 
 }  // namespace
+
+std::string sizes_of(const Document& document) {
+    std::string text;
+    if (document.input_facets > 0) text = number_of(document.input_facets, "facet");
+    std::int64_t tets = 0;
+    for (const TreeRow& row : document.tree.rows) tets += row.leaf() ? std::max<std::int64_t>(0, row.tets) : 0;
+    if (tets > 0) text += (text.empty() ? "" : ", ") + compact(tets) + " tetrahedra";
+    return text;
+}
 
 void draw_status(UiContext& context) {
     const Palette& colors = palette(context.state.theme);

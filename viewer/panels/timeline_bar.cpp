@@ -11,14 +11,21 @@ namespace {
 
 class TimelineBar {
  public:
-    TimelineBar(UiContext& context, TimelineMemory& memory)
+    TimelineBar(UiContext& context, TimelineMemory& memory, Dialogs& dialogs)
         : context_(context),
           memory_(memory),
+          dialogs_(dialogs),
           steps_(context.steps),
           colors_(palette(context.state.theme)),
           current_(steps_.empty() ? 0 : nearest_step(steps_, context.state.step)) {}
 
     void draw() {
+        if (dialogs_.tour.node != 0) {
+            draw_tour(context_, dialogs_);
+            const bool has_room = width_of_buttons() <= ImGui::GetContentRegionAvail().x;  // for them in one row
+            if (has_room) draw_steps();
+            return;
+        }
         draw_controls();
         draw_heading();
         draw_text();
@@ -27,7 +34,13 @@ class TimelineBar {
 
  private:
     static float step_height() { return 1.9f * em(); }
-    void show_step(std::size_t index) { context_.state.step = steps_[index]; }
+    void show_step(std::size_t index) {
+        const Step& step = steps_[index];
+        if (dialogs_.tour.node != 0 && step.refused_try < 0 && step.stage >= Stage::input)
+            dialogs_.tour.go_to = step.stage;
+        else
+            context_.state.step = step;
+    }
 
     bool control(const char* label, Icon icon, const char* tip, bool enabled = true) {
         ImGui::BeginDisabled(!enabled);
@@ -68,15 +81,7 @@ class TimelineBar {
         if (context_.widgets.button("Re-run cut",
                                     "Makes all cuts again, in another process, and records their stages; "
                                     "the parts are not meshed"))
-            record_stages();
-    }
-
-    // Every run that is started here leaves a trace. The folder that is open stays as it is.
-    void record_stages() {
-        RunOptions options = context_.session.document().options;
-        options.output.clear();
-        options.trace_file.clear();
-        context_.actions.runs.start_run(options, false);
+            record_stages(context_);
     }
 
     // From one place to the next where a try has failed.
@@ -218,6 +223,7 @@ class TimelineBar {
 
     UiContext& context_;
     TimelineMemory& memory_;
+    Dialogs& dialogs_;
     const std::vector<Step>& steps_;
     const Palette& colors_;
     std::size_t current_;
@@ -226,6 +232,16 @@ class TimelineBar {
 
 }  // namespace
 
-void draw_timeline(UiContext& context, TimelineMemory& memory) { TimelineBar(context, memory).draw(); }
+// Every run that is started here leaves a trace. The folder that is open stays as it is.
+void record_stages(UiContext& context) {
+    RunOptions options = context.session.document().options;
+    options.output.clear();
+    options.trace_file.clear();
+    context.actions.runs.start_run(options, false);
+}
+
+void draw_timeline(UiContext& context, TimelineMemory& memory, Dialogs& dialogs) {
+    TimelineBar(context, memory, dialogs).draw();
+}
 
 }  // namespace kerf::view

@@ -7,13 +7,13 @@
 #include <imgui_internal.h>  // whether any popup is open
 
 #include "viewer/model/shown_parts.h"
-#include "viewer/panels/parts.h"
+#include "viewer/panels/commands.h"
 
 namespace kerf::view {
 
 // What ImGui does not keep for the panels.
 struct Ui::Impl {
-    FileBrowser browser;
+    Dialogs dialogs;
     TreeMemory tree;
     ProblemsMemory problems;
     ClipMemory clip;
@@ -21,7 +21,6 @@ struct Ui::Impl {
     ParametersMemory parameters;
     TimelineMemory timeline;
     CutHandleMemory cut_handle;
-    ListKeys keys;
     Theme theme = Theme::light;
     float scale = 0;
 
@@ -35,7 +34,7 @@ void Ui::Impl::draw_problems_or_tree(UiContext& context) {
     const bool remarks = context.state.panels.problems && has_remarks(document);
     const bool is_repaired = document.unrepaired && !has_tree(document);
     if (remarks && (document.has_problems() || is_repaired || !context.state.panels.tree))
-        return draw_problems(context, problems, keys);
+        return draw_problems(context, problems, dialogs.list);
     if (!remarks) return draw_tree(context, tree);
     if (!ImGui::BeginTabBar("##left")) return;
     const auto tab = [&](const char* label, const auto& draw) {
@@ -46,7 +45,7 @@ void Ui::Impl::draw_problems_or_tree(UiContext& context) {
         ImGui::EndTabItem();
     };
     tab("Tree", [&] { draw_tree(context, tree); });
-    tab("Problems", [&] { draw_problems(context, problems, keys); });
+    tab("Problems", [&] { draw_problems(context, problems, dialogs.list); });
     ImGui::EndTabBar();
 }
 
@@ -82,7 +81,7 @@ void Ui::Impl::draw_right(UiContext& context, const Layout& layout) {
         draw_regions(context);
         draw_clip(context, clip);
     }
-    if (panels.display || panels.quality) draw_color(context, color, keys);
+    if (panels.display || panels.quality) draw_color(context, color, dialogs.list);
     draw_parameters(context, parameters);
     ImGui::EndChild();
     ImGui::End();
@@ -115,6 +114,17 @@ void draw_label(const UiContext& context, const ValueLabel& label) {
     list.AddText({r.x + label_pad(), r.y}, packed(colors.text), label.text.c_str());
 }
 
+// What has popped up last, unless it is a dialog; false: there is none.
+bool close_menu() {
+    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    int dialogs = 0;
+    while (dialogs < open.Size && (!open[dialogs].Window || (open[dialogs].Window->Flags & ImGuiWindowFlags_Modal)))
+        ++dialogs;
+    if (dialogs == open.Size) return false;
+    ImGui::ClosePopupToLevel(dialogs, true);
+    return true;
+}
+
 }  // namespace
 
 Rectangle rectangle_of(const ValueLabel& label) {
@@ -141,15 +151,17 @@ void Ui::draw(UiContext& context, float width, float height) {
         set_style(impl_->theme, impl_->scale > 0 ? impl_->scale : 1);
     }
     const Layout layout = layout_of(context.state, context.session.document(), context.settings.panels, width, height);
-    if (ImGui::IsMouseClicked(0) && ImGui::GetIO().WantCaptureMouse) leave_list();
-    draw_menu(context, impl_->browser);
+    Dialogs& dialogs = impl_->dialogs;
+    if (ImGui::IsMouseClicked(0) && ImGui::GetIO().WantCaptureMouse) dialogs.list.list = ListKeys::List::none;
+    follow_tour(context, dialogs, layout.scene);
+    draw_menu(context, dialogs);
     draw_splitters(context, layout);  // before the panels: of windows that stay where they are the first is in front
     if (layout.has_left) impl_->draw_left(context, layout);
     if (layout.has_right) impl_->draw_right(context, layout);
     if (layout.has_timeline) {
         begin_place("##timeline", layout.timeline);
         draw_border(layout.timeline, ImGuiDir_Up);
-        draw_timeline(context, impl_->timeline);
+        draw_timeline(context, impl_->timeline, dialogs);
         ImGui::End();
     }
     begin_place("##status", layout.status);
@@ -159,12 +171,14 @@ void Ui::draw(UiContext& context, float width, float height) {
     draw_overlays(context, layout.scene);
     if (has_body(context.session.document())) draw_plane_handles(context, impl_->cut_handle, layout.scene);
     draw_keys(context);
-    draw_browser(context, impl_->browser);
-    if (std::exchange(impl_->keys.steps, 0) != 0) leave_list();  // it is not shown any more
+    draw_browser(context, dialogs.browser);
+    draw_search(context, dialogs);
+    if (std::exchange(dialogs.list.steps, 0) != 0)
+        dialogs.list.list = ListKeys::List::none;  // it is not shown any more
 }
 
 void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
-    if (!has_body(context.session.document())) return draw_welcome(context, scene);
+    if (!has_body(context.session.document())) return draw_welcome(context, impl_->dialogs, scene);
     draw_numbers(context);
     for (const ValueLabel& label : context.facts.labels) draw_label(context, label);
     if (context.facts.probe) draw_label(context, *context.facts.probe);
@@ -173,29 +187,13 @@ void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
     draw_gizmo(context, scene);
 }
 
-bool Ui::close_menu() {
-    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
-    int dialogs = 0;
-    while (dialogs < open.Size && (!open[dialogs].Window || (open[dialogs].Window->Flags & ImGuiWindowFlags_Modal)))
-        ++dialogs;
-    if (dialogs == open.Size) return false;
-    ImGui::ClosePopupToLevel(dialogs, true);
-    return true;
-}
-
-bool Ui::step_in_list(int count) {
-    if (impl_->keys.list == ListKeys::List::none) return false;
-    impl_->keys.steps += count;
-    return true;
-}
-
-void Ui::leave_list() { impl_->keys.list = ListKeys::List::none; }
-
-void Ui::open_browser() { impl_->browser.requested = true; }
-
-bool Ui::wants_keyboard() const {
+void Ui::press(UiContext& context, const std::string& key, bool repeat) {
+    if (key.ends_with("Escape") && close_menu()) return;
+    Dialogs& dialogs = impl_->dialogs;
     const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    return ImGui::GetIO().WantTextInput || popup || impl_->browser.open || impl_->browser.requested;
+    if (ImGui::GetIO().WantTextInput || popup || dialogs.browser.open || dialogs.browser.requested) return;
+    const Command* command = command_of_key(key);
+    if (command && (command->repeats || !repeat) && is_enabled(*command, context)) command->run(context, dialogs);
 }
 
 void go_to_node(UiContext& context, NodeId node) {

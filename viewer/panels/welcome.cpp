@@ -1,6 +1,8 @@
-// What one sees before anything is open.
+// The start page: what was open before, what can be opened, and surfaces to try.
 #include <algorithm>
-#include <iterator>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "viewer/panels/parts.h"
 
@@ -18,47 +20,139 @@ constexpr const char* what_can_be_opened[] = {
     "Solutions: the folder of kerf solve -o DIR",
 };
 
+// The example whose cut the tour shows.
+constexpr const char* example_of_tour = "Bearing cap 14k";
+
+// Of an example's picture: its caption and gizmo lie above, its borders are empty.
+const ImVec2 seen_from = {0.21f, 0.19f}, seen_to = {0.79f, 0.95f};
+
 void show_centered(const std::string& text, const ImVec4& color) {
     const float room = ImGui::GetContentRegionAvail().x, width = ImGui::CalcTextSize(text.c_str()).x;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, (room - width) / 2));
     show(text, color);
 }
 
-void draw_recent(UiContext& context, const Palette& colors) {
-    const std::vector<std::string> recent = context.settings.recent;  // opening changes it
-    if (recent.empty()) return;
-    ImGui::Dummy({0, em()});
-    show_centered("Opened before", colors.dim);
-    for (std::size_t i = 0; i < std::min(recent.size(), most_recent); ++i) {
-        const std::string text = shortened_path(recent[i], ImGui::GetContentRegionAvail().x - 2 * em());
-        ImGui::PushStyleColor(ImGuiCol_Text, colors.accent);
-        ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.5f, 0.5f});
-        if (ImGui::Selectable((text + "##open recent" + std::to_string(i)).c_str()))
-            context.actions.files.open_files({recent[i]});
-        ImGui::PopStyleVar();
-        ImGui::PopStyleColor();
-        context.widgets.record("open recent " + std::to_string(i + 1));
-    }
+// A ground that shows when the mouse is over it; true: it was clicked.
+bool draw_tile_ground(UiContext& context, const std::string& label, const ImVec2& size) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const bool clicked = ImGui::InvisibleButton(("##" + label).c_str(), size);
+    context.widgets.record(label);
+    const Palette& colors = palette(context.state.theme);
+    const ImVec4 ground = ImGui::IsItemHovered() ? faded(colors.accent, 0.3f) : colors.frame;
+    ImGui::GetWindowDrawList()->AddRectFilled(from, {from.x + size.x, from.y + size.y}, packed(ground), 0.3f * em());
+    return clicked;
 }
 
-// As it is drawn below.
-float content_height(const UiContext& context) {
-    const float line = ImGui::GetTextLineHeightWithSpacing(), gap = ImGui::GetStyle().ItemSpacing.y;
-    const float title = large_font()->FontSize * ImGui::GetIO().FontGlobalScale + gap;
-    const std::size_t recent = std::min(context.settings.recent.size(), most_recent);
-    const float titles = context.session.document().error.empty() ? title : 2 * title;
-    const float list = recent > 0 ? static_cast<float>(recent + 1) * line + em() + gap : 0;
-    const auto lines = static_cast<float>(1 + std::size(what_can_be_opened));
-    return titles + lines * line + 3.6f * em() + 3 * gap + list;
+void add_text(const ImVec2& at, const std::string& text, float width, const ImVec4& color) {
+    ImGui::GetWindowDrawList()->AddText(at, packed(color), shortened(text, width).c_str());
+}
+
+// The name of the last file or folder of a path, which may end with a slash.
+std::string name_of_path(const std::string& path) {
+    const std::filesystem::path file(path);
+    return (file.has_filename() ? file : file.parent_path()).filename().string();
+}
+
+void draw_recent(UiContext& context, const Palette& colors) {
+    const std::vector<RecentFile> recent = context.settings.recent;  // opening changes it
+    if (recent.empty()) return;
+    show("Opened before", colors.text);
+    const float pad = 0.4f * em(), line = ImGui::GetTextLineHeight();
+    for (std::size_t i = 0; i < std::min(recent.size(), most_recent); ++i) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float width = ImGui::GetContentRegionAvail().x;
+        if (draw_tile_ground(context, fmt::format("open recent {}", i + 1), {width, 2 * line + pad}))
+            context.actions.files.open_files({recent[i].path});
+        explain(recent[i].path);
+        const std::string& day = recent[i].day;
+        const std::string more = day + (day.empty() || recent[i].sizes.empty() ? "" : ", ") + recent[i].sizes;
+        add_text({at.x + pad, at.y + pad / 2}, name_of_path(recent[i].path), width - 2 * pad, colors.accent);
+        add_text({at.x + pad, at.y + pad / 2 + line}, more, width - 2 * pad, colors.dim);
+    }
+    ImGui::Dummy({0, 0.5f * em()});
+}
+
+void draw_left(UiContext& context, const Palette& colors) {
+    draw_recent(context, colors);
+    show("What can be opened", colors.text);
+    for (const char* kind : what_can_be_opened) show_wrapped(kind, colors.dim);
+}
+
+void draw_example(UiContext& context, const Example& example, const ImVec2& size) {
+    const Palette& colors = palette(context.state.theme);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (draw_tile_ground(context, "example " + example.name, size)) context.actions.files.open_files({example.path});
+    explain(example.path);
+    const float pad = 0.3f * em(), line = ImGui::GetTextLineHeight(), below = size.y - 2 * line - pad;
+    if (example.picture)
+        ImGui::GetWindowDrawList()->AddImage(example.picture, {at.x + pad, at.y + pad},
+                                             {at.x + size.x - pad, at.y + below - pad}, seen_from, seen_to);
+    add_text({at.x + pad, at.y + below}, example.name, size.x - 2 * pad, colors.text);
+    add_text({at.x + pad, at.y + below + line}, number_of(example.facets, "facet"), size.x - 2 * pad, colors.dim);
+}
+
+void draw_examples(UiContext& context, const Palette& colors) {
+    show("Surfaces to try: one click opens and cuts them", colors.text);
+    const float gap = 0.5f * em(), room = ImGui::GetContentRegionAvail().x;
+    const float columns = std::max(1.f, std::floor((room + gap) / (7.6f * em() + gap)));
+    const float width = std::floor((room - (columns - 1) * gap) / columns);
+    const ImVec2 size = {width, 0.96f * width + 2 * ImGui::GetTextLineHeight()};
+    const std::vector<Example> examples = context.examples;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, gap});
+    for (std::size_t i = 0; i < examples.size(); ++i) {
+        if (i % static_cast<std::size_t>(columns) != 0) ImGui::SameLine();
+        draw_example(context, examples[i], size);
+    }
+    ImGui::PopStyleVar();
+}
+
+void draw_buttons(UiContext& context, Dialogs& dialogs) {
+    const auto tour = std::find_if(context.examples.begin(), context.examples.end(),
+                                   [](const Example& example) { return example.name == example_of_tour; });
+    const char *choose = "Choose a file...", *show_cut = "Show me how a cut is made";
+    const ImGuiStyle& style = ImGui::GetStyle();
+    float width = width_of(choose) + 2 * style.FramePadding.x;
+    if (tour != context.examples.end()) width += width_of(show_cut) + 2 * style.FramePadding.x + style.ItemSpacing.x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.f, (ImGui::GetContentRegionAvail().x - width) / 2));
+    if (context.widgets.button(choose, "Ctrl+O")) dialogs.browser.requested = true;
+    if (tour == context.examples.end()) return;
+    ImGui::SameLine();
+    if (!context.widgets.button(show_cut, "Opens a bearing cap, cuts it, and explains each stage")) return;
+    const std::string path = tour->path;
+    context.actions.files.open_files({path});
+    begin_tour(context, dialogs);
+}
+
+void draw_titles(const Document& document, const Palette& colors) {
+    ImGui::PushFont(large_font());
+    if (!document.error.empty()) show_centered("This file could not be opened", colors.bad);
+    show_centered(document.error.empty() ? "Drop a surface, a trace or a run folder here" : "Drop another one here",
+                  colors.text);
+    ImGui::PopFont();
+}
+
+void draw_columns(UiContext& context, const Palette& colors) {
+    const bool has_examples = !context.examples.empty();
+    ImGui::BeginChild("##start", {0, 0});  // scrolls
+    if (ImGui::BeginTable("##start page", has_examples ? 2 : 1, ImGuiTableFlags_NoSavedSettings)) {
+        ImGui::TableSetupColumn("##left", ImGuiTableColumnFlags_WidthStretch, 0.36f);
+        if (has_examples) ImGui::TableSetupColumn("##right", ImGuiTableColumnFlags_WidthStretch, 0.64f);
+        ImGui::TableNextColumn();
+        draw_left(context, colors);
+        if (has_examples && ImGui::TableNextColumn()) draw_examples(context, colors);
+        ImGui::EndTable();
+    }
+    ImGui::EndChild();
 }
 
 }  // namespace
 
-void draw_welcome(UiContext& context, const Rectangle& scene) {
+void draw_welcome(UiContext& context, Dialogs& dialogs, const Rectangle& scene) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
-    const float e = em(), width = std::min(38 * e, scene.width - 2 * e);
-    const float height = std::min(content_height(context), scene.height - 2 * e);
+    const bool is_opening = !document.path.empty() && document.error.empty();
+    const float e = em(), width = std::min((context.examples.empty() ? 40 : 66) * e, scene.width - 2 * e);
+    const float height = std::min((is_opening ? 5 : context.examples.empty() ? 26 : 45) * e, scene.height - 2 * e);
     begin_place("##welcome",
                 {scene.x + (scene.width - width) / 2, scene.y + (scene.height - height) / 2, width, height},
                 ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoFocusOnAppearing);
@@ -66,16 +160,15 @@ void draw_welcome(UiContext& context, const Rectangle& scene) {
     draw_backdrop(*ImGui::GetWindowDrawList(), context.state.theme, {from.x + 0.5f * e, from.y + 0.5f * e},
                   {from.x + width - 0.5f * e, from.y + height - 0.5f * e});
     ImGui::Dummy({0, 0.4f * e});
-    ImGui::PushFont(large_font());
-    if (!document.error.empty()) show_centered("This file could not be opened", colors.bad);
-    show_centered(document.error.empty() ? "Drop a surface, a trace or a run folder here" : "Drop another one here",
-                  colors.text);
-    ImGui::PopFont();
-    ImGui::Dummy({0, 0.4f * e});
-    show_centered("or press Ctrl+O to choose one", colors.text);
-    ImGui::Dummy({0, 0.6f * e});
-    for (const char* kind : what_can_be_opened) show_centered(kind, colors.dim);
-    draw_recent(context, colors);
+    if (is_opening) {
+        show_centered("Opening " + document.title, colors.text);
+    } else {
+        draw_titles(document, colors);
+        ImGui::Dummy({0, 0.2f * e});
+        draw_buttons(context, dialogs);
+        ImGui::Dummy({0, 0.6f * e});
+        draw_columns(context, colors);
+    }
     ImGui::End();
 }
 

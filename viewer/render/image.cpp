@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include "core/error.h"
+#include "io/file_bytes.h"
 #include "io/output_file.h"
 
 namespace {
@@ -32,6 +33,12 @@ unsigned char* compress_best(unsigned char* data, int size, int* compressed_size
 #define STBIW_ZLIB_COMPRESS compress_best
 #include <stb_image_write.h>
 
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#include <stb_image.h>
+
 namespace kerf::view {
 
 namespace {
@@ -56,6 +63,16 @@ Image averaged(const Image& image, int factor) {
                 small.rgb.push_back(static_cast<std::uint8_t>((sum + factor * factor / 2) / (factor * factor)));
             }
     return small;
+}
+
+Image read_png(const std::string& path) {
+    const std::string file = read_file(path);
+    Image image;
+    const Bytes pixels(stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
+                                             static_cast<int>(file.size()), &image.width, &image.height, nullptr, 3));
+    if (!pixels) throw Error(ErrorCode::io, fmt::format("{} is no PNG.", path));
+    image.rgb.assign(pixels.get(), pixels.get() + std::size_t{3} * image.width * image.height);
+    return image;
 }
 
 void write_png(const std::string& path, const Image& image) {

@@ -17,6 +17,9 @@ struct Image {
 /// Smaller by a factor: the mean of factor x factor pixels, which must divide the size.
 Image averaged(const Image& image, int factor);
 
+/// Throws Error(io) naming the file if it cannot be read or is none.
+Image read_png(const std::string& path);
+
 /// Throws Error(io) naming the file if it cannot be written; an older file is replaced only by a complete one.
 void write_png(const std::string& path, const Image& image);
 

@@ -89,6 +89,7 @@ class Renderer::Impl {
 
     void draw(const Scene& scene, const Projection& projection);
 
+    void* add_picture(const Image& picture) { return ui_.add_picture(picture); }
     void draw_ui(const ImDrawData& ui, ImFontAtlas& fonts) {
         target_.bind();
         ui_.draw(ui, fonts, target_.width(), target_.height());
@@ -269,6 +270,7 @@ Renderer::~Renderer() = default;
 void Renderer::resize(int width, int height) { impl_->resize(width, height); }
 void Renderer::clear(const Color& color) { impl_->clear(color); }
 void Renderer::draw(const Scene& scene, const Projection& projection) { impl_->draw(scene, projection); }
+void* Renderer::add_picture(const Image& picture) { return impl_->add_picture(picture); }
 void Renderer::draw_ui(const ImDrawData& ui, ImFontAtlas& fonts) { impl_->draw_ui(ui, fonts); }
 std::optional<PickHit> Renderer::pick(const Scene& scene, const Projection& projection, int x, int y) {
     return impl_->pick(scene, projection, x, y);

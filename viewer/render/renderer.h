@@ -62,6 +62,9 @@ class Renderer {
     /// has been built anew, gets its texture's name and loses its copy of the pixels.
     void draw_ui(const ImDrawData& ui, ImFontAtlas& fonts);
 
+    /// A picture that draw_ui() can draw, as an ImTextureID, as long as this lives.
+    void* add_picture(const Image& picture);
+
     /// The foremost pickable primitive at a pixel (from the top left), by an id buffer: exact, whatever is drawn over
     /// it. Layers that are not opaque are passed over. Draws only around the pixel.
     std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y);

@@ -74,6 +74,19 @@ void UiPainter::update_fonts(ImFontAtlas& fonts) {
     fonts.SetTexID(to_imgui(fonts_.id()));
 }
 
+void* UiPainter::add_picture(const Image& picture) {
+    pictures_.push_back(GlObject::texture(gl_));
+    gl_.BindTexture(GL_TEXTURE_2D, pictures_.back().id());
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, picture.width, picture.height, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                   picture.rgb.data());
+    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl_.BindTexture(GL_TEXTURE_2D, 0);
+    return to_imgui(pictures_.back().id());
+}
+
 void UiPainter::draw_list(const ImDrawList& list, const ImDrawData& ui, int width, int height) {
     gl_.BindVertexArray(array_.id());
     gl_.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "viewer/render/gl.h"
 #include "viewer/render/gl_object.h"
+#include "viewer/render/image.h"
 #include "viewer/render/shader_program.h"
 
 struct ImDrawCmd;
@@ -22,6 +24,8 @@ class UiPainter {
     /// Into the framebuffer that is bound, of `width` x `height` pixels. `fonts` is uploaded when it has been built
     /// anew, and loses its copy of the pixels then.
     void draw(const ImDrawData& ui, ImFontAtlas& fonts, int width, int height);
+    /// A picture as ImGui's ImTextureID. It stays as long as this.
+    void* add_picture(const Image& picture);
 
  private:
     void update_fonts(ImFontAtlas& fonts);
@@ -31,6 +35,7 @@ class UiPainter {
     const Gl& gl_;
     ShaderProgram program_;
     GlObject array_, vertices_, indices_, fonts_;
+    std::vector<GlObject> pictures_;
 };
 
 }  // namespace kerf::view

@@ -1,0 +1,111 @@
+// The guided tour of a cut, in the place of the timeline: what happens at a stage, and buttons to go on.
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "viewer/model/tour.h"
+#include "viewer/panels/parts.h"
+
+namespace kerf::view {
+
+namespace {
+
+// Where what was open has no cuts to show, and none are on the way, they are made.
+void await_cut(UiContext& context, Tour& tour) {
+    const Session& session = context.session;
+    const Document& document = session.document();
+    if (const std::optional<NodeId> node = node_of_tour(document, context.state.node)) {
+        tour = {.node = *node, .go_to = Stage::input, .before = context.state};
+        return;
+    }
+    if (session.busy() || session.pending() || document.progress.running) return;
+    const bool is_over = tour.has_run || document.has_problems() || !document.error.empty() || document.trace;
+    if (is_over) {
+        tour = {};
+        context.actions.window.complain("There is no cut to be shown.");
+    } else if (document.kind != Document::Kind::none) {
+        tour.has_run = true;
+        record_stages(context);
+    }
+}
+
+Eigen::AlignedBox3d box_of(UiContext& context, NodeId node) {
+    Eigen::AlignedBox3d box;
+    if (const auto surface = context.session.fetched().surface(node))
+        for (const Vec3& p : surface->vertices) box.extend(p);
+    return box.isEmpty() ? context.session.document().box : box;
+}
+
+void show_stop(UiContext& context, const Tour& tour, Stage stage, const Rectangle& scene) {
+    const TourView view =
+        view_of_stop(context.session.document(), tour.node, stage, box_of(context, tour.node), context.state);
+    const Rectangle body = body_area(view.state, scene);
+    const float height = std::max(body.height, 1.f);
+    Camera camera;
+    look_from(camera, view.back);
+    fit(camera, view.box, static_cast<double>(body.width / height));
+    camera.height *= static_cast<double>(scene.height / height);
+    context.state = view.state;
+    context.actions.camera.take_camera(camera);
+}
+
+std::size_t current_stop(const UiContext& context, const std::vector<Step>& stops) {
+    return nearest_step(stops, context.state.step);
+}
+
+}  // namespace
+
+void begin_tour(UiContext& context, Dialogs& dialogs) {
+    dialogs.tour = {.awaited = true};
+    context.state.panels.timeline = true;
+}
+
+void end_tour(UiContext& context, Dialogs& dialogs) {
+    const ViewState now = std::exchange(context.state, *dialogs.tour.before);
+    context.state.theme = now.theme;
+    context.state.panels = now.panels;
+    dialogs.tour = {};
+}
+
+void go_on_tour(UiContext& context, Dialogs& dialogs, int count) {
+    const std::vector<Step> stops = stops_of_tour(context.session.document(), dialogs.tour.node);
+    const int wanted = static_cast<int>(current_stop(context, stops)) + count;
+    if (wanted >= 0 && wanted < static_cast<int>(stops.size()))
+        dialogs.tour.go_to = stops[static_cast<std::size_t>(wanted)].stage;
+}
+
+void follow_tour(UiContext& context, Dialogs& dialogs, const Rectangle& scene) {
+    Tour& tour = dialogs.tour;
+    if (tour.awaited) await_cut(context, tour);
+    if (tour.node == 0) return;
+    const bool is_left = !tour.go_to && context.state.node != tour.node;
+    if (is_left || node_of_tour(context.session.document(), tour.node) != tour.node)
+        tour = {};
+    else if (tour.go_to)
+        show_stop(context, tour, *std::exchange(tour.go_to, std::nullopt), scene);
+}
+
+void draw_tour(UiContext& context, Dialogs& dialogs) {
+    const NodeId node = dialogs.tour.node;
+    const Palette& colors = palette(context.state.theme);
+    const std::vector<Step> stops = stops_of_tour(context.session.document(), node);
+    const std::size_t current = current_stop(context, stops);
+    Widgets& widgets = context.widgets;
+    ImGui::BeginDisabled(current == 0);
+    if (widgets.button("Back")) go_on_tour(context, dialogs, -1);
+    ImGui::EndDisabled();
+    ImGui::SameLine(0, 0.4f * em());
+    ImGui::BeginDisabled(current + 1 >= stops.size());
+    if (widgets.button("Next")) go_on_tour(context, dialogs, 1);
+    ImGui::EndDisabled();
+    ImGui::SameLine(0, 0.4f * em());
+    const bool ends = widgets.button("End");
+    ImGui::SameLine(0, em());
+    ImGui::AlignTextToFramePadding();
+    show(fmt::format("{} of {}: {}", current + 1, stops.size(), title(stops[current].stage)), colors.accent);
+    show_wrapped(tell(context.session.document(), node, stops[current].stage), colors.text);
+    if (ends) end_tour(context, dialogs);
+}
+
+}  // namespace kerf::view
