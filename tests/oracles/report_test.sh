@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# A browser shows the page of kerf report, without a network: report_test.sh KERF EXPORT_CASES PYTHON ASSETS
+set -euo pipefail
+
+kerf=$1 python=$3 assets=$4
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$kerf" mesh "$assets/bearing_cap_52k.stl" -o "$folder/run" -n 8 -q
+"$kerf" report "$folder/run" -o "$folder/report.html" -q
+"$python" "$(dirname "$0")/open_report.py" "$folder/run" "$folder/report.html" "$folder"
