@@ -40,7 +40,7 @@ void PartLayers::mark_inside(std::size_t part_count) {
                           });
     if (!is_whole || state.node != 1 || state.explode > 0 || context_.side) return;
     for (Layer& layer : layers) {
-        const auto surface = context_.session.part_surface(layer.owner);
+        const auto surface = context_.session.fetched().part_surface(layer.owner);
         if (!surface) continue;
         Range& outer = layer.ranges.front();
         Range inner = outer;
