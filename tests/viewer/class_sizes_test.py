@@ -18,7 +18,9 @@ namespace a {
 struct Small { int x = f(1), y{2}; int get() const { return x; } };
 class Large : public Base<int (*)(int)> {  // has ten
  public:
-    explicit Large(int x) : x_{x}, y_(x) { if (x) reset(); }
+    explicit Large(int x)
+        : x_{x},
+          y_(x) { if (x) reset(); }
     ~Large();
     Large& operator=(const Large&) = delete;
     bool operator()(int) const { return "}{"[0] == '{'; }
@@ -102,7 +104,8 @@ def functions_of(words, type_name):
     before = None
     while before != words:  # arguments
         before, words = words, re.sub(r"\([^()]*\)", "!", words)
-    names = [re.search(r"(~?\w+)\s*!", part.split("=")[0]) for part in re.sub(r"\s+:\s.*", "", words).split(",")]
+    words = re.sub(r"\s+:\s.*", "", words, flags=re.S)  # what a constructor initialises
+    names = [re.search(r"(~?\w+)\s*!", part.split("=")[0]) for part in words.split(",")]
     return [name[1] for name in names if name and name[1].lstrip("~") != type_name]
 
 
