@@ -4,6 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "viewer/render/image.h"
 
@@ -45,7 +47,7 @@ std::vector<Example> read_examples(const std::string& folder, Renderer& renderer
     std::sort(examples.begin(), examples.end(), [](const Example& a, const Example& b) { return a.name < b.name; });
     for (Example& example : examples) {
         const std::string stem = std::filesystem::path(example.path).stem().string();
-        example.picture = picture_of(folder + "/gallery/surfaces/" + stem + ".png", renderer);
+        example.picture = picture_of(fmt::format("{}/gallery/surfaces/{}.png", folder, stem), renderer);
     }
     return examples;
 }

@@ -100,12 +100,12 @@ void draw_tour(UiContext& context, Dialogs& dialogs) {
     if (widgets.button("Next")) go_on_tour(context, dialogs, 1);
     ImGui::EndDisabled();
     ImGui::SameLine(0, 0.4f * em());
-    const bool ends = widgets.button("End");
+    const bool is_over = widgets.button("End");
     ImGui::SameLine(0, em());
     ImGui::AlignTextToFramePadding();
     show(fmt::format("{} of {}: {}", current + 1, stops.size(), title(stops[current].stage)), colors.accent);
     show_wrapped(tell(context.session.document(), node, stops[current].stage), colors.text);
-    if (ends) end_tour(context, dialogs);
+    if (is_over) end_tour(context, dialogs);
 }
 
 }  // namespace kerf::view
