@@ -1,7 +1,8 @@
 # embed_files(<file>.cpp <folder> <name>...): files of a folder as constants of C++, each named like its file with _ for
 # other characters. Written while CMake configures, so that whoever reads the sources without a build finds it.
 function(embed_files output folder)
-  set(source "#include \"html/page_files.h\"\n\nnamespace kerf::page_files {\n")
+  string(CONCAT source "// Longer texts than the standard promises, but all compilers of ours take them.\n"
+    "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#include \"html/page_files.h\"\n\nnamespace kerf::page_files {\n")
   foreach(file ${ARGN})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${file})
     file(READ ${folder}/${file} content)
