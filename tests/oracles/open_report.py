@@ -1,5 +1,5 @@
-"""Opens the page of kerf report in Chromium without a window and a network, and looks at what it draws: turned, clipped,
-moved apart, coarser, with a part picked.
+"""Opens the page of kerf report in Chromium without a window and a network, and looks at what it draws: turned,
+clipped, moved apart, coarser, with a part picked.
 
 usage: python3 open_report.py RUN PAGE.html FOLDER
 
