@@ -99,7 +99,7 @@ void time_first_picture() {
     for (int i = 0; i < 5; ++i) {
         const Stopwatch stopwatch;
         Driver driver;
-        driver.app().open(asset_path("bearing_cap_52k"));
+        driver.app().open_files({asset_path("bearing_cap_52k")});
         while (driver.drawn(LayerKind::surface).triangles == 0) {
             driver.app().wait(0.01);
             driver.frame();
