@@ -1,4 +1,5 @@
 // kerf report: a finished run as one page that can be sent by mail.
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -29,6 +30,14 @@ void refuse_inside(const ReportRequest& request) {
                                            request.output, request.folder));
 }
 
+// What lies there is replaced: a surface that was meant to be read must not be.
+void require_page(const std::string& output) {
+    const std::string suffix = std::filesystem::path(output).extension().string();
+    if (suffix == ".html" || suffix == ".htm") return;
+    throw Error(ErrorCode::usage,
+                fmt::format("--output {}: the page is a file of HTML. Name it {}.html.", output, output));
+}
+
 std::string summary(const ReportPage& page, const std::string& output) {
     const std::string coarser =
         page.triangles == page.triangles_of_run
@@ -39,6 +48,7 @@ std::string summary(const ReportPage& page, const std::string& output) {
 }
 
 int write_report(const ReportRequest& request) {
+    require_page(request.output);
     refuse_inside(request);
     require_writable("--output", request.output);
     const ReportPage page = report_page(request.folder);
