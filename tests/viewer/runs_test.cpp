@@ -315,6 +315,22 @@ TEST(Runs, TheThemeOfOneStartIsNotThatOfTheNext) {
     EXPECT_EQ(Driver(options).state().theme, Theme::light);
 }
 
+// A picture that is asked for before what it is to show is there waits for it.
+TEST(Runs, APictureAskedForAtOnceIsThatOfLater) {
+    const TemporaryFolder folder;
+    Driver::Options options;
+    options.screenshot_folder = folder.file("");
+    Driver driver(options);
+    driver.open(asset_path("bearing_cap_52k"));
+    driver.state().step = {Stage::tetrahedra, -1};
+    driver.app().press({.key = key_f12});
+    driver.frame();
+    driver.settle();
+    driver.key(key_f12);
+    driver.settle();
+    EXPECT_TRUE(bytes_of_file(folder.file("kerf-001.png")) == bytes_of_file(folder.file("kerf-002.png")));
+}
+
 // The JSON beside a picture says of what and how large it was, so that the command needs nothing else.
 TEST(Runs, AViewKnowsWhatItWasMadeOf) {
     const TemporaryFolder folder;

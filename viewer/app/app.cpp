@@ -129,7 +129,8 @@ void App::frame(const FrameSize& size, bool panels) {
     desk_.clear_notice();
     if (desk_.wants_picture()) {
         lay_out(false);
-        desk_.save_picture(picture());
+        // What a run has not made yet is not waited for, as it may take long.
+        if (!view_.built.pending || !view_.session.pending()) desk_.save_picture(picture());
         wake();
     }
     lay_out(panels);
