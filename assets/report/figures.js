@@ -68,7 +68,7 @@ function showHead() {
     byId('verdict').textContent = laws.passed ? '✓ verified: every law holds' : '✗ not verified';
     byId('verdict').className = laws.passed ? 'good' : 'bad';
     const angle = report.quality?.all?.min_dihedral_deg;
-    const tiles = [[whole(surface.parts.length), 'parts']];
+    const tiles = [[whole(surface.parts.length), surface.parts.length === 1 ? 'part' : 'parts']];
     if (isMeshed)
         tiles.push(
             [whole(totals.tets), 'tetrahedra'], [whole(totals.vertices), 'vertices'],

@@ -67,6 +67,17 @@ PageJson chosen(const PageJson& from, const std::array<const char*, count>& name
     return to;
 }
 
+// Folders are nobody's business.
+std::string file_name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+void cut_folders(PageJson& report) {
+    PageJson &input = report.at("input").at("path"), &options = report.at("options");
+    input = file_name_of(input);
+    for (const char* name : {"size-field", "report", "events", "trace"})
+        options.at(name) = file_name_of(options.at(name));
+    for (PageJson& file : options.at("with")) file = file_name_of(file);
+}
+
 // What the page has no use for would be most of a large run's report.
 PageJson shortened(PageJson report) {
     constexpr std::array of_node = {"id", "leaves", "faces", "volume", "cut"};
@@ -75,10 +86,17 @@ PageJson shortened(PageJson report) {
         "neighbours", "mesher", "way",  "attempts", "seconds", "peak_rss_bytes"};
     for (PageJson& node : report.at("tree")) node = chosen(node, of_node);
     for (PageJson& part : report.at("parts")) part = chosen(part, of_part);
-    std::string input = report.at("input").at("path");
-    report["input"]["path"] = input.substr(input.find_last_of('/') + 1);  // whose folders are nobody's business
+    cut_folders(report);
     for (const char* name : {"files", "report_hash"}) report.erase(name);
     return report;
+}
+
+std::string title_of(const PageJson& report) {
+    const std::string first = report.at("input").at("path");
+    const PageJson& others = report.at("options").at("with");
+    if (others.empty()) return first;
+    if (others.size() == 1) return fmt::format("{} and {}", first, others[0].get<std::string>());
+    return fmt::format("{} and {} more", first, others.size());
 }
 
 Box box_of_run(const PageJson& report, const std::string& folder) {
@@ -177,7 +195,7 @@ ReportPage report_page(const std::string& folder, std::int64_t limit) {
         require_parts(report, folder);
         const ReadSurface read = read_surfaces(report, folder, limit);
         report = shortened(std::move(report));
-        const std::string title = report.at("input").at("path");
+        const std::string title = title_of(report);
         const PageJson data = {{"report", std::move(report)}, {"surface", json_of(read)}};
         return {filled(page_files::page_html, {{"title", as_text(title)},
                                                {"style", std::string(page_files::page_css)},

@@ -233,6 +233,26 @@ TEST_F(ReportPageOfRun, HasTheCountsOfItsReport) {
     }
 }
 
+// Of each region and file its name, and of no file where it lay.
+TEST_F(ReportPageOfRun, NamesRegionsAndFilesButNoFolders) {
+    const std::string other = path("here/cement.stl");
+    std::filesystem::create_directory(path("here"));
+    std::filesystem::copy_file(test::asset_path("cement"), other);
+    const ChildResult run = test::run_kerf({"mesh", test::asset_path("bone"), other, "-o", path("regions"), "-n", "2",
+                                            "--order", "2", "--report", path("again.json"), "-q"});
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+    const std::string html = report_page(path("regions")).html;
+    EXPECT_NE(html.find("<h1 id=\"title\">bone.stl and cement.stl</h1>"), std::string::npos);
+    const Json data = data_of(html);
+    EXPECT_EQ(data["report"]["options"]["with"], Json({"cement.stl"}));
+    EXPECT_EQ(data["surface"]["regions"], Json({"bone", "cement"}));
+    std::set<int> regions;
+    for (const Json& part : data["surface"]["parts"]) regions.insert(part["region"].get<int>());
+    EXPECT_EQ(regions, (std::set<int>{0, 1}));
+    EXPECT_EQ(html.find(path("")), std::string::npos);
+    EXPECT_EQ(html.find(test::asset_path("bone")), std::string::npos);
+}
+
 TEST_F(ReportPageOfRun, SaysThatASurfaceIsCoarser) {
     const ReportPage page = report_page(path("mesh"), 1000);
     EXPECT_LE(page.triangles, 1000);
