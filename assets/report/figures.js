@@ -4,7 +4,7 @@
 
 const {report, surface} = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
-const totals = report.totals, isMeshed = totals.tets > 0;
+const totals = report.totals, isMeshed = totals.tets > 0, failed = report.parts.filter((part) => part.error);
 
 function make(tag, attributes = {}, ...children) {
     const element = /^(svg|g|rect|path|line|circle|text|title)$/.test(tag) ?
@@ -55,6 +55,14 @@ const colourings = {
                                            1)
     },
 };
+if (failed.length > 0) {
+    const numbers = new Set(failed.map((part) => part.id));
+    colourings.outcome = {
+        name: 'meshed or not',
+        keys: ['meshed', 'failed'],
+        of: (part) => numbers.has(part.id) ? 1 : 0
+    };
+}
 if (surface.patches.length < 2) delete colourings.patch;
 if (surface.regions.length < 2) delete colourings.region;
 
@@ -65,7 +73,8 @@ function showHead() {
         isMeshed ? `${whole(totals.tets)} tetrahedra` : 'surfaces of the parts, not meshed',
         `meshed by Kerf ${report.kerf}`.replace('meshed', isMeshed ? 'meshed' : 'divided')
     ].join(' · ');
-    byId('verdict').textContent = laws.passed ? '✓ verified: every law holds' : '✗ not verified';
+    const fault = failed.length ? `${failed.length} of ${counted(report.parts.length, 'part')} failed` : 'not verified';
+    byId('verdict').textContent = laws.passed ? '✓ verified: every law holds' : `✗ ${fault}`;
     byId('verdict').className = laws.passed ? 'good' : 'bad';
     const angle = report.quality?.all?.min_dihedral_deg;
     const tiles = [[whole(surface.parts.length), surface.parts.length === 1 ? 'part' : 'parts']];
@@ -245,6 +254,7 @@ function table(rows, columns, onRow) {
     return make('table', {}, make('thead', {}, head), body);
 }
 
+const volumeOf = (part) => part.volume || part.surface_volume;  // of one that has no mesh, its surface's
 const text = (value) => `${value ?? ''}`;
 
 function showParts(choose) {
@@ -255,13 +265,14 @@ function showParts(choose) {
             ['Region', (part) => surface.regions[surface.parts[numberOfPart.get(part.id)].region], text, true]);
     if (isMeshed) columns.push(['Tetrahedra', 'tets', whole], ['Vertices', 'vertices', whole]);
     columns.push(
-        ['Volume', (part) => part.volume || part.surface_volume, (v) => digits(v, 5)],
+        ['Volume', volumeOf, (v) => digits(v, 5)],
         ['Boundary triangles', 'surface_faces', whole], ['Interface area', 'interface_area', (v) => digits(v)],
         ['Neighbours', (part) => part.neighbours.length, (_, part) => part.neighbours.join(', '), true]);
     if (isMeshed)
         columns.push(
             ['Mesher', 'mesher', text, true], ['Attempts', 'attempts', whole], ['Time', 'seconds', seconds],
             ['Memory', 'peak_rss_bytes', megabytes]);
+    if (failed.length) columns.push(['Failed', (part) => part.error ?? '', text, true]);
     byId('part-table').append(table(report.parts, columns, (part) => choose({part: part.id, branch: 0})));
 }
 

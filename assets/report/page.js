@@ -1,7 +1,7 @@
 // What the controls of the page of kerf report do. A view can be sent as a link, since the address says it:
 //   turn=35,25  azimuth and tilt in degrees   zoom=1  pan=0,0  explode=0..1
 //   clip=x,0.5  what is below that share of the box along x is left; -x: above
-//   colour=part|patch|region|sides   hide=outer,interfaces,contours   show=edges,cuts
+//   colour=part|patch|region|sides|outcome   hide=outer,interfaces,contours   show=edges,cuts
 //   part=8 or branch=4  what is chosen   only=1  the rest is hidden   pick=400,300  choose by a place of the picture
 //   check=1  for tests: the body's data says the triangles drawn, the share of pixels covered, and a digest of them
 'use strict';
@@ -13,7 +13,7 @@ const initial = {
     explode: 0,
     axis: '',
     clip: 0.5,
-    colour: 'part',
+    colour: colourings.outcome ? 'outcome' : 'part',  // where it failed is what one looks for
     outer: true,
     interfaces: true,
     contours: true,
@@ -226,18 +226,19 @@ class Page {
         const parts = report.parts.filter((part) => chosen.has(part.id)), box = byId('picked');
         if (parts.length === 0)
             return box.replaceChildren('Nothing is chosen: click a part here, in the tree or in the table.');
-        const sum = (key) => parts.reduce((total, part) => total + part[key], 0), one = parts.length === 1 && parts[0];
-        const rows = [['volume', digits(sum(isMeshed ? 'volume' : 'surface_volume'), 5)]];
-        if (isMeshed) rows.unshift(['tetrahedra', whole(sum('tets'))]);
+        const sum = (of) => parts.reduce((total, part) => total + of(part), 0), one = parts.length === 1 && parts[0];
+        const rows = [['volume', digits(sum(volumeOf), 5)]];
+        if (isMeshed) rows.unshift(['tetrahedra', whole(sum((part) => part.tets))]);
         if (one)
             rows.push(
                 ['interface area', digits(one.interface_area)], ['neighbours', one.neighbours.join(', ') || 'none']);
         if (one && isMeshed) rows.push(['mesher', one.mesher], ['time', seconds(one.seconds)]);
+        if (one && one.error) rows.push(['failed', one.error]);
         const only = make('input', {type: 'checkbox', id: 'only'});
         only.checked = this.state.only;
         only.addEventListener('change', () => this.change({only: only.checked}));
         box.replaceChildren(
-            make('b', {}, one ? `Part ${one.id}` : `Node ${this.state.branch}: ${parts.length} parts`),
+            make('b', {}, one ? `Part ${one.id}` : `Node ${this.state.branch}: ${counted(parts.length, 'part')}`),
             make('dl', {}, ...rows.flatMap(([name, value]) => [make('dt', {}, name), make('dd', {}, value)])),
             make('label', {}, only, ' nothing else'));
         const row = one && document.querySelector(`#part-table tr[data-row="${one.id}"]`), list = byId('part-table');

@@ -29,19 +29,6 @@ namespace {
 namespace fs = std::filesystem;
 using PageJson = nlohmann::ordered_json;
 
-// Parts that a page shows have their surface in the folder; those that failed do not.
-void require_parts(const PageJson& report, const std::string& folder) {
-    if (report.at("exit_code") != static_cast<int>(ErrorCode::subdomain)) return;
-    std::string failed;
-    for (const PageJson& part : report.at("parts"))
-        if (part.at("tets") == 0)
-            failed += fmt::format("{}{}", failed.empty() ? "" : ", ", part.at("id").get<NodeId>());
-    throw Error(ErrorCode::io,
-                fmt::format("{} is a run with parts that could not be meshed: {}. The files in {}/failed say why; kerf "
-                            "mesh --resume {} tries them again.",
-                            folder, failed, folder, folder));
-}
-
 PageJson read_sealed_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
     std::error_code ignored;
@@ -83,7 +70,7 @@ PageJson shortened(PageJson report) {
     constexpr std::array of_node = {"id", "leaves", "faces", "volume", "cut"};
     constexpr std::array of_part = {
         "id",         "rank",   "tets", "vertices", "volume",  "surface_volume", "surface_faces", "interface_area",
-        "neighbours", "mesher", "way",  "attempts", "seconds", "peak_rss_bytes"};
+        "neighbours", "mesher", "way",  "attempts", "seconds", "peak_rss_bytes", "error"};
     for (PageJson& node : report.at("tree")) node = chosen(node, of_node);
     for (PageJson& part : report.at("parts")) part = chosen(part, of_part);
     cut_folders(report);
@@ -192,7 +179,6 @@ std::string filled(std::string_view page, const Blanks& blanks) {
 ReportPage report_page(const std::string& folder, std::int64_t limit) {
     try {
         PageJson report = read_sealed_report(folder);
-        require_parts(report, folder);
         const ReadSurface read = read_surfaces(report, folder, limit);
         report = shortened(std::move(report));
         const std::string title = title_of(report);

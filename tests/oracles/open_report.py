@@ -1,9 +1,10 @@
 """Opens the page of kerf report in Chromium without a window and a network, and looks at what it draws: turned,
 clipped, moved apart, coarser, with a part picked.
 
-usage: python3 open_report.py RUN PAGE.html FOLDER
+usage: python3 open_report.py RUN PAGE.html FAILED.html FOLDER
 
-Writes files into FOLDER. Prints how many laws held; the exit code is 1 if one did not.
+FAILED.html is the page of a run with parts that could not be meshed. Writes files into FOLDER. Prints how many laws
+held; the exit code is 1 if one did not.
 """
 
 import html.parser
@@ -46,7 +47,7 @@ class Dom(html.parser.HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.body, self.tags, self.rows = {}, [], []
+        self.body, self.tags, self.rows, self.verdict = {}, [], [], ""
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -54,6 +55,8 @@ class Dom(html.parser.HTMLParser):
         self.tags.append(tag)
         if tag == "body":
             self.body = {name[5:]: value for name, value in attributes.items() if name.startswith("data-")}
+        if attributes.get("id") == "verdict":
+            self.verdict = attributes.get("class")
         if tag == "tr" and "data-row" in attributes:
             self.rows.append((int(attributes["data-row"]), "chosen" in (attributes.get("class") or "")))
 
@@ -67,7 +70,7 @@ class Browser:
         command = [*self.prefix, *BROWSER, f"--user-data-dir={self.folder / 'profile'}",
                    f"{self.page.resolve().as_uri()}#check=1&{view}"]
         done = subprocess.run(command, capture_output=True, text=True, timeout=60)
-        faults = [line for line in done.stderr.splitlines() if "CONSOLE" in line and "report.html" in line
+        faults = [line for line in done.stderr.splitlines() if "CONSOLE" in line and self.page.name in line
                   and "GL Driver Message" not in line]  # which tell of the speed of a driver
         require(not faults, f"no script of the page fails at {view}: {faults}")
         dom = Dom(done.stdout)
@@ -95,6 +98,7 @@ def check_views(browser, report):
     require(int(first.body["drawn"]) == sum(part["surface_faces"] for part in report["parts"]), "all of it is drawn")
     require(0.02 < float(first.body["covered"]) < 0.9, "the picture has the mesh and some background")
     require([row for row, _ in first.rows if row in parts][:len(parts)] == parts, "the table has a row for each part")
+    require(first.verdict == "good", "a run that is verified is praised")
     require(first.tags.count("svg") > 8, "there are histograms and a tree")
     views = {"turned": "turn=120,-20", "clipped": "clip=x,0.4", "apart": "explode=0.5", "with edges": "show=edges",
              "with planes": "show=cuts", "by kind": "colour=sides", "interfaces alone": "hide=outer"}
@@ -126,14 +130,22 @@ def check_picks(browser, report):
     require(len(seen) > 1, f"other places have other parts: {seen}")
 
 
-def main(run, page, folder):
-    page, folder = pathlib.Path(page), pathlib.Path(folder)
+def check_failed(browser):
+    first = browser.open("")
+    require(first.verdict == "bad", "a run with failed parts is not praised")
+    require(int(first.body["drawn"]) > 0, "the surfaces of failed parts are drawn")
+    require(first.body["digest"] != browser.open("colour=part").body["digest"], "their colour says that they failed")
+
+
+def main(run, page, failed, folder):
+    page, failed, folder = pathlib.Path(page), pathlib.Path(failed), pathlib.Path(folder)
     report = json.loads((pathlib.Path(run) / "report.json").read_text())
     try:
         check_file(page, report)
         browser = Browser(page, folder)
         check_views(browser, report)
         check_picks(browser, report)
+        check_failed(Browser(failed, folder))
     except Broken as broken:
         print(f"does not hold: {broken}", file=sys.stderr)
         return 1

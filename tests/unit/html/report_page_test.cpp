@@ -253,6 +253,19 @@ TEST_F(ReportPageOfRun, NamesRegionsAndFilesButNoFolders) {
     EXPECT_EQ(html.find(test::asset_path("bone")), std::string::npos);
 }
 
+TEST_F(ReportPageOfRun, ShowsPartsThatFailedAndWhy) {
+    const ChildResult run = test::run_kerf({"mesh", test::asset_path("cube"), "-o", path("failed"), "-n", "2",
+                                            "--max-volume", "2e-7", "--timeout", "0.3", "--attempts", "1", "-q"});
+    ASSERT_EQ(run.exit_code, 4) << run.log;
+    const ReportPage page = report_page(path("failed"));
+    EXPECT_EQ(page.parts, 2);
+    const Json data = data_of(page.html);
+    std::string errors;
+    for (const Json& part : data["report"]["parts"]) errors += part.value("error", "");
+    EXPECT_NE(errors.find("ran longer than its 0.3 s"), std::string::npos) << errors;
+    for (const Json& part : data["surface"]["parts"]) EXPECT_GT(part["triangles"], 0);
+}
+
 TEST_F(ReportPageOfRun, SaysThatASurfaceIsCoarser) {
     const ReportPage page = report_page(path("mesh"), 1000);
     EXPECT_LE(page.triangles, 1000);
