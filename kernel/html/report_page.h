@@ -16,11 +16,12 @@ struct ReportPage {
     std::int64_t triangles = 0, triangles_of_run = 0;  ///< boundary triangles of all parts, in the page and in the run
 };
 
-/// The page of a run of kerf mesh or kerf decompose that has ended, even if parts of it could not be meshed: the figures
-/// of its report, and the surfaces of its parts, with 16 bits a coordinate and at most `limit` > 0 triangles
+/// The page of a run of kerf mesh or kerf decompose that has ended, even if parts of it could not be meshed: the
+/// figures of its report, and the surfaces of its parts, with 16 bits a coordinate and at most `limit` > 0 triangles
 /// (html/page_surface.h). It needs no other file and no network. The bytes depend on the folder alone.
 ///
-/// Throws Error(io), with the way out, for what is no such run, and where the report is not as Kerf has written it. Memory: the page, and a part at a time.
+/// Throws Error(io), with the way out, for what is no such run, and where the report is not as Kerf has written it.
+/// Memory: the page, and a part at a time.
 ReportPage report_page(const std::string& folder, std::int64_t limit = most_page_triangles);
 
 }  // namespace kerf

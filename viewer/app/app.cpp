@@ -134,6 +134,7 @@ void App::frame(const FrameSize& size, bool panels) {
         wake();
     }
     lay_out(panels);
+    if (panels) navigation_.remember();
     // What was asked for is mostly there at once: better than a picture without it.
     if (view_.built.pending) wait(0.04);
 }

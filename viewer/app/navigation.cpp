@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <imgui.h>
+
 #include "viewer/app/keys.h"
 #include "viewer/scene/selection.h"
 
@@ -110,6 +112,18 @@ void Navigation::project_scene() {
     view_.projection.y = view_.size.height - static_cast<int>(view_.area.y + view_.area.height);
     view_.projection.pixel_ratio = view_.size.scale;
     view_.renderer.resize(view_.size.width, view_.size.height);
+}
+
+void Navigation::remember() {
+    const Document& document = view_.session.document();
+    if (!ImGui::IsAnyMouseDown() && !view_.facts.playing)
+        view_.history.note(view_.state, document.kind == Document::Kind::none ? "" : document.path, ImGui::GetTime());
+    view_.facts.has_earlier = view_.history.has_earlier();
+    view_.facts.has_later = view_.history.has_later();
+}
+
+void Navigation::show_again(const std::optional<ViewState>& view) {
+    if (view) view_.state = *view;
 }
 
 // Into what the legend leaves of the scene.

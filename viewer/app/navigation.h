@@ -17,6 +17,8 @@ class Navigation : public CameraActions {
     void turn_to_selection() override { turning_to_ = view_.state.selection; }
     void clip_through_selection(bool faces_eye) override;
     void take_camera(const Camera& camera) override { view_.state.camera = view_.camera = camera; }
+    void show_earlier() override { show_again(view_.history.go_back(view_.state)); }
+    void show_later() override { show_again(view_.history.go_on(view_.state)); }
 
     /// Towards what is seen under the cursor, and not through it.
     void zoom(float x, float y, float notches);
@@ -25,9 +27,12 @@ class Navigation : public CameraActions {
     void resolve_turn();  ///< once the cells have arrived
     /// The camera and its projection, of the scene as it was built.
     void project_scene();
+    /// The view, once nothing moves it, to come back to.
+    void remember();
 
  private:
     void update_camera();
+    void show_again(const std::optional<ViewState>& view);
     void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
     Vec3 seen_point(const PickHit& hit) const;
 

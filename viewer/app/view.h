@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viewer/model/session.h"
+#include "viewer/model/view_history.h"
 #include "viewer/panels/panels.h"
 #include "viewer/render/frame_size.h"
 #include "viewer/render/renderer.h"
@@ -44,6 +45,7 @@ struct View {
     Session session;
     bool session_changed = true;  ///< since the scene was built
     ViewState state;
+    ViewHistory history;
     ChosenView chosen;
     std::vector<Step> steps;        ///< of the node
     std::optional<Hit> unresolved;  ///< a click whose cells are being read

@@ -78,6 +78,8 @@ void change_projection(UiContext& context, Dialogs& /*dialogs*/) {
     camera.perspective = !camera.perspective;
     context.actions.camera.take_camera(camera);
 }
+bool has_earlier(const UiContext& context) { return context.facts.has_earlier; }
+bool has_later(const UiContext& context) { return context.facts.has_later; }
 bool is_perspective(const UiContext& context) { return context.camera.perspective; }
 
 void copy_camera(UiContext& context, Dialogs& /*dialogs*/) { context.actions.window.copy(to_json(context.camera)); }
@@ -230,6 +232,19 @@ const std::vector<Command> all_commands = {
      .menu = "View",
      .run = change_projection,
      .is_on = is_perspective,
+     .ends_section = true},
+    {.name = "Earlier view",
+     .keys = "U",
+     .heading = looking,
+     .menu = "View",
+     .run = act_by_camera<&CameraActions::show_earlier>,
+     .is_enabled = has_earlier},
+    {.name = "Later view",
+     .keys = "Shift+U",
+     .heading = looking,
+     .menu = "View",
+     .run = act_by_camera<&CameraActions::show_later>,
+     .is_enabled = has_later,
      .ends_section = true},
     {.name = "Copy camera", .keys = "", .heading = looking, .menu = "View", .run = copy_camera},
     {.name = "Paste camera", .keys = "", .heading = looking, .menu = "View", .run = paste_camera},

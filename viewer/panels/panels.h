@@ -36,6 +36,9 @@ class CameraActions {
     virtual void clip_through_selection(bool faces_eye) = 0;
     /// Looks through it from now on, in this frame, too.
     virtual void take_camera(const Camera& camera) = 0;
+    /// To the view before, and back to the one after (ViewHistory).
+    virtual void show_earlier() = 0;
+    virtual void show_later() = 0;
 };
 
 class PlayActions {
@@ -103,20 +106,21 @@ struct ValueLabel {
 
 /// What the scene knows that panels show.
 struct SceneFacts {
-    std::string legend_title;               ///< empty: the legend explains what is there, not a colouring
-    std::optional<ValueRange> values;       ///< of what is shown, by ViewState::color
-    std::optional<ValueRange> extremes;     ///< Legend::extremes
-    std::vector<PlacedValue> marked;        ///< Legend::marked
-    double percentile = 100;                ///< Legend::percentile
-    std::vector<LegendEntry> categories;    ///< what else a legend explains: "part 8"
-    std::vector<Color> scale;               ///< colours from low to high, of a legend with numbers
-    std::string selection;                  ///< what is selected, as lines of text; empty: nothing
-    std::int64_t triangles = 0, lines = 0;  ///< drawn
-    std::string notice;                     ///< e.g. "saved as kerf-001.png"; shown for some seconds
-    bool notice_is_error = false;           ///< then until the next click
-    std::vector<FaceNumber> numbers;        ///< of patches, to be drawn on them
-    std::vector<ValueLabel> labels;         ///< values of isolines, the least and the largest value
-    std::optional<ValueLabel> probe;        ///< the value under the mouse
+    std::string legend_title;                     ///< empty: the legend explains what is there, not a colouring
+    std::optional<ValueRange> values;             ///< of what is shown, by ViewState::color
+    std::optional<ValueRange> extremes;           ///< Legend::extremes
+    std::vector<PlacedValue> marked;              ///< Legend::marked
+    double percentile = 100;                      ///< Legend::percentile
+    std::vector<LegendEntry> categories;          ///< what else a legend explains: "part 8"
+    std::vector<Color> scale;                     ///< colours from low to high, of a legend with numbers
+    std::string selection;                        ///< what is selected, as lines of text; empty: nothing
+    std::int64_t triangles = 0, lines = 0;        ///< drawn
+    std::string notice;                           ///< e.g. "saved as kerf-001.png"; shown for some seconds
+    bool notice_is_error = false;                 ///< then until the next click
+    std::vector<FaceNumber> numbers;              ///< of patches, to be drawn on them
+    std::vector<ValueLabel> labels;               ///< values of isolines, the least and the largest value
+    std::optional<ValueLabel> probe;              ///< the value under the mouse
+    bool has_earlier = false, has_later = false;  ///< views
     bool playing = false;
     bool moving = false;   ///< the deformation does
     bool pending = false;  ///< something that is to be shown is still being read
