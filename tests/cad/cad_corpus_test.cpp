@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "prepare/input.h"
+#include "support/places.h"
 
 namespace kerf {
 namespace {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> corpus() {
     const char* named = std::getenv("KERF_CORPUS");
-    const fs::path folder = (named ? fs::path(named) : fs::path(KERF_SOURCE) / "../shared/data") / "cad";
+    const fs::path folder = (named ? fs::path(named) : fs::path(test::source_folder()) / "../shared/data") / "cad";
     std::vector<std::string> paths;
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored))

@@ -15,6 +15,7 @@
 #include "io/file_bytes.h"
 #include "prepare/cad_input.h"
 #include "prepare/input.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -358,7 +359,7 @@ TEST_F(CadFile, FlippedBytesAreReadOrRefused) {
                 damaged[(i * 7919 + k * 104729) % whole.size()] = "0x,'#(9 -\n"[(i + k) % flipped];
             const std::string path = write_text(name, damaged);
             try {
-                const CadBody body = read_cad(path, digest_of(damaged), {}, KERF_CAD_PROGRAM, timeout_seconds);
+                const CadBody body = read_cad(path, digest_of(damaged), {}, test::cad_program(), timeout_seconds);
                 EXPECT_TRUE(check_soup(body.soup).diagnosis.clean());
             } catch (const Error& error) {
                 EXPECT_EQ(error.code(), ErrorCode::input) << error.what();

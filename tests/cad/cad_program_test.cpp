@@ -10,6 +10,7 @@
 #ifdef KERF_MPIRUN
 #include "support/mpirun.h"
 #endif
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -77,8 +78,8 @@ TEST_F(CadProgram, SurfaceIsRemeshedUnlessItIsAskedFor) {
 TEST_F(CadProgram, EveryRankRemeshesTheSame) {
     const auto files_of = [&](int ranks) {
         const std::string out = folder_.file("out");
-        const ChildResult run = test::run_ranks(ranks, {KERF_PROGRAM, "mesh", part(), "-o", out, "-n", "2", "--workers",
-                                                        "1", "--solid", "2", "--cad-deflection", "1e-2"});
+        const ChildResult run = test::run_ranks(ranks, {test::kerf_program(), "mesh", part(), "-o", out, "-n", "2",
+                                                        "--workers", "1", "--solid", "2", "--cad-deflection", "1e-2"});
         EXPECT_EQ(run.exit_code, 0) << run.log;
         return test::result_of_run(out);
     };
@@ -90,20 +91,20 @@ TEST_F(CadProgram, EveryRankRemeshesTheSame) {
 
 TEST_F(CadProgram, AnswersOnStandardOutputAndInAFileAreTheSame) {
     const std::string out = folder_.file("answer");
-    const ChildResult answered = test::run_program(KERF_CAD_PROGRAM, {part(), "--solid", "1"});
+    const ChildResult answered = test::run_program(test::cad_program(), {part(), "--solid", "1"});
     ASSERT_EQ(answered.exit_code, 0) << answered.log;
     const CadAnswer answer = from_cad_bytes(answered.output);
     EXPECT_EQ(answer.body.file_hash, digest_of(read_file(part())));
     EXPECT_EQ(answer.body.soup.facets.size(), 12u);
-    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {part(), "--solid", "1", "--output", out}).exit_code, 0);
+    EXPECT_EQ(test::run_program(test::cad_program(), {part(), "--solid", "1", "--output", out}).exit_code, 0);
     EXPECT_EQ(read_file(out), test::output_of(answered));
 }
 
 TEST_F(CadProgram, RefusalsHaveTheirExitCode) {
-    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {}).exit_code, 2);
-    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {part(), "--sloid", "1"}).exit_code, 2);
-    EXPECT_EQ(test::run_program(KERF_CAD_PROGRAM, {folder_.file("nowhere.step")}).exit_code, 7);
-    const ChildResult overlapping = test::run_program(KERF_CAD_PROGRAM, {part()});
+    EXPECT_EQ(test::run_program(test::cad_program(), {}).exit_code, 2);
+    EXPECT_EQ(test::run_program(test::cad_program(), {part(), "--sloid", "1"}).exit_code, 2);
+    EXPECT_EQ(test::run_program(test::cad_program(), {folder_.file("nowhere.step")}).exit_code, 7);
+    const ChildResult overlapping = test::run_program(test::cad_program(), {part()});
     EXPECT_EQ(overlapping.exit_code, 3);
     EXPECT_EQ(from_cad_bytes(overlapping.output).error_code, 3);
     EXPECT_NE(overlapping.log.find("kerf-cad: "), std::string::npos);

@@ -9,6 +9,7 @@
 #include "io/file_bytes.h"
 #include "quality/measured_mesh.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 #ifdef KERF_MPIRUN
@@ -90,8 +91,8 @@ TEST_F(CurvedCadMesh, IsTheSameForAnyRanks) {
     const auto files_of = [&](int ranks, const char* workers) {
         const std::string out = folder_.file("out");
         const ChildResult run =
-            test::run_ranks(ranks, {KERF_PROGRAM, "mesh", path, "-o", out, "-n", "3", "--workers", workers, "--size",
-                                    "0.5", "--order", "2", "--cad-deflection", "0.003"});
+            test::run_ranks(ranks, {test::kerf_program(), "mesh", path, "-o", out, "-n", "3", "--workers", workers,
+                                    "--size", "0.5", "--order", "2", "--cad-deflection", "0.003"});
         EXPECT_EQ(run.exit_code, 0) << run.log;
         EXPECT_NE(run.log.find("\ncurved "), std::string::npos) << run.log;
         return test::result_of_run(out);

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "prepare/cad_input.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -149,12 +150,12 @@ TEST(Projection, TheProgramDoesWhatTheLibraryDoes) {
     points.ends = {{0, 1}};
     points.place_of_middle = {0};
     const ProjectedPoints here = project_on_cad(content, path, {}, points);
-    const ProjectedPoints there = project_on_cad_file(path, digest_of(content), {}, points, KERF_CAD_PROGRAM);
+    const ProjectedPoints there = project_on_cad_file(path, digest_of(content), {}, points, test::cad_program());
     EXPECT_EQ(here.points, there.points);
     EXPECT_EQ(here.middles, there.middles);
     EXPECT_NEAR(here.points[0].norm(), 1, 1e-12);
     EXPECT_NEAR(here.middles[0].norm(), 1, 1e-12);
-    EXPECT_THROW(project_on_cad_file(path, FileHash{1, 2}, {}, points, KERF_CAD_PROGRAM), Error);
+    EXPECT_THROW(project_on_cad_file(path, FileHash{1, 2}, {}, points, test::cad_program()), Error);
 }
 
 }  // namespace

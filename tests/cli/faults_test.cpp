@@ -15,6 +15,7 @@
 
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/slice.h"
 #include "support/started_run.h"
@@ -45,7 +46,7 @@ void kill_workers(const test::StartedRun& run, int times) {
 TEST(KilledWorker, IsStartedOnceMoreForTheSameBytes) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::run_kerf(four_parts(folder.file("undisturbed"))).exit_code, 0);
-    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    test::StartedRun run(test::kerf_program(), four_parts(folder.file("out")));
     ASSERT_NO_FATAL_FAILURE(kill_workers(run, 1));
     const ChildResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0) << result.log;
@@ -58,7 +59,7 @@ TEST(KilledWorker, IsStartedOnceMoreForTheSameBytes) {
 TEST(KilledWorker, KilledAgainItsPartFailsAndTheOthersAreKept) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::run_kerf(four_parts(folder.file("undisturbed"))).exit_code, 0);
-    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    test::StartedRun run(test::kerf_program(), four_parts(folder.file("out")));
     ASSERT_NO_FATAL_FAILURE(kill_workers(run, 2));
     const ChildResult result = run.wait();
     EXPECT_EQ(result.exit_code, 4) << result.log;
@@ -95,7 +96,7 @@ TEST(KilledWorker, AFailedRunDoesNotReplaceAValidOne) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::run_kerf(four_parts(folder.file("out"))).exit_code, 0);
     const auto before = test::contents_below(folder.file("out"));
-    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    test::StartedRun run(test::kerf_program(), four_parts(folder.file("out")));
     ASSERT_NO_FATAL_FAILURE(kill_workers(run, 2));
     const ChildResult result = run.wait();
     EXPECT_EQ(result.exit_code, 4) << result.log;
@@ -108,7 +109,7 @@ TEST(KilledWorker, AFailedRunDoesNotReplaceAValidOne) {
 
 TEST(MissingWorker, IsSaidBeforeTheWork) {
     const test::TemporaryFolder folder;
-    std::filesystem::copy_file(KERF_PROGRAM, folder.file("kerf"));
+    std::filesystem::copy_file(test::kerf_program(), folder.file("kerf"));
     const ChildResult result =
         test::run_program(folder.file("kerf"), {"mesh", test::asset_path("cube"), "-o", folder.file("out"), "-n", "2"});
     EXPECT_EQ(result.exit_code, 7) << result.log;
@@ -137,7 +138,7 @@ TEST(KilledWorker, WhatTetGenDoesNotEndInTimeIsTheLatticesAndSaid) {
                                         "--timeout",    test::is_sanitized() ? "20" : "3"};
     };
     ASSERT_EQ(test::run_kerf(whole_by("lattice", "lattice")).exit_code, 0);
-    test::StartedRun run(KERF_PROGRAM, whole_by("tetgen", "out"));
+    test::StartedRun run(test::kerf_program(), whole_by("tetgen", "out"));
     const pid_t first = run.stop_worker();
     ASSERT_GT(first, 0);
     ASSERT_TRUE(test::await([&] { return test::has_ended(first); }));
@@ -167,8 +168,9 @@ TEST(MemoryLimit, IsReportedWithItsOwnCode) {
 TEST(Cancelling, EndsACutInTheMiddle) {
     const test::TemporaryFolder folder;
     for (const double seconds : {0.3, 1.2, 2.5}) {
-        test::StartedRun run(KERF_PROGRAM, {"decompose", test::asset_path("hollow_box"), "-o", folder.file("out"), "-n",
-                                            "32", "--size", "0.002", "--surface", "split"});
+        test::StartedRun run(test::kerf_program(),
+                             {"decompose", test::asset_path("hollow_box"), "-o", folder.file("out"), "-n", "32",
+                              "--size", "0.002", "--surface", "split"});
         const auto computed = [&] { return test::seconds_computed(run.process()); };
         ASSERT_TRUE(test::await([&] { return computed() >= seconds; }));
         const double before = computed();
@@ -187,7 +189,7 @@ TEST(Cancelling, EndsACutInTheMiddle) {
 
 TEST(SecondRun, IntoTheSameFolderIsRefused) {
     const test::TemporaryFolder folder;
-    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    test::StartedRun run(test::kerf_program(), four_parts(folder.file("out")));
     const pid_t worker = run.stop_worker();
     ASSERT_GT(worker, 0);
     const ChildResult second = test::run_kerf(four_parts(folder.file("out")));
@@ -202,7 +204,7 @@ TEST(SecondRun, IntoTheSameFolderIsRefused) {
 // The run beside a merged file goes when that is there; what is nobody's but the user's does not.
 TEST(MergedFile, LeavesWhatOthersPutIntoItsRun) {
     const test::TemporaryFolder folder;
-    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out.msh")));
+    test::StartedRun run(test::kerf_program(), four_parts(folder.file("out.msh")));
     const pid_t worker = run.stop_worker();
     ASSERT_GT(worker, 0);
     std::ofstream(folder.file("out.msh.kerf-run.kerf-partial/notes.txt")) << "an hour of work";
@@ -218,7 +220,7 @@ TEST(FullDisk, EndsTheRunAndSpaceLetsItGoOn) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(test::run_kerf(four_parts(folder.file("whole"))).exit_code, 0);
     const auto run_full = [&] {
-        std::string script = "ulimit -f 2000; exec '" KERF_PROGRAM "'";
+        std::string script = "ulimit -f 2000; exec '" + test::kerf_program() + "'";
         for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
         ChildResult full = test::run_program("/bin/sh", {"-c", script});
         EXPECT_EQ(full.exit_code, 7) << full.log;
@@ -228,7 +230,7 @@ TEST(FullDisk, EndsTheRunAndSpaceLetsItGoOn) {
     };
     run_full();
     EXPECT_EQ(folder.names(), std::vector<std::string>{"whole"}) << "nothing was finished";
-    test::StartedRun run(KERF_PROGRAM, four_parts(folder.file("out")));
+    test::StartedRun run(test::kerf_program(), four_parts(folder.file("out")));
     ASSERT_TRUE(test::await([&] { return test::finished_parts(folder.file("out")) >= 2; }));
     ASSERT_GT(run.stop_worker(), 0);
     ASSERT_EQ(::kill(run.process(), SIGTERM), 0);
@@ -249,7 +251,7 @@ TEST(FullDisk, IsNoReasonToMeshAgainWhatIsFinished) {
     for (const int part : {4, 5, 6, 7})
         smallest = std::min(smallest,
                             std::filesystem::file_size(folder.file(fmt::format("whole/parts/part_{:04}.vtu", part))));
-    std::string script = fmt::format("ulimit -f {}; exec '{}'", smallest / 512 * 9 / 10, KERF_PROGRAM);
+    std::string script = fmt::format("ulimit -f {}; exec '{}'", smallest / 512 * 9 / 10, test::kerf_program());
     for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
     const ChildResult full = test::run_program("/bin/sh", {"-c", script});
     EXPECT_EQ(full.exit_code, 7) << full.log;
@@ -269,8 +271,8 @@ TEST(FullDisk, OfAFileSystemOfItsOwn) {
     if (test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "true"}).exit_code != 0)
         GTEST_SKIP() << "no permission to mount a file system; the test above needs none";
     const auto run_in = [&](const std::string& megabytes) {
-        std::string script =
-            "mount -t tmpfs -o size=" + megabytes + "m none '" + folder.file("") + "' && '" KERF_PROGRAM "'";
+        std::string script = "mount -t tmpfs -o size=" + megabytes + "m none '" + folder.file("") + "' && '" +
+                             test::kerf_program() + "'";
         for (const std::string& argument : four_parts(folder.file("out"))) script += " '" + argument + "'";
         script += "; echo \"code=$?\"; ls '" + folder.file("") + "'";
         return test::run_program("/usr/bin/unshare", {"--map-root-user", "--mount", "/bin/sh", "-c", script});
@@ -330,11 +332,11 @@ TEST(EventsFile, TellsOfEveryPartAndTheEnd) {
     EXPECT_EQ(inside.exit_code, 2) << inside.log;
     // A reader that leaves has seen enough.
     const ChildResult left = test::run_program(
-        "/bin/sh", {"-c", "('" KERF_PROGRAM "' mesh '" + test::asset_path("hollow_box") + "' -q -o '" +
+        "/bin/sh", {"-c", "('" + test::kerf_program() + "' mesh '" + test::asset_path("hollow_box") + "' -q -o '" +
                               folder.file("out") + "' --events fd:5; echo code=$? >&2) 5>&1 | head -1"});
     EXPECT_NE(left.log.find("code=0"), std::string::npos) << left.log;
-    const std::string to_descriptor = "'" KERF_PROGRAM "' mesh '" + test::asset_path("hollow_box") + "' -q -o '" +
-                                      folder.file("out") + "' --events fd:5 5>&1";
+    const std::string to_descriptor = "'" + test::kerf_program() + "' mesh '" + test::asset_path("hollow_box") +
+                                      "' -q -o '" + folder.file("out") + "' --events fd:5 5>&1";
     const ChildResult descriptor = test::run_program("/bin/sh", {"-c", to_descriptor});
     EXPECT_EQ(descriptor.exit_code, 0) << descriptor.log;
     EXPECT_NE(test::output_of(descriptor).find("\"event\":\"end\""), std::string::npos);

@@ -12,6 +12,7 @@
 #ifdef KERF_MPIRUN
 #include "support/mpirun.h"
 #endif
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -26,7 +27,7 @@ class Installed : public testing::Test {
     static void SetUpTestSuite() {
         folder_ = std::make_unique<test::TemporaryFolder>();
         const ChildResult installed =
-            test::run_program(KERF_CMAKE, {"--install", KERF_BUILD, "--prefix", file("first place")});
+            test::run_program(KERF_CMAKE, {"--install", test::build_folder(), "--prefix", file("first place")});
         ASSERT_EQ(installed.exit_code, 0) << installed.log;
         fs::rename(file("first place"), file("a copy"));
         fs::create_directory(file("elsewhere"));
@@ -63,9 +64,9 @@ TEST_F(Installed, FindsItsViewerAndShaders) {
 }
 
 TEST_F(Installed, OpensItsWindow) {
-    const ChildResult shown =
-        test::run_program("/usr/bin/env", {"ASAN_OPTIONS=detect_leaks=0", KERF_SOURCE "/tests/install/window_opens.sh",
-                                           file("a copy/bin/kerf"), file("")});
+    const ChildResult shown = test::run_program(
+        "/usr/bin/env", {"ASAN_OPTIONS=detect_leaks=0", test::source_folder() + "/tests/install/window_opens.sh",
+                         file("a copy/bin/kerf"), file("")});
     EXPECT_EQ(shown.exit_code, 0) << shown.log;
 }
 #endif
@@ -115,16 +116,16 @@ TEST_F(Installed, PackageNamesNoPlaceAndNoWarnings) {
     EXPECT_TRUE(files.contains("KerfConfig.cmake"));
     for (const auto& [name, text] : files)
         for (const std::string& word :
-             {std::string(KERF_SOURCE) + "/", std::string(KERF_BUILD) + "/", file(""), std::string("-Werror")})
+             {test::source_folder() + "/", test::build_folder() + "/", file(""), std::string("-Werror")})
             EXPECT_EQ(text.find(word), std::string::npos) << name << " has " << word;
 }
 
 // Builds a program of tests/install outside of the tree, as a release, and returns its path; empty if that fails.
 std::string build_consumer(const std::string& name, const std::string& tree, const std::string& folder) {
     const ChildResult configured =
-        test::run_program(KERF_CMAKE, {"-S", KERF_SOURCE "/tests/install/" + name, "-B", folder, "-G", KERF_GENERATOR,
-                                       "-DCMAKE_PREFIX_PATH=" + tree, "-DCMAKE_CXX_COMPILER=" KERF_COMPILER,
-                                       "-DCMAKE_BUILD_TYPE=Release"});
+        test::run_program(KERF_CMAKE, {"-S", test::source_folder() + "/tests/install/" + name, "-B", folder, "-G",
+                                       KERF_GENERATOR, "-DCMAKE_PREFIX_PATH=" + tree,
+                                       "-DCMAKE_CXX_COMPILER=" KERF_COMPILER, "-DCMAKE_BUILD_TYPE=Release"});
     const ChildResult built = test::run_program(KERF_CMAKE, {"--build", folder});
     if (configured.exit_code == 0 && built.exit_code == 0) return folder + "/" + name;
     ADD_FAILURE() << configured.log << test::output_of(built) << built.log;
@@ -133,8 +134,8 @@ std::string build_consumer(const std::string& name, const std::string& tree, con
 
 // The program that docs/developing.md shows.
 TEST_F(Installed, LibraryServesProgramsOfOthers) {
-    EXPECT_NE(test::bytes_of_file(KERF_SOURCE "/docs/developing.md")
-                  .find(test::bytes_of_file(KERF_SOURCE "/tests/install/consumer/main.cpp")),
+    EXPECT_NE(test::bytes_of_file(test::source_folder() + "/docs/developing.md")
+                  .find(test::bytes_of_file(test::source_folder() + "/tests/install/consumer/main.cpp")),
               std::string::npos);
     const ChildResult run = test::run_program(build_consumer("consumer", file("a copy"), file("consumer")), {});
     EXPECT_EQ(run.exit_code, 0) << run.log;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
@@ -28,8 +29,8 @@ class MeshFile : public testing::Test {
     }
     // In the test's folder.
     ChildResult shell(const std::string& command) const {
-        return test::run_program("/bin/sh",
-                                 {"-c", "K='" KERF_PROGRAM "'; cd '" + folder_.file("") + "' && " + command});
+        return test::run_program(
+            "/bin/sh", {"-c", "K='" + test::kerf_program() + "'; cd '" + folder_.file("") + "' && " + command});
     }
 
     test::TemporaryFolder folder_;
@@ -44,11 +45,12 @@ TEST_F(MeshFile, IsWhatKerfMergeMakesOfTheRun) {
         fs::create_directory(folder_.file("b"));
         const std::string name = std::string("ball") + ending;
         const ChildResult result =  // which may write more than one file
-            test::run_program(KERF_PROGRAM, {"mesh", ball_, "-o", folder_.file("a/" + name), "-n", "2"});
+            test::run_program(test::kerf_program(), {"mesh", ball_, "-o", folder_.file("a/" + name), "-n", "2"});
         EXPECT_EQ(result.exit_code, 0) << result.log;
         EXPECT_NE(result.log.find("result      " + folder_.file("a/" + name)), std::string::npos) << result.log;
         ASSERT_EQ(
-            test::run_program(KERF_PROGRAM, {"merge", folder_.file("run"), "-o", folder_.file("b/" + name)}).exit_code,
+            test::run_program(test::kerf_program(), {"merge", folder_.file("run"), "-o", folder_.file("b/" + name)})
+                .exit_code,
             0);
         const auto merged = test::contents(folder_.file("b"));
         EXPECT_TRUE(test::contents(folder_.file("a")) == merged) << "nothing else is left";

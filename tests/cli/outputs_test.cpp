@@ -8,6 +8,7 @@
 
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -40,8 +41,8 @@ class Outputs : public testing::Test {
     // A shell command in which K is the program and I the input.
     ChildResult shell(const std::string& command) const {
         const test::Surroundings around({input_, "-o", file("out"), "-o", file("code"), "-o", file("log")});
-        ChildResult result = test::run_program(
-            "/bin/sh", {"-c", "K='" KERF_PROGRAM "'; I='" + input_ + "'; cd '" + file("") + "' && " + command});
+        ChildResult result = test::run_program("/bin/sh", {"-c", "K='" + test::kerf_program() + "'; I='" + input_ +
+                                                                     "'; cd '" + file("") + "' && " + command});
         EXPECT_EQ(around.changes(), "");
         return result;
     }
@@ -202,7 +203,7 @@ TEST_F(Outputs, PathsMayBeAnyBytes) {
 TEST_F(Outputs, RelativePathsAreStoredAbsolute) {
     ASSERT_EQ(shell("$K mesh input.stl -o out -n 2").exit_code, 0);
     const ChildResult verified =
-        test::run_program("/bin/sh", {"-c", "cd / && '" KERF_PROGRAM "' verify '" + file("out") + "'"});
+        test::run_program("/bin/sh", {"-c", "cd / && '" + test::kerf_program() + "' verify '" + file("out") + "'"});
     EXPECT_NE(test::output_of(verified).find("Every law holds."), std::string::npos) << test::output_of(verified);
 }
 

@@ -11,6 +11,7 @@
 #include "part/vtu_reader.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
@@ -160,7 +161,7 @@ TEST_F(Quality, OfAMergedMeshIsThatOfItsParts) {
     for (const char* ending : {"vtu", "mesh", "node"}) {
         SCOPED_TRACE(ending);
         const std::string file = path(std::string("merged.") + ending);
-        ASSERT_EQ(test::run_program(KERF_PROGRAM, {"merge", path("straight"), "-o", file}).exit_code, 0);
+        ASSERT_EQ(test::run_program(test::kerf_program(), {"merge", path("straight"), "-o", file}).exit_code, 0);
         const Json found = quality_json({file});
         EXPECT_EQ(found.at("quality").at("all"), expected.at("quality").at("all"));
         EXPECT_EQ(found.at("forced"), expected.at("forced"));

@@ -13,6 +13,7 @@
 #include "support/all_formats.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/slice.h"
 #include "support/started_run.h"
@@ -55,7 +56,7 @@ class Resume : public testing::Test {
     // Starts a run and ends it by the signal when two parts are finished and a third is under way, whose worker does
     // nothing more by itself.
     ChildResult interrupt(int signal, const std::string& output = "out", bool all_formats = false) const {
-        test::StartedRun run(KERF_PROGRAM, command(output, all_formats));
+        test::StartedRun run(test::kerf_program(), command(output, all_formats));
         EXPECT_TRUE(test::await([&] { return test::finished_parts(folder_.file(output)) >= 2; }));
         const pid_t worker = run.stop_worker();
         EXPECT_GT(worker, 0);
@@ -121,7 +122,7 @@ TEST_F(Resume, GivesTheBytesOfAnUndisturbedRun) {
 // All parts are meshed, and some files of some formats are there.
 TEST_F(Resume, WritesTheFormatsThatAreMissing) {
     const auto expected = undisturbed_in_all_formats();
-    test::StartedRun run(KERF_PROGRAM, command("out", true));
+    test::StartedRun run(test::kerf_program(), command("out", true));
     EXPECT_TRUE(test::await([&] { return fs::exists(folder_.file("out.kerf-partial/export")); }));
     EXPECT_EQ(::kill(run.process(), SIGKILL), 0);
     run.wait();
@@ -194,9 +195,9 @@ TEST_F(Resume, AnInterruptedRunMayBeMoved) {
 
 // As Ctrl-C in a terminal: the workers get the signal, too.
 TEST_F(Resume, ASignalToAllProcessesFailsNoPart) {
-    test::StartedRun run(
-        "/bin/sh", {"-c", "setsid --wait '" KERF_PROGRAM "' \"$@\"", "sh", "mesh", input_, "-o", folder_.file("out"),
-                    "-n", "6", "--max-volume", "6e-6", "--workers", "1", "--events", folder_.file("events")});
+    test::StartedRun run("/bin/sh", {"-c", "setsid --wait '" + test::kerf_program() + "' \"$@\"", "sh", "mesh", input_,
+                                     "-o", folder_.file("out"), "-n", "6", "--max-volume", "6e-6", "--workers", "1",
+                                     "--events", folder_.file("events")});
     ASSERT_TRUE(test::await([&] { return test::finished_parts(folder_.file("out")) >= 2 && !run.workers().empty(); }));
     const std::vector<pid_t> programs = test::descendants_of(run.process(), "kerf");
     ASSERT_EQ(programs.size(), 1u);
@@ -213,7 +214,7 @@ TEST_F(Resume, APartThatATimeLimitHasShapedIsSaidAndNotTakenOverUnderAnotherLimi
     const std::string limit = test::is_sanitized() ? "20" : "4";
     std::vector<std::string> arguments = command("out");
     arguments.insert(arguments.end(), {"--timeout", limit});
-    test::StartedRun run(KERF_PROGRAM, arguments);
+    test::StartedRun run(test::kerf_program(), arguments);
     ASSERT_TRUE(test::await([&] { return !run.workers().empty(); }));
     ASSERT_EQ(::kill(run.workers().front(), SIGSTOP), 0);
     ASSERT_TRUE(test::await([&] { return test::finished_parts(folder_.file("out")) >= 1; }));
@@ -294,8 +295,8 @@ TEST_F(Resume, PartsOfAnotherBuildAreMeshedAgain) {
     interrupt(SIGTERM);
     const std::string programs = folder_.file("programs");
     fs::create_directory(programs);
-    fs::copy_file(KERF_PROGRAM, programs + "/kerf");
-    fs::copy_file(KERF_WORKER, programs + "/kerf-worker");
+    fs::copy_file(test::kerf_program(), programs + "/kerf");
+    fs::copy_file(test::worker_program(), programs + "/kerf-worker");
     std::ofstream(programs + "/kerf-worker", std::ios::app) << "x";
     const ChildResult result = test::run_program(programs + "/kerf", {"mesh", "--resume", folder_.file("out")});
     EXPECT_EQ(result.exit_code, 0) << result.log;

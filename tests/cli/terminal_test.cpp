@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/lines.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
@@ -75,7 +76,7 @@ TEST_F(Terminal, ARunEndsWithFiveLines) {
 
 TEST_F(Terminal, HasColoursAndABar) {
     const std::string command =
-        "TERM=xterm '" KERF_PROGRAM "' mesh '" + ball_ + "' -n 2 -o '" + folder_.file("out") + "'";
+        "TERM=xterm '" + test::kerf_program() + "' mesh '" + ball_ + "' -n 2 -o '" + folder_.file("out") + "'";
     const std::string coloured = printed_on_terminal(command), plain = printed_on_terminal("NO_COLOR=1 " + command);
     EXPECT_NE(coloured.find("\033[1mverified    \033[0m\033[32myes"), std::string::npos) << coloured;
     EXPECT_NE(plain.find("verified    yes"), std::string::npos) << plain;

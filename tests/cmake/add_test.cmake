@@ -1,6 +1,22 @@
-# kerf_add_test(<name> LABEL <label> TIMEOUT <seconds> SOURCES <file>... [LIBRARIES <target>...] [EACH <suite>...]
-#               [UNSANITIZED <filter>...] [DATA <filter>...] [ALONE] [PROCESSORS <n>] [COST <seconds>]
-#               [ENVIRONMENT <variable>=<value>...])
+# What tests a build has, besides what is not a test: ./run builds and runs it.
+add_custom_target(kerf_tests)
+
+# kerf_is_left_out(<variable> <set>): whether tests of the set, functions or programs, are left out by KERF_TEST_SET.
+function(kerf_is_left_out variable set)
+  set(is_left_out TRUE)
+  if(KERF_TEST_SET STREQUAL "all" OR KERF_TEST_SET STREQUAL set)
+    set(is_left_out FALSE)
+  endif()
+  set(${variable} ${is_left_out} PARENT_SCOPE)
+endfunction()
+
+# kerf_add_test(<name> LABEL <label> TIMEOUT <seconds> SOURCES <file>... [OF_FUNCTIONS] [SUPPORT <target>]
+#               [LIBRARIES <target>...] [EACH <suite>...] [UNSANITIZED <filter>...] [DATA <filter>...] [ALONE]
+#               [PROCESSORS <n>] [COST <seconds>] [ENVIRONMENT <variable>=<value>...])
+#
+# OF_FUNCTIONS: what it calls is in the same process, so that sanitizers see it; else it is a test of programs. Where
+# KERF_TEST_SET leaves it out it is built only if it is asked for by its name, and is no test of ctest.
+# SUPPORT: what it shares with others, in place of kerf_test_support.
 #
 # One program. Each of its suites is a test of ctest, <name>.<suite>, in a process of its own: what a suite sets up is
 # made once. EACH: suites whose tests take so long that each is a test of ctest, <name>.<suite>.<test>, so that they run
@@ -9,15 +25,28 @@
 # PROCESSORS: how many each keeps busy. COST: of the longest, because long ones start first. TIMEOUT: of each test of
 # ctest.
 function(kerf_add_test name)
-  cmake_parse_arguments(ARG "ALONE" "LABEL;TIMEOUT;PROCESSORS;COST"
+  cmake_parse_arguments(ARG "ALONE;OF_FUNCTIONS" "LABEL;TIMEOUT;PROCESSORS;COST;SUPPORT"
     "SOURCES;LIBRARIES;EACH;UNSANITIZED;DATA;ENVIRONMENT" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE kerf_test_support ${ARG_LIBRARIES})
-  target_precompile_headers(${name} REUSE_FROM kerf_test_support)
+  if(NOT ARG_SUPPORT)
+    set(ARG_SUPPORT kerf_test_support)
+  endif()
+  target_link_libraries(${name} PRIVATE ${ARG_SUPPORT} ${ARG_LIBRARIES})
+  target_precompile_headers(${name} REUSE_FROM kerf_test_shapes)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(NOT KERF_TEST_PROGRAMS)
     add_dependencies(${name} kerf kerf-worker)
   endif()
+  set(of programs)
+  if(ARG_OF_FUNCTIONS)
+    set(of functions)
+  endif()
+  kerf_is_left_out(is_left_out ${of})
+  if(is_left_out)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    return()
+  endif()
+  add_dependencies(kerf_tests ${name})
   kerf_test_properties(properties ${ARG_LABEL} ${ARG_TIMEOUT})
   list(JOIN properties " " properties)
   foreach(property PROCESSORS COST ENVIRONMENT)

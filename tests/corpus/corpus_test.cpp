@@ -11,6 +11,7 @@
 #include "prepare/remeshing.h"
 #include "support/damage.h"
 #include "support/decomposition_laws.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/run_in_process.h"
 #include "support/run_laws.h"
@@ -28,7 +29,7 @@ bool readable(const fs::path& path) {
 
 std::vector<std::string> surfaces(const std::string& folder) {
     std::vector<std::string> paths;
-    for (const auto& entry : fs::directory_iterator(fs::path(KERF_CORPUS) / folder))
+    for (const auto& entry : fs::directory_iterator(fs::path(test::corpus_folder()) / folder))
         if (readable(entry.path())) paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
     return paths;
@@ -76,7 +77,7 @@ std::vector<std::string> well_shaped_surfaces() {
     std::vector<std::string> paths;
     for (const char* name : {"mesh2hrtf_head.ply", "openfoam_flange.stl", "openfoam_DTC-scaled.stl",
                              "openscad_far-out-ring.stl", "cfmesh_asmo.stl"})
-        paths.push_back(fs::path(KERF_CORPUS) / "good" / name);
+        paths.push_back(fs::path(test::corpus_folder()) / "good" / name);
     return paths;
 }
 
@@ -103,7 +104,7 @@ std::vector<std::string> cad_surfaces() {
     std::vector<std::string> paths;
     for (const char* name : {"netgen_hinge.stl", "trimesh_featuretype.ply", "openfoam_shield.obj",
                              "prusa_y-motor-holder.stl", "windtunnel_honeycomb_round.stl", "openfoam_tank.obj"})
-        paths.push_back(fs::path(KERF_CORPUS) / "good" / name);
+        paths.push_back(fs::path(test::corpus_folder()) / "good" / name);
     return paths;
 }
 
@@ -130,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, SliveredSurface,
                          test_name);
 
 TEST_P(SliveredSurface, GetsUsefulCellsByDefault) {
-    const std::string path = fs::path(KERF_CORPUS) / "good" / GetParam();
+    const std::string path = fs::path(test::corpus_folder()) / "good" / GetParam();
     const test::TemporaryFolder folder;
     Input input;
     const RunReport report = test::run_parts(path, folder.file("out"), 8, input);
@@ -249,7 +250,7 @@ const std::vector<UnreadableFile>& unreadable_files() {
     return files;
 }
 
-std::string bad_path(const std::string& name) { return fs::path(KERF_CORPUS) / "bad" / name; }
+std::string bad_path(const std::string& name) { return fs::path(test::corpus_folder()) / "bad" / name; }
 
 std::vector<KindCount> count_kinds(const Diagnosis& diagnosis) {
     std::vector<KindCount> found;
@@ -286,7 +287,7 @@ TEST(BadFiles, AreCheckedWithTheRightKindsAndNumbers) {
         const Diagnosis& diagnosis = checked.diagnosis;
         EXPECT_EQ(count_kinds(diagnosis), file.found);
         EXPECT_EQ(open_edges(diagnosis), file.open_edges);
-        const std::vector<std::string> lines = test::lines(checked);
+        const std::vector<std::string> lines = test::lines(checked.soup, checked.diagnosis);
         for (const std::string& line : file.lines)
             EXPECT_TRUE(std::binary_search(lines.begin(), lines.end(), line)) << line;
         const bool any_error = std::any_of(file.found.begin(), file.found.end(),

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <map>
 
+#include "support/places.h"
 #include "support/run_in_process.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
@@ -56,7 +57,7 @@ std::string run_of(const ExportCase& wanted, const std::string& formats) {
     options.input = input;
     options.output = run_folder;
     options.formats = formats;
-    options.worker_program = KERF_WORKER;
+    options.worker_program = test::worker_program();
     options.workers = 2;
     options.decompose.parts = wanted.parts;
     if (wanted.straight_cuts) options.decompose.cut.contour = ContourMethod::straight;

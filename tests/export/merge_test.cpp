@@ -6,6 +6,7 @@
 #include "export/cases.h"
 #include "export/format.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -17,7 +18,7 @@ using FileNames = std::vector<std::string>;
 class Merge : public testing::Test {
  protected:
     ChildResult merge(const std::string& output) const {
-        return test::run_program(KERF_PROGRAM, {"merge", run_, "-o", output});
+        return test::run_program(test::kerf_program(), {"merge", run_, "-o", output});
     }
     void expect_refused(const std::string& output, int exit_code, const std::string& words) const {
         const FileNames before = folder_.names();
@@ -82,7 +83,7 @@ TEST_F(Merge, OlderFilesAreReplacedAsAWhole) {
 TEST_F(Merge, WhatIsNoFinishedRunIsRefused) {
     std::filesystem::create_directory(folder_.file("empty"));
     const ChildResult result =
-        test::run_program(KERF_PROGRAM, {"merge", folder_.file("empty"), "-o", folder_.file("a.su2")});
+        test::run_program(test::kerf_program(), {"merge", folder_.file("empty"), "-o", folder_.file("a.su2")});
     EXPECT_EQ(result.exit_code, 7) << result.log;
     EXPECT_EQ(folder_.names(), FileNames{"empty"});
 }

@@ -9,11 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "support/assets.h"
+#include "support/places.h"
 #include "support/run_in_process.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
 namespace {
+
+const std::string golden_file = test::source_folder() + "/tests/golden/mesh_hashes.txt";
 
 using Hashes = std::map<std::string, std::string>;  // of "asset parts"
 
@@ -25,7 +28,7 @@ std::string key(const std::string& asset, std::int32_t parts) { return asset + "
 
 Hashes read_goldens() {
     Hashes hashes;
-    std::ifstream file(KERF_GOLDEN_FILE);
+    std::ifstream file(golden_file);
     std::string asset, parts, hash;
     while (file >> asset >> parts >> hash) hashes[asset + " " + parts] = hash;
     return hashes;
@@ -43,7 +46,7 @@ Hashes compute() {
 }
 
 void write_goldens(const Hashes& hashes) {
-    std::ofstream file(KERF_GOLDEN_FILE);
+    std::ofstream file(golden_file);
     for (const auto& [mesh, hash] : hashes) file << mesh << ' ' << hash << '\n';
 }
 
@@ -66,7 +69,7 @@ TEST(GoldenMeshes, HaveNotChanged) {
     const Hashes computed = compute();
     if (std::getenv("KERF_UPDATE_GOLDENS")) {
         write_goldens(computed);
-        FAIL() << KERF_GOLDEN_FILE << " was rewritten; review the difference and run again.";
+        FAIL() << golden_file << " was rewritten; review the difference and run again.";
     }
     EXPECT_EQ(difference(read_goldens(), computed), "");
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "io/surface_reader.h"
+#include "prepare/input.h"
 #include "support/assets.h"
 #include "support/damage.h"
 #include "support/shapes.h"
@@ -52,6 +53,8 @@ std::vector<NamedSoup> assets() {
 CheckedSoup check(const Soup& soup, const InputOptions& options = {}) {
     return check_soup(soup, options, needle_angle_deg);
 }
+
+Lines lines(const CheckedSoup& checked) { return test::lines(checked.soup, checked.diagnosis); }
 
 bool any_error(const std::vector<ExpectedDefect>& expected) {
     return std::any_of(expected.begin(), expected.end(), [](auto& d) { return d.severity == Severity::error; });

@@ -9,6 +9,7 @@
 
 #include "geometry/box.h"
 #include "io/surface_reader.h"
+#include "prepare/input.h"
 #include "repair/repair.h"
 #include "support/assets.h"
 #include "support/random_damage.h"

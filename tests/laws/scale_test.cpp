@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/surface_reader.h"
+#include "prepare/input.h"
 #include "support/assets.h"
 #include "support/face.h"
 #include "support/program.h"

@@ -19,6 +19,7 @@
 #include "part/vtu_header.h"
 #include "run/verify_folder.h"
 #include "support/assets.h"
+#include "support/places.h"
 #include "support/run_in_process.h"
 #include "support/run_laws.h"
 #include "support/temporary_folder.h"
@@ -51,7 +52,7 @@ class SecondOrder : public testing::TestWithParam<std::string> {
         options.formats = formats;
         options.input = test::asset_path(GetParam());
         options.output = folder_.file(name);
-        options.worker_program = KERF_WORKER;
+        options.worker_program = test::worker_program();
         options.workers = workers;
         options.decompose.parts = 5;
         SingleRank rank;

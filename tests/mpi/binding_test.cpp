@@ -4,6 +4,7 @@
 #include "parallel/processors.h"
 #include "support/assets.h"
 #include "support/mpirun.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -14,7 +15,7 @@ using Words = std::vector<std::string>;
 class MpiBinding : public testing::Test {
  protected:
     Words mesh(const Words& more = {}) const {
-        Words words = {KERF_PROGRAM, "mesh", test::asset_path("cube"), "-o", folder_.file("out"), "-n", "1"};
+        Words words = {test::kerf_program(), "mesh", test::asset_path("cube"), "-o", folder_.file("out"), "-n", "1"};
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }

@@ -11,6 +11,7 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/region_bodies.h"
 #include "support/shapes.h"
@@ -54,7 +55,7 @@ TEST_P(MpiRuns, PartFilesAreTheSameForAnyRanksAndWorkers) {
     for (const auto& [ranks, workers] : test::slice(all, {{2, 2}, {7, 1}})) {
         SCOPED_TRACE(testing::Message() << ranks << " ranks, " << workers << " workers");
         std::vector<std::string> command = arguments("ranks", workers);
-        command.insert(command.begin(), KERF_PROGRAM);
+        command.insert(command.begin(), test::kerf_program());
         const ChildResult result = run_ranks(ranks, command);
         ASSERT_EQ(result.exit_code, 0) << result.log;
         EXPECT_TRUE(test::result_of_run(folder.file("ranks")) == expected);
@@ -66,9 +67,9 @@ TEST(MpiRunsOfOrder2, FilesAreTheSameForAnyRanksAndWorkers) {
     const test::TemporaryFolder folder;
     std::map<std::string, std::string> expected;
     for (const auto& [ranks, workers] : {std::pair{1, 1}, {3, 2}}) {
-        const ChildResult result =
-            run_ranks(ranks, {KERF_PROGRAM, "mesh", test::asset_path("hollow_box"), "-o", folder.file("run"), "-n", "5",
-                              "--workers", std::to_string(workers), "--order", "2", "--format", test::all_formats(2)});
+        const ChildResult result = run_ranks(
+            ranks, {test::kerf_program(), "mesh", test::asset_path("hollow_box"), "-o", folder.file("run"), "-n", "5",
+                    "--workers", std::to_string(workers), "--order", "2", "--format", test::all_formats(2)});
         ASSERT_EQ(result.exit_code, 0) << result.log;
         if (ranks == 1) expected = test::result_of_run(folder.file("run"));
         EXPECT_TRUE(expected.contains("export/msh/mesh_5.msh"));
@@ -87,9 +88,8 @@ TEST(MpiExports, FilesAreTheSameForAnyRanks) {
         std::map<std::string, std::string> expected;
         for (int ranks = 1; ranks <= 3; ++ranks) {
             SCOPED_TRACE(testing::Message() << ranks << " ranks, " << more.size());
-            std::vector<std::string> command = {
-                KERF_PROGRAM, "export",          folder.file("run"), "--format", test::all_formats(order),
-                "-o",         folder.file("out")};
+            std::vector<std::string> command = {test::kerf_program(),     "export", folder.file("run"), "--format",
+                                                test::all_formats(order), "-o",     folder.file("out")};
             command.insert(command.end(), more.begin(), more.end());
             const ChildResult result = run_ranks(ranks, command);
             ASSERT_EQ(result.exit_code, 0) << result.log;
@@ -109,8 +109,8 @@ TEST_P(MpiRuns, TracesAreTheSameForAnyRanks) {
         SCOPED_TRACE(testing::Message() << ranks << " ranks");
         const std::string trace = folder.file("ranks_" + std::to_string(ranks));
         const ChildResult result =
-            run_ranks(ranks, {KERF_PROGRAM, "decompose", test::asset_path(asset), "-o", folder.file("out"), "-n",
-                              std::to_string(parts), "--trace", trace});
+            run_ranks(ranks, {test::kerf_program(), "decompose", test::asset_path(asset), "-o", folder.file("out"),
+                              "-n", std::to_string(parts), "--trace", trace});
         ASSERT_EQ(result.exit_code, 0) << result.log;
         const std::string bytes = test::bytes_of_file(trace);
         if (ranks == 1) expected = bytes;
@@ -129,7 +129,7 @@ class MpiRegions : public testing::Test {
         using Shared = std::pair<int, int>;  // ranks, workers of each
         for (const auto& [ranks, workers] : {Shared{1, 2}, {2, 1}, {3, 2}, {8, 1}}) {
             SCOPED_TRACE(testing::Message() << contour << ", " << ranks << " ranks");
-            std::vector<std::string> command = {KERF_PROGRAM, "mesh"};
+            std::vector<std::string> command = {test::kerf_program(), "mesh"};
             command.insert(command.end(), files.begin(), files.end());
             for (const std::string& word :
                  {std::string("-o"), folder_.file("out"), std::string("-n"), std::string(parts),
@@ -175,8 +175,9 @@ class MpiStraightCuts : public testing::Test {
         std::map<std::string, std::string> expected;
         for (int ranks = 1; ranks <= 3; ++ranks) {
             SCOPED_TRACE(testing::Message() << command << ", " << ranks << " ranks");
-            const ChildResult result = run_ranks(ranks, {KERF_PROGRAM, command, input, "-o", folder_.file("out"), "-n",
-                                                         std::to_string(parts), "--surface", "split"});
+            const ChildResult result =
+                run_ranks(ranks, {test::kerf_program(), command, input, "-o", folder_.file("out"), "-n",
+                                  std::to_string(parts), "--surface", "split"});
             ASSERT_EQ(result.exit_code, 0) << result.log;
             const std::string report = test::bytes_of_file(folder_.file("out/report.json"));
             EXPECT_NE(report.find("\"rung\":\"straight\""), std::string::npos);
@@ -221,7 +222,7 @@ TEST(MpiHosts, ShareTheOutputFolderOnly) {
         std::filesystem::create_directory(folder.file(host));
         for (const std::string& argument :
              {std::string("-n"), std::string("2"), std::string("-wdir"), folder.file(host), std::string("/usr/bin/env"),
-              "TMPDIR=" + folder.file(host), std::string(KERF_PROGRAM)})
+              "TMPDIR=" + folder.file(host), test::kerf_program()})
             arguments.push_back(argument);
         arguments.insert(arguments.end(), command.begin(), command.end());
         if (host == "one") arguments.push_back(":");
@@ -240,7 +241,7 @@ class MpiInterruptions : public testing::Test {
     }
     void expect_same_when_resumed(int ranks) const {
         EXPECT_FALSE(std::filesystem::exists(folder_.file("out")));
-        const ChildResult result = run_ranks(ranks, {KERF_PROGRAM, "mesh", "--resume", folder_.file("out")});
+        const ChildResult result = run_ranks(ranks, {test::kerf_program(), "mesh", "--resume", folder_.file("out")});
         EXPECT_EQ(result.exit_code, 0) << result.log;
         EXPECT_NE(result.log.find("were finished by an interrupted run"), std::string::npos) << result.log;
         ASSERT_EQ(test::run_kerf(command("alone")).exit_code, 0);
@@ -249,7 +250,7 @@ class MpiInterruptions : public testing::Test {
     // Sends the signal to the last of three ranks when parts are finished and under way. `code`: of mpirun.
     void interrupt(int signal, bool ranks_end_by_themselves) const {
         std::vector<std::string> arguments = mpirun_arguments(3);
-        arguments.push_back(KERF_PROGRAM);
+        arguments.push_back(test::kerf_program());
         for (const std::string& argument : command("out")) arguments.push_back(argument);
         test::StartedRun run("/usr/bin/env", arguments);
         ASSERT_TRUE(test::await([&] { return test::finished_parts(folder_.file("out")) >= 2; }));
@@ -284,7 +285,7 @@ class MpiUnlikeHosts : public testing::Test {
  protected:
     // The shell swallows the code of each rank, so that mpirun neither stops the others nor adds words of its own.
     ChildResult run_with(const std::string& library, const std::vector<std::string>& command) const {
-        const std::string script = "'" KERF_PROGRAM "' \"$@\"; echo \"code=$?;\"";
+        const std::string script = "'" + test::kerf_program() + "' \"$@\"; echo \"code=$?;\"";
         std::vector<std::string> arguments = mpirun_arguments(1);
         const auto add = [&](const std::vector<std::string>& words) {
             arguments.insert(arguments.end(), words.begin(), words.end());
@@ -324,8 +325,8 @@ TEST(MpiErrors, EveryRankEndsWithTheSameCodeAndOneSpeaks) {
     for (const Failure& failure : failures) {
         SCOPED_TRACE(failure.name);
         // The shell swallows the code of each rank, so that mpirun neither stops the others nor adds words of its own.
-        const std::string script =
-            "'" KERF_PROGRAM "' mesh '" + failure.input + "' -o '" + failure.output + "' -n 3; echo \"code=$?;\"";
+        const std::string script = "'" + test::kerf_program() + "' mesh '" + failure.input + "' -o '" + failure.output +
+                                   "' -n 3; echo \"code=$?;\"";
         const ChildResult result = run_ranks(3, {"/bin/sh", "-c", script});
         EXPECT_EQ(result.exit_code, 0);
         EXPECT_EQ(count(test::output_of(result), "code=" + std::to_string(failure.exit_code) + ";"), 3)
@@ -339,8 +340,9 @@ TEST(MpiErrors, EveryRankEndsWithTheSameCodeAndOneSpeaks) {
 // Wherever that happens: also while others wait for the first rank, which needs the most.
 TEST(MpiMemory, OfOneRankEndsAllOfThem) {
     const test::TemporaryFolder folder;
-    const std::string decompose = fmt::format("'{}' decompose '{}' -o '{}' -n 32 --workers 1 --size 0.2 --surface keep",
-                                              KERF_PROGRAM, test::asset_path("bearing_cap_52k"), folder.file("out"));
+    const std::string decompose =
+        fmt::format("'{}' decompose '{}' -o '{}' -n 32 --workers 1 --size 0.2 --surface keep", test::kerf_program(),
+                    test::asset_path("bearing_cap_52k"), folder.file("out"));
     for (const int megabytes : {220, 250, 280}) {
         SCOPED_TRACE(megabytes);
         const std::string script =
@@ -353,15 +355,15 @@ TEST(MpiMemory, OfOneRankEndsAllOfThem) {
 
 TEST(MpiErrors, EventsThatCannotBeWrittenEndEveryRank) {
     const test::TemporaryFolder folder;
-    const ChildResult result = run_ranks(3, {KERF_PROGRAM, "mesh", test::asset_path("cube"), "-o", folder.file("out"),
-                                             "-n", "3", "--events", "/dev/full"});
+    const ChildResult result = run_ranks(3, {test::kerf_program(), "mesh", test::asset_path("cube"), "-o",
+                                             folder.file("out"), "-n", "3", "--events", "/dev/full"});
     EXPECT_EQ(result.exit_code, 7) << result.log;
     EXPECT_EQ(count(result.log, "kerf: "), 1) << result.log;
 }
 
 TEST(MpiErrors, TraceThatCannotBeWrittenEndsEveryRank) {
     const test::TemporaryFolder folder;
-    const ChildResult result = run_ranks(3, {KERF_PROGRAM, "decompose", test::asset_path("cube"), "-o",
+    const ChildResult result = run_ranks(3, {test::kerf_program(), "decompose", test::asset_path("cube"), "-o",
                                              folder.file("out"), "-n", "3", "--trace", folder.file("no/cube.trace")});
     EXPECT_EQ(result.exit_code, 7) << result.log;
     EXPECT_EQ(count(result.log, "kerf: "), 1) << result.log;
@@ -370,16 +372,18 @@ TEST(MpiErrors, TraceThatCannotBeWrittenEndsEveryRank) {
 
 TEST(MpiErrors, ALibraryWithoutThreadsIsRefused) {
     const test::TemporaryFolder folder;
-    const ChildResult result = run_ranks(2, {"/usr/bin/env", std::string("LD_PRELOAD=") + KERF_SINGLE_THREADED_MPI,
-                                             "ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0", KERF_PROGRAM,
-                                             "mesh", test::asset_path("cube"), "-o", folder.file("out"), "-n", "2"});
+    const ChildResult result =
+        run_ranks(2, {"/usr/bin/env", std::string("LD_PRELOAD=") + KERF_SINGLE_THREADED_MPI,
+                      "ASAN_OPTIONS=detect_leaks=0:verify_asan_link_order=0", test::kerf_program(), "mesh",
+                      test::asset_path("cube"), "-o", folder.file("out"), "-n", "2"});
     EXPECT_EQ(result.exit_code, 1) << result.log;
     EXPECT_EQ(count(result.log, "kerf: The MPI library"), 1) << result.log;
     EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(MpiErrors, UsageErrorsNeedNoAgreement) {
-    EXPECT_EQ(run_ranks(2, {KERF_PROGRAM, "mesh", test::asset_path("cube"), "-o", "unused", "-n", "0"}).exit_code, 2);
+    EXPECT_EQ(
+        run_ranks(2, {test::kerf_program(), "mesh", test::asset_path("cube"), "-o", "unused", "-n", "0"}).exit_code, 2);
     EXPECT_FALSE(std::filesystem::exists("unused"));
 }
 

@@ -7,6 +7,7 @@
 
 #include "support/assets.h"
 #include "support/mpirun.h"
+#include "support/places.h"
 #include "support/slice.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
@@ -21,7 +22,7 @@ class MpiFailures : public testing::Test {
  protected:
     void start() {
         std::vector<std::string> words = test::mpirun_arguments(3);
-        for (const std::string& word : {std::string(KERF_PROGRAM), std::string("mesh"), test::asset_path("cube"),
+        for (const std::string& word : {test::kerf_program(), std::string("mesh"), test::asset_path("cube"),
                                         std::string("-o"), folder_.file("out"), std::string("-n"), std::string("9"),
                                         std::string("--max-volume"), std::string("4e-6"), std::string("--workers"),
                                         std::string("1"), std::string("--events"), folder_.file("events")})

@@ -12,6 +12,7 @@
 #include "part/run_parts.h"
 #include "solve/fe_space.h"
 #include "support/assets.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -68,7 +69,7 @@ class CubeOfParts : public testing::Environment {
                                                                 "PMIX_RANK",
                                                                 "-u",
                                                                 "PMI_RANK",
-                                                                KERF_PROGRAM,
+                                                                test::kerf_program(),
                                                                 "mesh",
                                                                 asset_path("cube"),
                                                                 "-o",

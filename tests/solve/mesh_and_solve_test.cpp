@@ -10,6 +10,7 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/started_run.h"
 #include "support/temporary_folder.h"
@@ -150,7 +151,7 @@ TEST_F(MeshAndSolve, AKilledRankLeavesNothingHalfWritten) {
     ASSERT_EQ(test::run_kerf(bracket({"--size", "3"})).exit_code, 0);
     std::vector<std::string> command = test::mpirun_arguments(2);
     for (const std::string& word :
-         {std::string(KERF_PROGRAM), std::string("solve"), out() + "/mesh", std::string("--case"),
+         {test::kerf_program(), std::string("solve"), out() + "/mesh", std::string("--case"),
           test::asset_folder() + "/l_bracket_case.toml", std::string("-o"), folder_.file("stress"), std::string("-q")})
         command.push_back(word);
     test::StartedRun run("/usr/bin/env", command);

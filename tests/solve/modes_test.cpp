@@ -11,6 +11,7 @@
 #include "solve/modes.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
@@ -62,8 +63,8 @@ class Modes : public testing::Test {
             << "[material.a]\nyoung = 100\npoisson = 0\ndensity = 1\n[solver]\norder = 2\n"
             << supports;
         const ChildResult result =
-            test::run_ranks(ranks, {KERF_PROGRAM, "solve", folder_->file("bar"), "--case", own_.file("case.toml"), "-o",
-                                    own_.file("out"), "--modes", count, "-q"});
+            test::run_ranks(ranks, {test::kerf_program(), "solve", folder_->file("bar"), "--case",
+                                    own_.file("case.toml"), "-o", own_.file("out"), "--modes", count, "-q"});
         EXPECT_EQ(result.exit_code, 0) << result.log;
         return nlohmann::json::parse(test::bytes_of_file(own_.file("out/report.json")))["solve"]["modes"];
     }

@@ -15,6 +15,7 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/slice.h"
@@ -46,7 +47,7 @@ class KerfSolve : public testing::Test {
     ChildResult solve(const std::string& text, int ranks = 0) const {
         const std::vector<std::string> command = {"solve", mesh(), "--case", write_case(text), "-o", out(), "-q"};
         if (ranks == 0) return test::run_kerf(command);
-        std::vector<std::string> all = {KERF_PROGRAM};
+        std::vector<std::string> all = {test::kerf_program()};
         all.insert(all.end(), command.begin(), command.end());
         return test::run_ranks(ranks, all);
     }
@@ -259,7 +260,7 @@ TEST_F(KerfSolve, WhatPetscCallsConvergedIsMeasured) {
 TEST_F(KerfSolve, OutOfMemoryIsSaid) {
     const std::string text = std::string(steel) + three_planes + "[solver]\norder = 2";
     const std::string command =
-        fmt::format("'{}' solve '{}' --case '{}' -o '{}' -q", KERF_PROGRAM, mesh(), write_case(text), out());
+        fmt::format("'{}' solve '{}' --case '{}' -o '{}' -q", test::kerf_program(), mesh(), write_case(text), out());
     std::int64_t refused = 0;
     for (const int megabytes : {300, 340, 380, 420, 460, 500, 560, 640, 800}) {
         const ChildResult result =
@@ -304,7 +305,8 @@ TEST_F(KerfSolve, StartsItsRanksAndTellsItsProgress) {
 
 TEST_F(KerfSolve, CancelledRanksOfItsOwnAreGone) {
     const std::string text = std::string(steel) + three_planes + "[solver]\norder = 2";
-    test::StartedRun run(KERF_PROGRAM, {"solve", mesh(), "--case", write_case(text), "-o", out(), "--ranks", "2"});
+    test::StartedRun run(test::kerf_program(),
+                         {"solve", mesh(), "--case", write_case(text), "-o", out(), "--ranks", "2"});
     std::vector<pid_t> ranks;
     ASSERT_TRUE(test::await([&] {
         ranks = test::descendants_of(run.process(), "kerf-solve");
@@ -348,8 +350,8 @@ TEST_F(KerfSolve, SurroundingsDoNotMatter) {
     std::ofstream(own_.file(".petscrc")) << "-ksp_max_it 1\n";
     const std::string text = std::string(steel) + three_planes + "[[load]]\nplane = [1, 0, 0, 1]\nforce = [1, 0, 0]\n";
     const ChildResult result = test::run_program(
-        "/usr/bin/env", {"-C", own_.file(""), "HOME=" + own_.file(""), "PETSC_OPTIONS=-ksp_max_it 1", KERF_PROGRAM,
-                         "solve", mesh(), "--case", write_case(text), "-o", out(), "-q"});
+        "/usr/bin/env", {"-C", own_.file(""), "HOME=" + own_.file(""), "PETSC_OPTIONS=-ksp_max_it 1",
+                         test::kerf_program(), "solve", mesh(), "--case", write_case(text), "-o", out(), "-q"});
     EXPECT_EQ(result.exit_code, 0) << result.log;
 }
 

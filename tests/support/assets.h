@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "prepare/input.h"
+#include "support/places.h"
+#include "surface/surface.h"
 
 namespace kerf::test {
 
@@ -16,12 +17,9 @@ inline const std::vector<std::string>& asset_names() {
     return names;
 }
 
-inline std::string asset_folder() { return KERF_ASSETS; }
-
 inline std::string asset_path(const std::string& name) { return asset_folder() + "/" + name + ".stl"; }
 
-inline Surface asset_surface(const std::string& name) {
-    return read_input(asset_path(name)).complex.take_only_region();
-}
+/// What a run cuts of it: the surface as it is, outward, with the keys of an input.
+Surface asset_surface(const std::string& name);
 
 }  // namespace kerf::test

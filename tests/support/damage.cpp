@@ -350,12 +350,11 @@ std::vector<std::string> lines(const std::vector<ExpectedDefect>& expected) {
     return all;
 }
 
-std::vector<std::string> lines(const CheckedSoup& checked) {
+std::vector<std::string> lines(const Soup& soup, const Diagnosis& diagnosis) {
     std::vector<std::string> all;
-    for (const Defect& d : checked.diagnosis.defects)
+    for (const Defect& d : diagnosis.defects)
         if (d.kind != DefectKind::body_overlap && d.kind != DefectKind::unlike_walls)
-            all.push_back(
-                line(d.kind, d.severity, checked.soup.file_facets(d.facets), checked.soup.file_vertices(d.vertices)));
+            all.push_back(line(d.kind, d.severity, soup.file_facets(d.facets), soup.file_vertices(d.vertices)));
     std::sort(all.begin(), all.end());
     return all;
 }

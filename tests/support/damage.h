@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "prepare/input.h"
+#include "surface/diagnosis.h"
 
 namespace kerf::test {
 
@@ -35,9 +35,9 @@ const std::vector<Damage>& mendable_damages();
 
 /// One line per defect with kind, severity, facets and vertices; sorted.
 std::vector<std::string> lines(const std::vector<ExpectedDefect>& expected);
-/// The same for what was found, with the numbers that facets and vertices had before the check; without overlaps and
-/// unlike walls of bodies, which sum up defects that have lines of their own.
-std::vector<std::string> lines(const CheckedSoup& checked);
+/// The same for what a diagnosis of the soup has found, with the numbers that facets and vertices have in the file;
+/// without overlaps and unlike walls of bodies, which sum up defects that have lines of their own.
+std::vector<std::string> lines(const Soup& soup, const Diagnosis& diagnosis);
 
 /// The pairs that triangles_intersect() finds among all pairs.
 std::vector<ExpectedDefect> intersecting_pairs(const Soup& soup);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/places.h"
 #include "support/surroundings.h"
 #include "volume/child_process.h"
 
@@ -22,7 +23,7 @@ inline ChildResult run_program(const std::string& program, const std::vector<std
 /// Runs kerf; nothing but the outputs that the arguments name may change.
 inline ChildResult run_kerf(const std::vector<std::string>& arguments) {
     const Surroundings around(arguments);
-    ChildResult result = run_program(KERF_PROGRAM, arguments);
+    ChildResult result = run_program(test::kerf_program(), arguments);
     EXPECT_EQ(around.changes(), "");
     return result;
 }

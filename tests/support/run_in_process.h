@@ -2,6 +2,7 @@
 #pragma once
 
 #include "run/pipeline.h"
+#include "support/places.h"
 
 namespace kerf::test {
 
@@ -10,7 +11,7 @@ inline RunReport run_parts(const std::string& input, const std::string& output, 
                            RunListener* listener = nullptr, RunOptions options = {}) {
     options.input = input;
     options.output = output;
-    options.worker_program = KERF_WORKER;
+    options.worker_program = test::worker_program();
     options.workers = 2;
     options.decompose.parts = parts;
     SingleRank rank;

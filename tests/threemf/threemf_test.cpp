@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "io/cad_body.h"
 #include "io/threemf_file.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 #include "threemf/threemf_files.h"
@@ -26,7 +27,7 @@ class Threemf : public testing::Test {
     }
     CadAnswer answer_for(const std::string& bytes, std::vector<std::string> arguments = {}) const {
         arguments.insert(arguments.begin(), write(bytes));
-        const ChildResult result = test::run_program(KERF_3MF_PROGRAM, arguments);
+        const ChildResult result = test::run_program(test::threemf_program(), arguments);
         EXPECT_EQ(result.end, ChildResult::End::exited) << result.describe();
         return from_cad_bytes(result.output);
     }

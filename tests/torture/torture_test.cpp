@@ -25,6 +25,7 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mutation.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/started_run.h"
@@ -177,7 +178,7 @@ Words Trial::command(const std::string& output) const {
 
 // The words for env, or for the program itself.
 Words Trial::under_ranks(Words words) {
-    words.insert(words.begin(), KERF_PROGRAM);
+    words.insert(words.begin(), test::kerf_program());
 #ifdef KERF_MPIRUN
     if (one_in(4)) {
         const Words launcher = {
@@ -252,7 +253,7 @@ void Trial::limit_something() {
         Words{"ulimit -f " + std::to_string(1 + below(400)), "ulimit -v " + std::to_string(100'000 + below(300'000)),
               "ulimit -n " + std::to_string(5 + below(30)), "ulimit -t " + std::to_string(1 + below(5))});
     Words words = command("out");
-    words.insert(words.begin(), KERF_PROGRAM);
+    words.insert(words.begin(), test::kerf_program());
     const ChildResult result = run_to_end("/bin/sh", {"-c", limit + "; exec " + command_text(words)});
     // The loader has a code of its own where not even the libraries find room, and a used up processor is a kill.
     const bool has_no_room = result.exit_code == 127 && result.log.find("shared librar") != std::string::npos;
@@ -261,7 +262,7 @@ void Trial::limit_something() {
 
 void Trial::close_streams() {
     Words words = command("out");
-    words.insert(words.begin(), KERF_PROGRAM);
+    words.insert(words.begin(), test::kerf_program());
     const std::string ending = any_of(Words{"2>&-", "2>/dev/full", ">&- 2>&-", "<&- >&-", ">/dev/full"});
     const ChildResult result = run_to_end("/bin/sh", {"-c", "exec " + command_text(words) + " " + ending});
     expect_contract(result, false, true);
@@ -276,7 +277,7 @@ void Trial::put_foreign_file() {
     const std::string file = folder + any_of(Words{"/notes.txt", "/parts/notes.txt"});
     std::ofstream(file) << "years of work";
     note("put " + file);
-    const ChildResult result = run_to_end(KERF_PROGRAM, command("out"));
+    const ChildResult result = run_to_end(test::kerf_program(), command("out"));
     expect_contract(result, false, false);
     EXPECT_NE(result.exit_code, 0);
     EXPECT_EQ(test::bytes_of_file(file), "years of work");
@@ -325,16 +326,16 @@ void Trial::go_on(const Expected& expected) {
     bool is_done = false;
     ++outcomes_[fmt::format("{} parts waited", test::finished_parts(folder_.file("out")))];
     if (fs::exists(folder_.file("out.kerf-partial/work/run.json")) && one_in(2)) {
-        const ChildResult resumed = run_to_end(KERF_PROGRAM, {"mesh", "--resume", folder_.file("out")});
+        const ChildResult resumed = run_to_end(test::kerf_program(), {"mesh", "--resume", folder_.file("out")});
         expect_contract(resumed, false, false);
         is_done = resumed.exit_code == 0;  // what the run needs to be resumed may have been damaged
     }
     if (!is_done) {
-        const ChildResult again = run_to_end(KERF_PROGRAM, command("out"));
+        const ChildResult again = run_to_end(test::kerf_program(), command("out"));
         EXPECT_EQ(again.exit_code, 0);
     }
     EXPECT_TRUE(test::contents(folder_.file("out/parts")) == expected) << "other bytes";
-    EXPECT_EQ(run_to_end(KERF_PROGRAM, {"verify", folder_.file("out")}).exit_code, 0);
+    EXPECT_EQ(run_to_end(test::kerf_program(), {"verify", folder_.file("out")}).exit_code, 0);
 }
 
 void Trial::tamper_with_result() {
@@ -345,13 +346,13 @@ void Trial::tamper_with_result() {
     if (changed == bytes) return;
     note("change " + path);
     std::ofstream(path, std::ios::binary) << changed;
-    const ChildResult verified = run_to_end(KERF_PROGRAM, {"verify", folder_.file("out")});
+    const ChildResult verified = run_to_end(test::kerf_program(), {"verify", folder_.file("out")});
     EXPECT_TRUE(verified.exit_code == 7 || verified.exit_code == 8) << verified.exit_code;
     EXPECT_EQ(verified.end, ChildResult::End::exited);
 }
 
 void Trial::run() {
-    const ChildResult undisturbed = run_to_end(KERF_PROGRAM, command("whole"));
+    const ChildResult undisturbed = run_to_end(test::kerf_program(), command("whole"));
     expect_contract(undisturbed, false, false);
     if (undisturbed.exit_code == 0) {
         const Expected expected = test::contents(folder_.file("whole/parts"));

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/places.h"
+
 namespace kerf {
 namespace {
 
@@ -15,7 +17,7 @@ namespace fs = std::filesystem;
 
 using Arrows = std::map<std::string, std::set<std::string>>;  // folder -> folders it may include
 
-const fs::path root = KERF_SOURCE;
+const fs::path root = test::source_folder();
 
 // The fenced block "arrows": lines "folder -> folder folder".
 Arrows read_arrows(std::istream& text) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "support/places.h"
 #include "viewer/panels/imgui_input.h"
 
 namespace kerf::test {
@@ -17,8 +18,8 @@ constexpr auto patience = std::chrono::seconds(60);
 
 view::AppOptions app_options(const Driver::Options& options) {
     view::AppOptions app;
-    app.shader_folder = KERF_SHADERS;
-    app.kerf_program = KERF_PROGRAM;
+    app.shader_folder = test::build_folder() + "/shaders";
+    app.kerf_program = test::kerf_program();
     app.config_folder = options.config_folder;
     app.example_folder = options.example_folder;
     app.screenshot_folder = options.screenshot_folder;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
 #include "volume/child_process.h"
@@ -14,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path gallery = KERF_ASSETS "/gallery";
+const fs::path gallery = test::asset_folder() + "/gallery";
+const std::string new_gallery = test::build_folder() + "/gallery";
 
 std::set<std::string> pictures_in(const fs::path& folder) {
     std::set<std::string> names;
@@ -25,8 +27,8 @@ std::set<std::string> pictures_in(const fs::path& folder) {
 }
 
 // CAD files are not in the repository, and what reads them need not be there.
-const fs::path cad_files = fs::path(KERF_CORPUS) / "cad";
-bool has_cad() { return KERF_HAS_CAD && !std::string(KERF_CORPUS).empty() && fs::is_directory(cad_files); }
+const fs::path cad_files = fs::path(test::corpus_folder()) / "cad";
+bool has_cad() { return KERF_HAS_CAD && !test::corpus_folder().empty() && fs::is_directory(cad_files); }
 
 // What this build cannot draw, and nothing else.
 bool is_left_out(const std::string& name) {
@@ -35,7 +37,7 @@ bool is_left_out(const std::string& name) {
 }
 
 std::vector<std::string> arguments() {
-    std::vector<std::string> all = {"--kerf", KERF_PROGRAM, "--into", KERF_GALLERY};
+    std::vector<std::string> all = {"--kerf", test::kerf_program(), "--into", new_gallery};
     if (has_cad()) all.insert(all.end(), {"--cad", cad_files.string()});
     return all;
 }
@@ -43,7 +45,7 @@ std::vector<std::string> arguments() {
 // The same driver draws the same pixels on the same processor; on another one it rounds single channels to the number
 // beside, and another driver moves single pixels.
 bool is_same_picture(const std::string& name, const std::string& drawn_by) {
-    const std::string ours = (gallery / name).string(), now = (fs::path(KERF_GALLERY) / name).string();
+    const std::string ours = (gallery / name).string(), now = (fs::path(new_gallery) / name).string();
     if (name.ends_with(".svg")) return bytes_of_file(ours) == bytes_of_file(now);
     const ImageDifference difference = compare(read_png(ours), read_png(now));
     if (!difference.same_size) return false;
@@ -52,20 +54,20 @@ bool is_same_picture(const std::string& name, const std::string& drawn_by) {
 
 TEST(Gallery, IsDrawnByThisProgram) {
     constexpr double timeout_seconds = 280;
-    fs::remove_all(KERF_GALLERY);
-    fs::create_directories(KERF_GALLERY);
+    fs::remove_all(new_gallery);
+    fs::create_directories(new_gallery);
     ChildPool pool;
     pool.start(0, (gallery / "make_gallery.sh").string(), arguments(), {}, timeout_seconds);
     const ChildResult drawn = pool.wait_any()->result;
     ASSERT_EQ(drawn.exit_code, 0) << drawn.log;
-    const std::set<std::string> kept = pictures_in(gallery), now = pictures_in(KERF_GALLERY);
+    const std::set<std::string> kept = pictures_in(gallery), now = pictures_in(new_gallery);
     const std::string driver = Driver().app().renderer().driver();
     constexpr const char* remedy = "To draw it again: assets/gallery/make_gallery.sh";
     for (const std::string& name : kept) EXPECT_NE(now.contains(name), is_left_out(name)) << "assets/gallery/" << name;
     for (const std::string& name : now) {
         ASSERT_TRUE(kept.contains(name)) << "assets/gallery/" << name << " is missing. " << remedy;
         EXPECT_TRUE(is_same_picture(name, driver)) << "assets/gallery/" << name << " is out of date: now it is "
-                                                   << KERF_GALLERY << "/" << name << ". " << remedy;
+                                                   << new_gallery << "/" << name << ". " << remedy;
     }
 }
 

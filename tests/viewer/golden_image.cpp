@@ -8,14 +8,16 @@
 
 #include <fmt/format.h>
 
+#include "support/places.h"
+
 namespace kerf::test {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path goldens = fs::path(KERF_SOURCE) / "tests/golden/images";
-const fs::path candidates = fs::path(KERF_GOLDEN_CANDIDATES) / "images";
+const fs::path goldens = fs::path(test::source_folder()) / "tests/golden/images";
+const fs::path candidates = fs::path(test::candidate_folder()) / "images";
 
 // Of a driver: "llvmpipe (LLVM 15)" gives "llvmpipe-llvm-15".
 std::string folder_of(const std::string& drawn_by) {

@@ -7,6 +7,7 @@
 #include "run/trace.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/stamped_part.h"
@@ -390,7 +391,7 @@ TEST(GoldenComparison, FailsWhereItMust) {
     }
     EXPECT_TRUE(std::filesystem::remove(std::filesystem::path(candidate_path("", by)).parent_path()));
     EXPECT_FALSE(are_golden_words("that-nobody-has-read", {"Kerf"}));
-    const std::filesystem::path words = std::filesystem::path(KERF_GOLDEN_CANDIDATES) / "words";
+    const std::filesystem::path words = std::filesystem::path(test::candidate_folder()) / "words";
     EXPECT_TRUE(std::filesystem::remove(words / "that-nobody-has-read.txt"));
 }
 

@@ -5,6 +5,7 @@
 
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 #include "viewer/render/offscreen.h"
@@ -27,7 +28,7 @@ std::string drawn_by(const std::string& library, const std::vector<std::string>&
 TEST(Offscreen, AllLibrariesDrawTheSameBytes) {
     if (view::offscreen_libraries().size() < 2) GTEST_SKIP() << "built with one library";
     const TemporaryFolder folder;
-    const std::string run = folder.file("run"), untimed = KERF_ASSETS "/gallery/no_times.json";
+    const std::string run = folder.file("run"), untimed = test::asset_folder() + "/gallery/no_times.json";
     ASSERT_EQ(run_kerf({"mesh", asset_path("cylinder"), "-o", run, "-n", "4", "-q"}).exit_code, 0);
     const std::vector<std::vector<std::string>> pictures = {
         {run, "--node", "3", "--stage", "split", "--state", untimed, "--ui"},

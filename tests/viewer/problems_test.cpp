@@ -11,6 +11,7 @@
 #include "io/cad_body.h"
 #include "io/program_finder.h"
 #include "io/surface_reader.h"
+#include "prepare/input.h"
 #include "support/assets.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"

@@ -7,6 +7,7 @@
 #include "io/file_bytes.h"
 #include "prepare/repaired_file.h"
 #include "repair/repair_step.h"
+#include "support/places.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
@@ -90,7 +91,7 @@ class RepairSession : public testing::Test {
     const test::TemporaryFolder folder_;
     const std::string path_ = folder_.file("dirty.off");
     const Soup read_ = cracked_sphere(1e-3);
-    Session session_{KERF_PROGRAM};
+    Session session_{test::kerf_program()};
 };
 
 TEST_F(RepairSession, ShowsWhatACommandMakesOfTheFileAndWhatItWas) {

@@ -9,6 +9,7 @@
 
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/started_run.h"
@@ -89,8 +90,8 @@ TEST(Runs, TheContextIsTheRestOfTheSurface) {
 TEST(Runs, TheWorstCellsAreThoseOfAllParts) {
     const TemporaryFolder folder;
     const std::string output = folder.file("run");
-    StartedRun run(KERF_PROGRAM, {"mesh", asset_path("cube"), "-q", "-o", output, "-n", "4", "--workers", "1",
-                                  "--max-volume", "8e-6"});
+    StartedRun run(test::kerf_program(), {"mesh", asset_path("cube"), "-q", "-o", output, "-n", "4", "--workers", "1",
+                                          "--max-volume", "8e-6"});
     ASSERT_TRUE(await([&] { return finished_parts(output) >= 1; }));
     ASSERT_EQ(::kill(run.process(), SIGSTOP), 0);
     Driver driver;

@@ -7,6 +7,7 @@
 
 #include "support/assets.h"
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/started_run.h"
@@ -234,8 +235,9 @@ endsolid)";
 // A picture that is no longer wanted takes its run and its folder along.
 TEST(Screenshot, EndsItsRunWhenItIsInterrupted) {
     std::ofstream(folder().file("fine.toml")) << "size = 0.4\n";
-    StartedRun picture(KERF_PROGRAM, {"screenshot", asset_path("bearing_cap_52k"), "--stage", "tetrahedra", "-n", "4",
-                                      "-o", folder().file("b.png"), "--config", folder().file("fine.toml")});
+    StartedRun picture(test::kerf_program(),
+                       {"screenshot", asset_path("bearing_cap_52k"), "--stage", "tetrahedra", "-n", "4", "-o",
+                        folder().file("b.png"), "--config", folder().file("fine.toml")});
     ASSERT_TRUE(await([&] { return !picture.workers().empty(); }));
     const std::vector<pid_t> workers = picture.workers();
     ::kill(picture.process(), SIGTERM);

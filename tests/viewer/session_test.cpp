@@ -10,6 +10,7 @@
 #include "mesh/quality.h"
 #include "report/event_log.h"
 #include "support/assets.h"
+#include "support/places.h"
 #include "support/program.h"
 #include "support/shapes.h"
 #include "support/stamped_part.h"
@@ -103,7 +104,7 @@ class SessionTest : public testing::Test {
     }
 
     test::TemporaryFolder folder_;
-    Session session_{KERF_PROGRAM};
+    Session session_{test::kerf_program()};
 };
 
 // --- surfaces ---
@@ -313,7 +314,7 @@ TEST_F(OwnRun, CanBeCancelled) {
 
 TEST_F(OwnRun, EndsWithTheSession) {
     {
-        Session session{KERF_PROGRAM};
+        Session session{test::kerf_program()};
         session.open(test::asset_path("bearing_cap_52k"));
         ASSERT_TRUE(settle(session));
         RunOptions fine = options(6);
@@ -348,8 +349,8 @@ TEST_F(OwnRun, OfATraceWhoseSurfaceIsGone) {
 class Data : public SessionTest {
  protected:
     void SetUp() override { run("knee_femoral", {"-n", "5", "--trace", folder_.file("trace")}); }
-    Session by_trace_{KERF_PROGRAM};
-    Session by_folder_{KERF_PROGRAM};
+    Session by_trace_{test::kerf_program()};
+    Session by_folder_{test::kerf_program()};
 
     void open_apart() {
         by_trace_.open(folder_.file("trace"));
@@ -423,7 +424,7 @@ TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
     ASSERT_TRUE(document().trace) << document().progress.message;
     ASSERT_EQ(document().tree.parts_below(1).size(), 6u);
     EXPECT_EQ(document().tree.find(1)->cut->strategy, CutStrategy::straight);
-    Session folder{KERF_PROGRAM};
+    Session folder{test::kerf_program()};
     folder.open(document().folder);
     ASSERT_TRUE(settle(folder));
     for (const TreeRow& row : document().tree.rows) {
@@ -701,8 +702,8 @@ TEST_F(SessionTest, ACutIsMadeAgainOnlyInATrace) {
 
 TEST_F(SessionTest, FollowsTheFolderOfARunUnderWay) {
     const std::string output = folder_.file("run");
-    test::StartedRun run(KERF_PROGRAM, {"mesh", test::asset_path("bearing_cap_52k"), "-q", "-o", output, "-n", "6",
-                                        "--size", "1.2", "--workers", "2"});
+    test::StartedRun run(test::kerf_program(), {"mesh", test::asset_path("bearing_cap_52k"), "-q", "-o", output, "-n",
+                                                "6", "--size", "1.2", "--workers", "2"});
     ASSERT_TRUE(test::await([&] { return test::finished_parts(output) >= 1; }));
     // It stands still, so that it is under way for as long as it is looked at, whatever the machine does.
     ASSERT_GT(run.process(), 0);
@@ -730,8 +731,8 @@ TEST_F(SessionTest, FollowsTheFolderOfARunUnderWay) {
 // As if a part were being written at this moment.
 TEST_F(SessionTest, OpensARunOfWhichAPartIsHalfWritten) {
     const std::string output = folder_.file("run");
-    test::StartedRun run(KERF_PROGRAM, {"mesh", test::asset_path("cube"), "-q", "-o", output, "-n", "4", "--workers",
-                                        "1", "--max-volume", "4e-6"});
+    test::StartedRun run(test::kerf_program(), {"mesh", test::asset_path("cube"), "-q", "-o", output, "-n", "4",
+                                                "--workers", "1", "--max-volume", "4e-6"});
     ASSERT_TRUE(test::await([&] { return test::finished_parts(output) >= 1; }));
     ::kill(run.process(), SIGKILL);
     run.wait();
@@ -757,7 +758,7 @@ TEST_F(SessionTest, ShowsAnInterruptedRun) {
                                                 folder_.file("trace"),
                                                 "--workers",
                                                 "1"};
-    test::StartedRun run(KERF_PROGRAM, arguments);
+    test::StartedRun run(test::kerf_program(), arguments);
     ASSERT_TRUE(test::await([&] { return test::finished_parts(output) >= 2; }));
     ::kill(run.process(), SIGINT);
     EXPECT_EQ(run.wait().exit_code, 130);

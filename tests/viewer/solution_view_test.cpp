@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/file_contents.h"
+#include "support/places.h"
 #include "viewer/panels/text.h"
 #include "viewer/render/line_labels.h"
 #include "viewer/scene/arrows.h"
@@ -263,7 +264,7 @@ TEST_F(SolvedCubeLookedAt, APeriodIsPictures) {
     const auto run = [&](std::vector<std::string> more) {
         more.insert(more.begin(),
                     {"screenshot", folder_->file("out"), "-o", folder_->file("mode.png"), "--resolution", "200x160"});
-        return run_program(KERF_PROGRAM, more);  // its pictures have other names than its output
+        return run_program(test::kerf_program(), more);  // its pictures have other names than its output
     };
     ASSERT_EQ(run({"--load-case", "Mode 2", "--frames", "4"}).exit_code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder_->file("mode.png")));

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "prepare/slivers.h"
+#include "support/places.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
@@ -176,7 +177,7 @@ class RemeshedRun : public testing::Test {
 
     test::TemporaryFolder folder_;
     Soup soup_ = test::prism(24, 1, 4);
-    Session session_{KERF_PROGRAM};
+    Session session_{test::kerf_program()};
 };
 
 TEST_F(RemeshedRun, ShowsWhatWasThereBefore) {

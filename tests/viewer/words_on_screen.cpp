@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "support/places.h"
+
 namespace kerf::test {
 
 namespace {
@@ -93,8 +95,8 @@ std::vector<std::string> words_on_screen() {
 }
 
 testing::AssertionResult are_golden_words(const std::string& name, const std::vector<std::string>& lines) {
-    const std::filesystem::path golden = fmt::format("{}/tests/golden/words/{}.txt", KERF_SOURCE, name);
-    const std::filesystem::path folder = std::filesystem::path(KERF_GOLDEN_CANDIDATES) / "words",
+    const std::filesystem::path golden = fmt::format("{}/tests/golden/words/{}.txt", test::source_folder(), name);
+    const std::filesystem::path folder = std::filesystem::path(test::candidate_folder()) / "words",
                                 candidate = folder / fmt::format("{}.txt", name);
     std::vector<std::string> expected;
     std::ifstream file(golden);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/assets.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -25,8 +26,10 @@ const std::vector<std::int32_t> cube_patches = {0, 0, 1, 1, 2, 2, 2, 2, 2, 2, 2,
 ClosedSurface cube() { return surface_from_arrays(corners, cube_facets, cube_patches, {"bottom", "top", "sides"}); }
 
 MeshOptions two_parts() {
-    return {
-        .size = 0.25, .parts = 2, .workers = 1, .programs = std::filesystem::path(KERF_WORKER).parent_path().string()};
+    return {.size = 0.25,
+            .parts = 2,
+            .workers = 1,
+            .programs = std::filesystem::path(test::worker_program()).parent_path().string()};
 }
 
 double six_volumes(const MeshArrays& mesh, const std::array<std::int64_t, 4>& tet) {

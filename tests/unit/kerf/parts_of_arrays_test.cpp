@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "part/solution_parts.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -53,10 +54,12 @@ std::set<std::tuple<Corners, std::int32_t, NodeId, Corners>> boundary(const Part
 TEST(PartsOfArrays, AreThoseOfTheRun) {
     const test::TemporaryFolder folder;
     const std::string run = folder.file("run");
-    mesh_to_folder(
-        stacked_cubes(),
-        {.size = 0.4, .parts = 5, .workers = 1, .programs = std::filesystem::path(KERF_WORKER).parent_path().string()},
-        run);
+    mesh_to_folder(stacked_cubes(),
+                   {.size = 0.4,
+                    .parts = 5,
+                    .workers = 1,
+                    .programs = std::filesystem::path(test::worker_program()).parent_path().string()},
+                   run);
     const MeshArrays arrays = arrays_of_run(run);
     const std::unique_ptr<PartSource> source = open_parts(run);
     std::size_t parts = 0;

@@ -12,6 +12,7 @@
 #include "remesh/remesh.h"
 #include "run/pipeline.h"
 #include "size/size_options.h"
+#include "support/places.h"
 #include "support/shapes.h"
 #include "support/size_fields.h"
 #include "support/slice.h"
@@ -136,7 +137,7 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
         RunOptions options;
         options.input = folder.file("input.off");
         options.output = folder.file("out");
-        options.worker_program = KERF_WORKER;
+        options.worker_program = test::worker_program();
         options.workers = 2;
         options.decompose.parts = parts;
         options.remeshing = Remeshing::always;

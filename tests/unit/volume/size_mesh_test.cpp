@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/verification.h"
+#include "support/places.h"
 #include "support/run_in_process.h"
 #include "support/size_fields.h"
 #include "support/temporary_folder.h"
@@ -102,7 +103,7 @@ RunReport run_sized(const TemporaryFolder& folder, const Soup& soup, const SizeO
     RunOptions options;
     options.input = folder.file("input.off");
     options.output = folder.file("out");
-    options.worker_program = KERF_WORKER;
+    options.worker_program = test::worker_program();
     options.workers = 2;
     options.decompose.parts = parts;
     options.sizes = sizes;

@@ -18,6 +18,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "prepare/numbering.h"
+#include "support/places.h"
 #include "support/shapes.h"
 #include "surface/orientation.h"
 
@@ -42,7 +43,7 @@ bool has_checks_on(const std::map<std::string, nlohmann::json>& presets, const s
 
 TEST(Checks, AreOnInAllPresetsButRelease) {
     std::map<std::string, nlohmann::json> presets;
-    std::ifstream file(KERF_SOURCE "/CMakePresets.json");
+    std::ifstream file(test::source_folder() + "/CMakePresets.json");
     const nlohmann::json all = nlohmann::json::parse(file);
     for (const nlohmann::json& preset : all.at("configurePresets")) presets[preset["name"]] = preset;
     ASSERT_GT(presets.size(), 2U);
