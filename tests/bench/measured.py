@@ -57,6 +57,20 @@ def output_of(*command, limit=None):
                                      text=True, timeout=limit, check=True).stdout)
 
 
+def rate_of(count, seconds):
+    """By second. None where it is unknown: the log of gmsh says 0 seconds of what took less than its clock can tell."""
+    return count / seconds if seconds else None
+
+
+def rate_text(rate):
+    return "-" if rate is None else f"{rate:,.0f}"
+
+
+def ratio_text(rate, by, digits=2):
+    """Of two rates; a dash where one is unknown or 0."""
+    return f"{rate / by:.{digits}f}" if rate and by else "-"
+
+
 def failure_of(error, limit):
     """What a table says of a call that has raised this."""
     if isinstance(error, subprocess.TimeoutExpired):

@@ -12,7 +12,8 @@ angles, cells with one below 20 degrees in a million, and the share of the volum
 Results of Kerf's meshers are verified, too; those of gmsh must fill the volume.
 
 HXT does not take a bound of the volume: it is asked for edges that make about as many tetrahedra as TetGen's with the
-bound. Its seconds are those of its own log ("Done meshing 3D", processor), raw and with its optimisation.
+bound. Its seconds are those of its own log ("Done meshing 3D", processor), raw and with its optimisation; where that
+says 0, the rate is unknown, a dash.
 
 Without `all`: the bearing cap at 0.4 and 3.5 million tetrahedra, at 20 million for meshers other than TetGen and HXT,
 and every asset without a bound. With it all of them at 20 million, the cap in 207 k facets (each of 52 k quartered) at
@@ -31,7 +32,7 @@ import subprocess
 import sys
 import tempfile
 
-from measured import failure_of, output_of, run_gmsh
+from measured import failure_of, output_of, rate_of, rate_text, ratio_text, run_gmsh
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CAP = "bearing_cap_52k"
@@ -88,7 +89,7 @@ class Call:
             return {"mesher": self.name, "failure": self.failure}
         seconds = statistics.median(self.seconds)
         return {"mesher": self.name, "seconds": seconds, "all_seconds": self.seconds, "peak_bytes": min(self.bytes),
-                "tets_per_second": self.figures["tets"] / seconds, **self.figures}
+                "tets_per_second": rate_of(self.figures["tets"], seconds), **self.figures}
 
 
 class OwnMesher(Call):
@@ -138,8 +139,8 @@ def print_row(case, row, reference):
     rate = row["tets_per_second"]
     angles = [f"{row[f'dihedral_{percent}']:.1f}" for percent in ("0", "0.1", "1", "5", "50")]
     print(LAYOUT.format(
-        case.label, row["mesher"], f"{row['tets']:,}", f"{row['seconds']:.2f}", f"{rate:,.0f}",
-        f"{rate / reference:.2f}" if reference else "", f"{row['peak_bytes'] / 1e6:.0f}", *angles,
+        case.label, row["mesher"], f"{row['tets']:,}", f"{row['seconds']:.2f}", rate_text(rate),
+        ratio_text(rate, reference), f"{row['peak_bytes'] / 1e6:.0f}", *angles,
         f"{row['below_20_per_million']:.0f}", f"{100 * row['share_above']:.2f} %" if case.bound else "",
         f"{100 * row['core_tets'] / row['tets']:.0f} %" if row.get("core_tets") else "") +
         (f"  {row['way']}" if row.get("way") else ""))

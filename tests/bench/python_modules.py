@@ -21,7 +21,7 @@ import pathlib
 import sys
 import tempfile
 
-from measured import output_of, run_measured
+from measured import output_of, rate_text, ratio_text, run_measured
 from meshers import Call
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -62,7 +62,7 @@ def print_row(label, row, reference):
         return
     rate = row["tets_per_second"]
     print(LAYOUT.format(label, row["mesher"], row["lines"], f"{row['tets']:,}", f"{row['seconds']:.2f}",
-                        f"{row['wall_seconds']:.2f}", f"{rate:,.0f}", f"{reference / rate:.1f}" if reference else "",
+                        f"{row['wall_seconds']:.2f}", rate_text(rate), ratio_text(reference, rate, 1),
                         f"{row['least_dihedral']:.1f}", f"{row['dihedral_1']:.1f}", f"{row['volume_error']:.0e}",
                         f"{row['peak_bytes'] / 1e6:.0f}"))
 

@@ -35,7 +35,7 @@ import shutil
 import sys
 import tempfile
 
-from measured import output_of, run_gmsh, run_measured
+from measured import output_of, rate_text, ratio_text, run_gmsh, run_measured
 from meshers import Call
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -171,8 +171,8 @@ def print_row(case, given, row, reference):
     rate = row["tets_per_second"]
     print(LAYOUT.format(
         case.label, f"{row['regions']}/{given['regions']}", row["mesher"], f"{row['tets']:,}", f"{row['seconds']:.2f}",
-        f"{row['wall_seconds']:.2f}" if "wall_seconds" in row else "", f"{rate:,.0f}",
-        f"{rate / reference:.2f}" if reference else "", f"{row['dihedral_0']:.1f}", f"{row['dihedral_1']:.1f}",
+        f"{row['wall_seconds']:.2f}" if "wall_seconds" in row else "", rate_text(rate),
+        ratio_text(rate, reference), f"{row['dihedral_0']:.1f}", f"{row['dihedral_1']:.1f}",
         f"{row['dihedral_50']:.1f}", f"{row['region_error']:.1e}", f"{row['volume_error']:.1e}"))
 
 
