@@ -140,6 +140,11 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
                                      "kernel/repair/alpha_wrap.cpp", "kernel/repair/facet_divider.cpp",
                                      "kernel/repair/rim_triangulation.cpp", "kernel/surface/facet_triangulation.cpp",
                                      "kernel/surface/hole_filling.cpp", "kernel/surface/intersections.cpp"}));
+    const std::set<std::string> slow_parts = {"Eigen/Dense", "Eigen/Eigenvalues", "Eigen/QR",
+                                              "Eigen/SVD",   "Eigen/Sparse",      "Eigen/SparseCholesky"};
+    EXPECT_EQ(files_including([&](const std::string& name) { return slow_parts.contains(name); }),
+              (std::set<std::string>{"kernel/geometry/sparse_factors.cpp", "kernel/geometry/symmetric_axes.cpp",
+                                     "kernel/solve/dense.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "toml++"; }),
               (std::set<std::string>{"kernel/request/config_file.cpp", "kernel/solve/case_table.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
