@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SparseCholesky>
-
 #include "core/check.h"
 #include "core/elements.h"
 #include "cut/planar_grid.h"
+#include "geometry/sparse_factors.h"
 
 namespace kerf {
 
@@ -67,11 +66,11 @@ WeightedGraph cotangent_graph(const PlanarTriangulation& t) {
 
 void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const CancellationCheck& check_cancelled,
                     std::vector<double>& height) {
-    const auto interior = static_cast<Eigen::Index>(height.size() - contour_count);
+    const auto interior = static_cast<std::int32_t>(height.size() - contour_count);
     if (interior == 0) return;
-    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<SparseEntry> entries;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(interior);
-    for (Eigen::Index i = 0; i < interior; ++i) {
+    for (std::int32_t i = 0; i < interior; ++i) {
         const std::size_t v = contour_count + static_cast<std::size_t>(i);
         double sum = 0;
         for (std::int32_t k = graph.first[v]; k < graph.first[v + 1]; ++k) {
@@ -80,20 +79,12 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const
             if (n < contour_count)
                 right[i] += graph.weight[k] * height[n];
             else
-                entries.emplace_back(i, static_cast<Eigen::Index>(n - contour_count), -graph.weight[k]);
+                entries.push_back({i, static_cast<std::int32_t>(n - contour_count), -graph.weight[k]});
         }
-        entries.emplace_back(i, i, sum);
+        entries.push_back({i, i, sum});
     }
-    Eigen::SparseMatrix<double> laplacian(interior, interior);
-    laplacian.setFromTriplets(entries.begin(), entries.end());
-    check_cancelled();
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-    solver.analyzePattern(laplacian);
-    check_cancelled();
-    solver.factorize(laplacian);
-    check_cancelled();
-    const Eigen::VectorXd solution = solver.solve(right);
-    for (Eigen::Index i = 0; i < interior; ++i) height[contour_count + static_cast<std::size_t>(i)] = solution[i];
+    const Eigen::VectorXd solution = SparseFactors(interior, entries, check_cancelled).solve(right);
+    for (std::int32_t i = 0; i < interior; ++i) height[contour_count + static_cast<std::size_t>(i)] = solution[i];
 }
 
 // Narrows the ranges of interior points; contour points lie on the surface and stay.

@@ -7,28 +7,16 @@
 #include <queue>
 #include <tuple>
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
 #include "core/check.h"
 #include "core/elements.h"
 #include "core/error.h"
+#include "surface/planar_delaunay.h"
 
 namespace kerf {
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_2;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
-using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<bool, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Cdt =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                               CGAL::No_constraint_intersection_tag>;
 
 constexpr double growth = 0.5;             // of the size per distance from the contour, or the opposite
 constexpr double too_large = 1.5;          // circumradius x sqrt(3) over size
@@ -38,22 +26,17 @@ constexpr double vertex_clearance = 0.35;  // least distance of a point from a v
 constexpr double foreshortened = 0.6;      // of the given size: edges that are shorter are so in the plane only
 constexpr int smoothing_sweeps = 8;
 
-Point to_point(const Vec2& p) { return {p.x(), p.y()}; }
-Vec2 to_vec(const Point& p) { return {p.x(), p.y()}; }
 double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // True if two contour edges meet anywhere but in a shared end.
 bool edges_cross(const PlanarRegion& region, const std::array<std::int32_t, 2>& e,
                  const std::array<std::int32_t, 2>& f) {
-    const auto point = [&](std::int32_t i) { return to_point(region.contour[i]); };
+    const auto point = [&](std::int32_t i) -> const Vec2& { return region.contour[i]; };
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j)
-            if (e[i] == f[j]) {  // they meet elsewhere only if folded onto each other
-                const Point shared = point(e[i]), p = point(e[1 - i]), q = point(f[1 - j]);
-                return p == q ||
-                       (CGAL::collinear(p, shared, q) && !CGAL::collinear_are_ordered_along_line(p, shared, q));
-            }
-    return CGAL::do_intersect(Kernel::Segment_2(point(e[0]), point(e[1])), Kernel::Segment_2(point(f[0]), point(f[1])));
+            if (e[i] == f[j])  // they meet elsewhere only if folded onto each other
+                return segments_overlap(point(e[i]), point(e[1 - i]), point(f[1 - j]));
+    return segments_meet(point(e[0]), point(e[1]), point(f[0]), point(f[1]));
 }
 
 // Contour vertices of all edges that cross, by a sweep over the lower ends of the x-intervals.
@@ -104,90 +87,53 @@ class Triangulator {
         bool operator<(const Candidate& o) const { return std::tie(radius, corners) < std::tie(o.radius, o.corners); }
     };
 
-    void mark_inside();
     std::vector<std::int32_t> misoriented_edges() const;
-    bool insert_interior(const Vec2& p, double size, double least, Cdt::Face_handle hint);
-    void consider(Cdt::Face_handle face);
-    double mean_size(Cdt::Face_handle face) const;
-    double least_at(const Vec2& p, Cdt::Face_handle face) const;
+    bool insert_interior(const Vec2& p, double size, double least, const PlanarDelaunay::Face* start);
+    void consider(const Triangle& t);
+    double mean_size(const Triangle& t) const;
+    double least_at(const Vec2& p, const Triangle& t) const;
     double largest_at(const Vec2& p, double least) const;
-    double shortest_that_counts(Cdt::Face_handle face) const;
+    double shortest_that_counts(const Triangle& t) const;
 
     const PlanarRegion& region_;
-    Cdt cdt_;
-    std::vector<Cdt::Vertex_handle> vertices_;
+    PlanarDelaunay delaunay_;
+    std::vector<Vec2> points_;   // of each vertex
     std::vector<double> size_;   // wanted edge length at each vertex
     std::vector<double> least_;  // not less, because of contour edges nearby
     std::priority_queue<Candidate> queue_;
+    std::vector<PlanarDelaunay::Side> cavity_;  // of insert_interior(), kept for its room
 };
 
 std::vector<std::int32_t> Triangulator::insert_contour() {
-    Cdt::Face_handle hint;
-    for (const Vec2& p : region_.contour) {
-        const Cdt::Vertex_handle v = cdt_.insert(to_point(p), hint);
-        v->info() = static_cast<std::int32_t>(vertices_.size());
-        vertices_.push_back(v);
-        hint = v->face();
-    }
-    size_.assign(vertices_.size(), 0);
+    points_ = region_.contour;
+    for (const Vec2& p : points_) delaunay_.insert(p);
+    size_.assign(points_.size(), 0);
     for (const auto& [a, b] : region_.edges) {
         const double length = (region_.contour[b] - region_.contour[a]).norm();
         size_[a] += length / 2;
         size_[b] += length / 2;
-        cdt_.insert_constraint(vertices_[a], vertices_[b]);
+        if (!delaunay_.insert_edge(a, b)) return {a, b};  // which find_crossings() would have said
     }
     if (!region_.sizes.empty()) size_ = region_.sizes;
     for (double& size : size_) size = std::max(size, region_.least_edge);
     least_ = size_;
-    mark_inside();
+    delaunay_.mark_by_parity();  // crossing an edge changes inside to outside
     return misoriented_edges();
-}
-
-// Even-odd rule: crossing a constraint changes inside to outside.
-void Triangulator::mark_inside() {
-    enum { unknown = -1 };
-    CGAL::Unique_hash_map<Cdt::Face_handle, int> depth(unknown);
-    std::vector<Cdt::Face_handle> stack = {cdt_.infinite_face()};
-    depth[stack[0]] = 0;
-    while (!stack.empty()) {
-        const Cdt::Face_handle face = stack.back();
-        stack.pop_back();
-        face->info() = depth[face] % 2 == 1;
-        for (int i = 0; i < 3; ++i) {
-            const Cdt::Face_handle next = face->neighbor(i);
-            if (depth[next] != unknown) continue;
-            depth[next] = depth[face] + (face->is_constrained(i) ? 1 : 0);
-            stack.push_back(next);
-        }
-    }
 }
 
 std::vector<std::int32_t> Triangulator::misoriented_edges() const {
     std::vector<std::int32_t> failed;
-    for (const auto& [a, b] : region_.edges) {
-        Cdt::Face_handle face;
-        int i = 0;
-        bool good = cdt_.is_edge(vertices_[a], vertices_[b], face, i);
-        if (good) {
-            if (face->vertex(Cdt::ccw(i)) != vertices_[a]) std::tie(face, i) = cdt_.mirror_edge({face, i});
-            good = face->info() && !face->neighbor(i)->info();
-        }
-        if (!good) failed.insert(failed.end(), {a, b});
-    }
+    for (const auto& [a, b] : region_.edges)
+        if (!delaunay_.has_border(a, b)) failed.insert(failed.end(), {a, b});
     return failed;
 }
 
-double Triangulator::mean_size(Cdt::Face_handle face) const {
-    return (size_[face->vertex(0)->info()] + size_[face->vertex(1)->info()] + size_[face->vertex(2)->info()]) / 3;
-}
+double Triangulator::mean_size(const Triangle& t) const { return (size_[t[0]] + size_[t[1]] + size_[t[2]]) / 3; }
 
 // Contour edges are not split, so that triangles beside them that are much shorter would be flat.
-double Triangulator::least_at(const Vec2& p, Cdt::Face_handle face) const {
+double Triangulator::least_at(const Vec2& p, const Triangle& t) const {
     double least = 0;
-    for (int i = 0; i < 3; ++i) {
-        const Cdt::Vertex_handle v = face->vertex(i);
-        least = std::max(least, least_[v->info()] - growth * (to_vec(v->point()) - p).norm());
-    }
+    for (const std::int32_t v : t) least = std::max(least, least_[v] - growth * (points_[v] - p).norm());
     return least;
 }
 
@@ -196,89 +142,72 @@ double Triangulator::largest_at(const Vec2& p, double least) const {
 }
 
 // Shorter edges make no triangle flat.
-double Triangulator::shortest_that_counts(Cdt::Face_handle face) const {
-    return region_.sizes.empty() ? region_.least_edge : std::max(region_.least_edge, foreshortened * mean_size(face));
+double Triangulator::shortest_that_counts(const Triangle& t) const {
+    return region_.sizes.empty() ? region_.least_edge : std::max(region_.least_edge, foreshortened * mean_size(t));
 }
 
 // Inserts p unless it lies outside, encroaches a contour edge or crowds a vertex.
-bool Triangulator::insert_interior(const Vec2& p, double size, double least, Cdt::Face_handle hint) {
-    const Point point = to_point(p);
-    Cdt::Locate_type type;
-    int index = 0;
-    const Cdt::Face_handle start = cdt_.locate(point, type, index, hint);
-    if ((type != Cdt::FACE && type != Cdt::EDGE) || cdt_.is_infinite(start) || !start->info()) return false;
-    if (type == Cdt::EDGE && start->is_constrained(index)) return false;
-    std::vector<Cdt::Face_handle> conflicts;
-    cdt_.get_conflicts(point, std::back_inserter(conflicts), start);
-    for (const Cdt::Face_handle face : conflicts)
-        for (int i = 0; i < 3; ++i) {
-            const Vec2 a = to_vec(face->vertex(Cdt::ccw(i))->point()), b = to_vec(face->vertex(Cdt::cw(i))->point());
-            if ((a - p).norm() < vertex_clearance * size) return false;
-            if (!face->is_constrained(i)) continue;
-            const double length = (b - a).norm();
-            if ((a - p).dot(b - p) < 0 && std::abs(cross_2d(b - a, p - a)) < edge_clearance * length * length)
-                return false;
-        }
-    const Cdt::Vertex_handle v = cdt_.insert(point, type, start, index);
-    v->info() = static_cast<std::int32_t>(vertices_.size());
-    vertices_.push_back(v);
+bool Triangulator::insert_interior(const Vec2& p, double size, double least, const PlanarDelaunay::Face* start) {
+    const auto place = delaunay_.find_place(p, start);
+    if (!place) return false;
+    delaunay_.find_cavity(p, *place, cavity_);
+    for (const PlanarDelaunay::Side& side : cavity_) {
+        const Vec2 &a = points_[side.from], &b = points_[side.to];
+        if ((a - p).norm() < vertex_clearance * size) return false;
+        if (!side.is_edge) continue;
+        const double length = (b - a).norm();
+        if ((a - p).dot(b - p) < 0 && std::abs(cross_2d(b - a, p - a)) < edge_clearance * length * length) return false;
+    }
+    delaunay_.insert(p, *place);
+    points_.push_back(p);
     size_.push_back(size);
     least_.push_back(least);
-    Cdt::Face_circulator face = cdt_.incident_faces(v), end = face;
-    do face->info() = true;
-    while (++face != end);
     return true;
 }
 
-void Triangulator::consider(Cdt::Face_handle face) {
-    if (cdt_.is_infinite(face) || !face->info()) return;
-    const Vec2 a = to_vec(face->vertex(0)->point()), b = to_vec(face->vertex(1)->point()),
-               c = to_vec(face->vertex(2)->point());
+void Triangulator::consider(const Triangle& t) {
+    const Vec2 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
     const double la = (b - c).norm(), lb = (c - a).norm(), lc = (a - b).norm();
     const double radius = la * lb * lc / (2 * cross_2d(b - a, c - a));
-    const Vec2 centre = to_vec(cdt_.circumcenter(face));
-    const double size = std::min(mean_size(face), largest_at(centre, least_at(centre, face)));
+    const Vec2 centre = circumcentre(a, b, c);
+    const double size = std::min(mean_size(t), largest_at(centre, least_at(centre, t)));
     if (radius * std::sqrt(3.0) <= too_large * size &&
-        radius <= too_flat * std::max(shortest_that_counts(face), std::min({la, lb, lc})))
+        radius <= too_flat * std::max(shortest_that_counts(t), std::min({la, lb, lc})))
         return;
-    queue_.push({radius, {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()}});
+    queue_.push({radius, t});
 }
 
 void Triangulator::insert_wanted() {
-    for (const auto& [position, size] : region_.wanted) insert_interior(position, size, 0, Cdt::Face_handle());
+    for (const auto& [position, size] : region_.wanted) insert_interior(position, size, 0, nullptr);
 }
 
 void Triangulator::refine() {
-    for (const Cdt::Face_handle face : cdt_.finite_face_handles()) consider(face);
+    for (const Triangle& t : delaunay_.triangles()) consider(t);
     for (std::size_t i = 0; !queue_.empty(); ++i) {
         region_.check_cancelled.at(i);
-        if (static_cast<std::int64_t>(vertices_.size()) >= region_.max_points)
+        if (static_cast<std::int64_t>(points_.size()) >= region_.max_points)
             throw Error(ErrorCode::memory,
                         fmt::format("The triangles of an interface have more than {} vertices. Use a "
                                     "larger --size or more --memory.",
                                     region_.max_points));
-        const Triangle t = queue_.top().corners;
+        const auto face = delaunay_.find(queue_.top().corners);
         queue_.pop();
-        Cdt::Face_handle face;
-        if (!cdt_.is_face(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], face)) continue;
-        const Vec2 centre = to_vec(cdt_.circumcenter(face));
+        if (!face) continue;
+        const Triangle& t = face->corners;
+        const Vec2 centre = circumcentre(points_[t[0]], points_[t[1]], points_[t[2]]);
         double size = INFINITY;
-        for (std::int32_t v : t)
-            size = std::min(size, size_[v] + growth * (to_vec(vertices_[v]->point()) - centre).norm());
-        const double least = least_at(centre, face);
-        if (!insert_interior(centre, std::min(size, largest_at(centre, least)), least, face)) continue;
-        Cdt::Face_circulator around = cdt_.incident_faces(vertices_.back()), end = around;
-        do consider(around);
-        while (++around != end);
+        for (const std::int32_t v : t) size = std::min(size, size_[v] + growth * (points_[v] - centre).norm());
+        const double least = least_at(centre, t);
+        if (!insert_interior(centre, std::min(size, largest_at(centre, least)), least, &*face)) continue;
+        for (const Triangle& around : delaunay_.triangles_around(static_cast<std::int32_t>(points_.size()) - 1))
+            consider(around);
     }
 }
 
 PlanarTriangulation Triangulator::extract() const {
     PlanarTriangulation result;
-    for (const Cdt::Vertex_handle v : vertices_) result.points.push_back(to_vec(v->point()));
-    for (const Cdt::Face_handle face : cdt_.finite_face_handles())
-        if (face->info())
-            result.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    result.points = points_;
+    result.triangles = delaunay_.triangles();
     return result;
 }
 

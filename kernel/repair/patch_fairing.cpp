@@ -1,17 +1,14 @@
 #include "repair/patch_fairing.h"
 
 #include <algorithm>
-
-#include <Eigen/SparseCholesky>
+#include <cmath>
 
 #include "geometry/box.h"
+#include "geometry/sparse_factors.h"
 
 namespace kerf {
 
 namespace {
-
-using PatchMatrix = Eigen::SparseMatrix<double>;
-using PatchVectors = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 // Sum over points w of the patch of |sum over v of weight(w, v) (x_v - x_w)|^2 / area(w); x of points within is
 // unknown.
@@ -19,26 +16,19 @@ class FairnessEquations {
  public:
     FairnessEquations(const PatchMesh& patch, const PatchSurroundings& around, const Vec3& origin, double scale)
         : patch_(patch), around_(around), origin_(origin), scale_(scale), area_(patch.count(), 0) {
-        known_ = PatchVectors::Zero(patch.count(), 3);
+        known_ = PointRows::Zero(patch.count(), 3);
         for (const Triangle& t : patch.triangles()) add({t[0], t[1], t[2]}, patch.count());
         for (const auto& t : around.facets) add(t, patch.rim_count());
     }
 
     // The new places of the points within; none if there is no solution.
-    PatchVectors solve() {
-        const std::int32_t unknown = patch_.count() - patch_.rim_count();
-        PatchMatrix laplacian(patch_.count(), unknown);
-        laplacian.setFromTriplets(triplets_.begin(), triplets_.end());
+    PointRows solve() {
         Eigen::VectorXd weight(patch_.count());
         for (std::int32_t w = 0; w < patch_.count(); ++w) {
             const bool counts = w >= patch_.rim_count() || around_.is_whole[w];
             weight[w] = counts && area_[w] > 0 ? 1 / area_[w] : 0;
         }
-        const PatchMatrix weighted = weight.asDiagonal() * laplacian;
-        const PatchMatrix normal = PatchMatrix(laplacian.transpose()) * weighted;
-        const Eigen::SimplicialLDLT<PatchMatrix> solver(normal);
-        if (solver.info() != Eigen::Success) return {};
-        return solver.solve(-(weighted.transpose() * known_));
+        return least_squares(patch_.count() - patch_.rim_count(), laplacian_, weight, known_);
     }
 
  private:
@@ -69,7 +59,7 @@ class FairnessEquations {
     }
     void add_term(std::int32_t row, std::int32_t v, double weight, const Vec3& at, std::int32_t count) {
         if (v >= patch_.rim_count() && v < count)
-            triplets_.emplace_back(row, v - patch_.rim_count(), weight);
+            laplacian_.push_back({row, v - patch_.rim_count(), weight});
         else
             known_.row(row) += weight * at.transpose();
     }
@@ -79,8 +69,8 @@ class FairnessEquations {
     Vec3 origin_;
     double scale_;
     std::vector<double> area_;
-    std::vector<Eigen::Triplet<double>> triplets_;
-    PatchVectors known_;
+    std::vector<SparseEntry> laplacian_;
+    PointRows known_;
 };
 
 }  // namespace
@@ -94,7 +84,7 @@ bool fair_patch(PatchMesh& patch, const PatchSurroundings& around) {
     const std::vector<Vec3> before = patch.points();
     constexpr int rounds = 3;
     for (int round = 0; round < rounds && patch.count() > rim; ++round) {
-        const PatchVectors places = FairnessEquations(patch, around, origin, scale).solve();
+        const PointRows places = FairnessEquations(patch, around, origin, scale).solve();
         if (places.rows() != patch.count() - rim || !places.allFinite()) return false;
         for (std::int32_t v = rim; v < patch.count(); ++v) {
             const Vec3 to = origin + scale * places.row(v - rim).transpose();

@@ -4,38 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/utility.h>
-
 #include "geometry/box.h"
 #include "surface/facet_triangulation.h"
+#include "surface/hole_triangulation.h"
 
 namespace kerf {
 
 namespace {
-
-using RimPoint = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-using RimTriangle = CGAL::Triple<int, int, int>;
-
-std::vector<RimPoint> cgal_points(const std::vector<Vec3>& points) {
-    std::vector<RimPoint> copies;
-    for (const Vec3& p : points) copies.emplace_back(p.x(), p.y(), p.z());
-    return copies;
-}
-
-std::vector<Triangle> span_smoothly(const std::vector<Vec3>& rim, const std::vector<Vec3>& apexes) {
-    std::vector<RimTriangle> patch;
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(cgal_points(rim), cgal_points(apexes),
-                                                             std::back_inserter(patch));
-    std::vector<Triangle> triangles;
-    for (const RimTriangle& t : patch) {
-        Triangle triangle = {t.first, t.second, t.third};
-        std::sort(triangle.begin(), triangle.end());  // in the direction of the rim
-        triangles.push_back(triangle);
-    }
-    return triangles;
-}
 
 // Of the rim as it lies in its plane.
 std::vector<Triangle> span_in_plane(const std::vector<Vec3>& rim, const RimPlane& plane) {
@@ -115,7 +90,7 @@ std::vector<Triangle> triangulate_rim(const std::vector<Vec3>& rim, const std::v
     if (rim.size() > 3 && (is_planar(plane, rim) || (is_long && !plane.normal.isZero() &&
                                                      plane.height < nearly_planar * box_around(rim).diagonal().norm())))
         if (std::vector<Triangle> triangles = span_in_plane(rim, plane); !triangles.empty()) return triangles;
-    return is_long ? span_divided(rim, apexes) : span_smoothly(rim, apexes);
+    return is_long ? span_divided(rim, apexes) : triangulate_hole(rim, apexes);
 }
 
 std::vector<Triangle> triangulate_band(const std::vector<Vec3>& first, const std::vector<Vec3>& second) {

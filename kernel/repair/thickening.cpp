@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/elements.h"
 #include "geometry/angles.h"
+#include "geometry/symmetric_axes.h"
 #include "geometry/triangle.h"
 #include "geometry/union_find.h"
 #include "repair/opening_filler.h"
@@ -37,12 +36,12 @@ struct MovedPlanes {
     // Where they meet, as well as that can be; along directions in which they hardly differ it does not move.
     Vec3 meeting_point() const {
         constexpr double hardly = 0.05, farthest = 4;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products);
+        const SymmetricAxes axes = symmetric_axes(products);
         Vec3 move = Vec3::Zero();
-        const double largest = solver.eigenvalues()[2];
+        const double largest = axes.values[2];
         for (int i = 0; i < 3; ++i)
-            if (solver.eigenvalues()[i] > hardly * largest)
-                move += solver.eigenvectors().col(i).dot(sum) / solver.eigenvalues()[i] * solver.eigenvectors().col(i);
+            if (axes.values[i] > hardly * largest)
+                move += axes.vectors.col(i).dot(sum) / axes.values[i] * axes.vectors.col(i);
         return move.norm() > farthest ? Vec3(farthest * move.normalized()) : move;
     }
 };

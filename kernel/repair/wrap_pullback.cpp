@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include "core/cancellation.h"
 #include "core/mixed_bits.h"

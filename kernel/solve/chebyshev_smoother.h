@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "solve/dense.h"
 #include "solve/level_matrix.h"
 
 namespace kerf {
@@ -82,14 +83,7 @@ class ChebyshevSmoother {
             alpha = rho / curvature;
             for (std::size_t i = 0; i < size; ++i) r[i] -= alpha * q[i];
         }
-        if (diagonal.empty()) return 1;
-        const auto steps = static_cast<Eigen::Index>(diagonal.size());
-        Eigen::MatrixXd tridiagonal = Eigen::MatrixXd::Zero(steps, steps);
-        for (Eigen::Index k = 0; k < steps; ++k) tridiagonal(k, k) = diagonal[k];
-        for (Eigen::Index k = 0; k + 1 < steps; ++k) tridiagonal(k, k + 1) = tridiagonal(k + 1, k) = beside[k];
-        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tridiagonal, Eigen::EigenvaluesOnly)
-            .eigenvalues()
-            .maxCoeff();
+        return diagonal.empty() ? 1 : largest_tridiagonal_eigenvalue(diagonal, beside);
     }
 
     const LevelMatrix<B>* matrix_;

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "core/error.h"
 #include "solve/body_forces.h"
+#include "solve/dense.h"
 #include "solve/elastic_problem.h"
 #include "solve/rigid_motions.h"
 
@@ -108,8 +107,7 @@ void InertiaRelief::fix_motions(ElasticProblem& problem) const {
             if (left[b].cols() == 0) continue;
             // Motions that leave it where it is: those at right angles to the one that moves it most.
             const Eigen::MatrixXd held = left[b].transpose() * Eigen::Map<const Motion>(&moved[6 * b]);
-            const Eigen::HouseholderQR<Eigen::MatrixXd> qr(held);
-            const Eigen::MatrixXd turned = left[b] * Eigen::MatrixXd(qr.householderQ());
+            const Eigen::MatrixXd turned = left[b] * orthogonal_from(held);
             left[b] = turned.rightCols(turned.cols() - 1).eval();
         }
     }
@@ -122,7 +120,8 @@ std::vector<InertiaRelief::Motion> InertiaRelief::with_momenta(const std::vector
         found.emplace_back(Motion::Zero());
         if (free.cols() == 0) continue;
         const Eigen::MatrixXd mass = free.transpose() * masses_[b] * free;
-        found[b] = free * mass.ldlt().solve(free.transpose() * Eigen::Map<const Motion>(&momenta[6 * b]));
+        const Eigen::VectorXd momentum = free.transpose() * Eigen::Map<const Motion>(&momenta[6 * b]);
+        found[b] = free * DenseFactors(mass).solve(momentum);
     }
     return found;
 }

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
+#include "solve/dense.h"
 #include "solve/ghost_exchange.h"
 #include "solve/symmetric_blocks.h"
 
@@ -51,7 +52,7 @@ struct LevelMatrix {
             Eigen::Map<Block> block(&blocks[B * B * n]);
             for (int i = 0; i < B; ++i)
                 if (block(i, i) == 0) block(i, i) = 1;
-            block = Block(block).ldlt().solve(Block::Identity()).eval();
+            invert<B>(block);
         }
         return blocks;
     }

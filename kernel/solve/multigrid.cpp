@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Core>
+
+#include "geometry/sparse_factors.h"
 
 namespace kerf {
 
@@ -50,7 +52,7 @@ class CoarsestLevel : public MultigridLevel {
         return gather_items(ranks_, own);
     }
     void factorise(const std::vector<double>& blocks) {
-        std::vector<Eigen::Triplet<double>> entries;
+        std::vector<SparseEntry> entries;
         std::vector<double> diagonal(right_.size(), 0);
         for (std::size_t at = 0; at < blocks.size(); at += 2 + B * B) {
             const auto row = static_cast<int>(blocks[at]), column = static_cast<int>(blocks[at + 1]);
@@ -59,20 +61,18 @@ class CoarsestLevel : public MultigridLevel {
                     const double value = blocks[at + 2 + B * i + j];
                     const int r = B * row + i, c = B * column + j;
                     if (r == c) diagonal[r] += value;
-                    if (row == column ? r >= c : true) entries.emplace_back(std::max(r, c), std::min(r, c), value);
+                    if (row == column ? r >= c : true) entries.push_back({std::max(r, c), std::min(r, c), value});
                 }
         }
         for (std::size_t i = 0; i < diagonal.size(); ++i)  // nothing acts on these
-            if (diagonal[i] == 0) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
-        Eigen::SparseMatrix<double> lower(right_.size(), right_.size());
-        lower.setFromTriplets(entries.begin(), entries.end());
-        if (right_.size() > 0) factors_.compute(lower);
+            if (diagonal[i] == 0) entries.push_back({static_cast<int>(i), static_cast<int>(i), 1.0});
+        if (right_.size() > 0) factors_ = SparseFactors(right_.size(), entries);
     }
 
     MpiRanks& ranks_;
     std::size_t size_, first_ = 0;
     Eigen::VectorXd right_;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+    SparseFactors factors_;
 };
 
 template <int B>

@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include "core/error.h"
+#include "solve/dense.h"
 
 namespace kerf {
 
@@ -72,8 +71,8 @@ std::vector<BodyMotions> motions_of(const FeSpace& space, const SpaceBodies& bod
 // What is left of motions without the others, in words. `motions`: orthonormal columns that nothing prevents.
 std::string motions_text(const Eigen::MatrixXd& motions, const Vec3& middle, double scale) {
     if (motions.cols() == 6) return "it is not held at all";
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(motions.bottomRows(3), Eigen::ComputeFullV);
-    const Eigen::MatrixXd sorted = motions * svd.matrixV();  // those that turn most come first
+    // Those that turn most come first.
+    const Eigen::MatrixXd sorted = motions * right_singular_vectors(motions.bottomRows(3));
     std::string text;
     const auto direction = [](const Vec3& v) {
         Eigen::Index largest = 0;
@@ -110,11 +109,11 @@ std::vector<BodyMotions> free_motions(const ElasticProblem& problem, const Space
     const std::vector<double> products = HeldMotions(problem, bodies, motions).products();
     for (std::size_t b = 0; b < motions.size(); ++b) {
         const MotionMatrix product = Eigen::Map<const MotionMatrix>(&products[36 * b]);
-        const Eigen::SelfAdjointEigenSolver<MotionMatrix> solver(product);
-        const double largest = solver.eigenvalues()[5];
+        const SixAxes axes = symmetric_axes(product);
+        const double largest = axes.values[5];
         Eigen::Index left = 0;
-        while (left < 6 && solver.eigenvalues()[left] <= 1e-10 * largest) ++left;
-        motions[b].free = solver.eigenvectors().leftCols(left);
+        while (left < 6 && axes.values[left] <= 1e-10 * largest) ++left;
+        motions[b].free = axes.vectors.leftCols(left);
     }
     return motions;
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
+#include "solve/dense.h"
 #include "solve/element_stress.h"
 
 namespace kerf {
@@ -109,11 +110,13 @@ void PatchFit::solve(std::size_t vertex) {
     found.setZero();
     for (int degree = 2; degree >= 0; --degree) {
         const int terms = terms_of_degree[degree];
-        const Eigen::LDLT<Eigen::MatrixXd> factors(matrix.topLeftCorner(terms, terms));
-        if (degree > 0 && factors.vectorD().minCoeff() <= least_pivot) continue;
+        const DenseFactors factors(matrix.topLeftCorner(terms, terms));
+        if (degree > 0 && factors.least_pivot() <= least_pivot) continue;
         // With stresses as they are in one cell, degree 1 is always determined, and exact.
-        if (degree == 2 && !(factors.solve(Eigen::VectorXd::Unit(terms, 0))[0] <= largest_growth)) continue;
-        found.topRows(terms) = scale.head(terms).asDiagonal() * factors.solve(right.topRows(terms));
+        if (degree == 2 && !(factors.solve(Eigen::VectorXd(Eigen::VectorXd::Unit(terms, 0)))[0] <= largest_growth))
+            continue;
+        found.topRows(terms) =
+            scale.head(terms).asDiagonal() * factors.solve(DenseFactors::SixColumns(right.topRows(terms)));
         return;
     }
 }

@@ -10,14 +10,11 @@
 #include <optional>
 #include <utility>
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
 #include "core/check.h"
 #include "core/number_text.h"
+#include "surface/planar_delaunay.h"
 #include "surface/scaled_polygon.h"
 
 namespace kerf {
@@ -26,15 +23,7 @@ namespace {
 
 namespace planar {
 
-using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point2 = Exact::Point_2;
 using Edge = std::array<std::int64_t, 2>;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int64_t, Exact>;
-using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<bool, Exact, CGAL::Constrained_triangulation_face_base_2<Exact>>;
-using Cdt =
-    CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 // The two coordinates that stay, in the order in which the normal points to the viewer.
 struct Projection {
@@ -47,7 +36,7 @@ struct Projection {
         y = (axis + 2) % 3;
         if (normal[axis] < 0) std::swap(x, y);
     }
-    Point2 operator()(const Vec3& p) const { return {p[x], p[y]}; }
+    Vec2 operator()(const Vec3& p) const { return {p[x], p[y]}; }
 };
 
 // Along the normal of the polygon of the largest area; zero if none has one.
@@ -76,52 +65,30 @@ class Triangulator {
     Triangulator(const std::vector<Vec3>& vertices, const Vec3& normal) : vertices_(vertices), project_(normal) {}
 
     void insert_corners(const PolygonalFacet& facet) {
-        Cdt::Face_handle hint;
         for (const auto& corners : facet.polygons)
             for (const std::int64_t v : corners) {
-                const auto [known, is_new] = handle_of_.try_emplace(v);
+                const auto [known, is_new] = number_of_.try_emplace(v);
                 if (!is_new) continue;
-                const std::size_t before = cdt_.number_of_vertices();
-                known->second = cdt_.insert(project_(vertices_[v]), hint);
-                if (cdt_.number_of_vertices() > before) known->second->info() = v;  // else it lies on another one
-                hint = known->second->face();
+                known->second = delaunay_.insert(project_(vertices_[v]));
+                corner_.push_back(v);
             }
     }
     // Where two edges cross, if they do.
     std::optional<Vec3> insert_edges(const std::vector<Edge>& edges) {
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            const Cdt::Vertex_handle a = handle_of_.at(edges[i][0]), b = handle_of_.at(edges[i][1]);
-            if (a == b) continue;
-            try {
-                cdt_.insert_constraint(a, b);
-            } catch (const Cdt::Intersection_of_constraints_exception&) {
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            if (!delaunay_.insert_edge(number_of_.at(edges[i][0]), number_of_.at(edges[i][1])))
                 return crossing_with(edges[i], {edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(i)});
-            }
-        }
         return {};
     }
-    bool has_faces() const { return cdt_.dimension() == 2; }
-    void mark_outside() {
-        for (const Cdt::Face_handle face : cdt_.all_face_handles()) face->info() = false;
-        mark_from(cdt_.infinite_face());
-    }
+    bool has_faces() const { return delaunay_.has_triangles(); }
+    void mark_outside() { delaunay_.mark_enclosed(); }
     // False if the point lies on an edge, so that it does not say which side is the hole.
-    bool mark_hole(const Vec3& hole) {
-        Cdt::Locate_type type = Cdt::FACE;
-        int i = 0;
-        const Cdt::Face_handle face = cdt_.locate(project_(hole), type, i);
-        if (type == Cdt::VERTEX || (type == Cdt::EDGE && face->is_constrained(i))) return false;
-        if (type == Cdt::FACE || type == Cdt::EDGE) mark_from(face);
-        return true;
-    }
+    bool mark_hole(const Vec3& hole) { return delaunay_.mark_hole(project_(hole)); }
     std::vector<Triangle> triangles() const {
-        std::vector<Triangle> found;
-        for (const Cdt::Face_handle face : cdt_.finite_face_handles()) {
-            if (face->info()) continue;
-            Triangle t{};
-            for (int i = 0; i < 3; ++i) t[i] = static_cast<std::int32_t>(face->vertex(i)->info());
+        std::vector<Triangle> found = delaunay_.triangles();
+        for (Triangle& t : found) {
+            for (std::int32_t& corner : t) corner = static_cast<std::int32_t>(corner_[corner]);
             std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-            found.push_back(t);
         }
         std::sort(found.begin(), found.end());
         return found;
@@ -132,7 +99,8 @@ class Triangulator {
         for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
         std::sort(used.begin(), used.end());
         const auto is_outside = [&](std::int64_t v) {
-            return !std::binary_search(used.begin(), used.end(), static_cast<std::int32_t>(handle_of_.at(v)->info()));
+            const std::int64_t first = corner_[delaunay_.first_number(number_of_.at(v))];
+            return !std::binary_search(used.begin(), used.end(), static_cast<std::int32_t>(first));
         };
         return std::count_if(facet.polygons.begin(), facet.polygons.end(), [&](const auto& corners) {
             return corners.size() < 3 && std::any_of(corners.begin(), corners.end(), is_outside);
@@ -140,24 +108,13 @@ class Triangulator {
     }
 
  private:
-    void mark_from(Cdt::Face_handle start) {
-        std::vector<Cdt::Face_handle> stack = {start};
-        while (!stack.empty()) {
-            const Cdt::Face_handle face = stack.back();
-            stack.pop_back();
-            if (face->info()) continue;
-            face->info() = true;
-            for (int i = 0; i < 3; ++i)
-                if (!face->is_constrained(i)) stack.push_back(face->neighbor(i));
-        }
-    }
     // The first of the other edges that crosses one, and where; its middle if rounding hides which.
     Vec3 crossing_with(const Edge& edge, const std::vector<Edge>& others) const {
         const Vec3 &a = vertices_[edge[0]], &b = vertices_[edge[1]];
         for (const Edge& other : others) {
             const Vec3 &c = vertices_[other[0]], &d = vertices_[other[1]];
             const auto side = [&](const Vec3& p, const Vec3& q, const Vec3& of) {
-                return CGAL::orientation(project_(p), project_(q), project_(of));
+                return planar_orientation(project_(p), project_(q), project_(of));
             };
             const bool is_crossed = side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
             if (!is_crossed) continue;
@@ -173,8 +130,9 @@ class Triangulator {
 
     const std::vector<Vec3>& vertices_;
     Projection project_;
-    Cdt cdt_;
-    std::map<std::int64_t, Cdt::Vertex_handle> handle_of_;
+    PlanarDelaunay delaunay_;
+    std::map<std::int64_t, std::int32_t> number_of_;  // of a vertex in the triangulation
+    std::vector<std::int64_t> corner_;                // and of a number the vertex
 };
 
 FacetTriangulation refusal(std::string obstacle) { return {{}, std::move(obstacle), 0}; }

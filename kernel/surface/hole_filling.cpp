@@ -2,34 +2,19 @@
 
 #include <algorithm>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/utility.h>
-
 #include "core/elements.h"
+#include "surface/hole_triangulation.h"
 #include "surface/open_loops.h"
 
 namespace kerf {
 
 namespace {
 
-using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-using HoleTriangle = CGAL::Triple<int, int, int>;
-
 // Facets over positions in the loop, in its direction.
 std::vector<Triangle> span_loop(const Soup& soup, const OpenLoop& loop) {
-    std::vector<Point> rim;
-    for (const std::int32_t v : loop.vertices)
-        rim.emplace_back(soup.vertices[v].x(), soup.vertices[v].y(), soup.vertices[v].z());
-    std::vector<HoleTriangle> patch;
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(rim, std::back_inserter(patch));
-    std::vector<Triangle> facets;
-    for (const HoleTriangle& t : patch) {
-        Triangle facet = {t.first, t.second, t.third};
-        std::sort(facet.begin(), facet.end());
-        facets.push_back(facet);
-    }
-    return facets;
+    std::vector<Vec3> rim;
+    for (const std::int32_t v : loop.vertices) rim.push_back(soup.vertices[v]);
+    return triangulate_hole(rim, {});
 }
 
 }  // namespace

@@ -2,8 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "geometry/symmetric_axes.h"
 
 namespace kerf {
 
@@ -51,8 +52,8 @@ void break_ties(const Vec3& moments, Eigen::Matrix3d& axes) {
 }  // namespace
 
 PrincipalAxes principal_axes(const Eigen::Matrix3d& inertia) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-    PrincipalAxes principal{solver.eigenvalues(), solver.eigenvectors()};
+    const SymmetricAxes axes = symmetric_axes(inertia);
+    PrincipalAxes principal{axes.values, axes.vectors};
     break_ties(principal.moments, principal.axes);
     return principal;
 }

@@ -138,10 +138,14 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
     EXPECT_EQ(files_including([](const std::string& name) { return name == "tetgen.h"; }),
               std::set<std::string>{"kernel/volume/tetgen_adapter.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
-              (std::set<std::string>{"kernel/cut/triangulation.cpp", "kernel/geometry/predicates.cpp",
-                                     "kernel/repair/alpha_wrap.cpp", "kernel/repair/facet_divider.cpp",
-                                     "kernel/repair/rim_triangulation.cpp", "kernel/surface/facet_triangulation.cpp",
-                                     "kernel/surface/hole_filling.cpp", "kernel/surface/intersections.cpp"}));
+              (std::set<std::string>{"kernel/geometry/predicates.cpp", "kernel/repair/alpha_wrap.cpp",
+                                     "kernel/repair/facet_divider.cpp", "kernel/surface/hole_triangulation.cpp",
+                                     "kernel/surface/intersections.cpp", "kernel/surface/planar_delaunay.cpp"}));
+    const std::set<std::string> slow_parts = {"Eigen/Dense", "Eigen/Eigenvalues", "Eigen/QR",
+                                              "Eigen/SVD",   "Eigen/Sparse",      "Eigen/SparseCholesky"};
+    EXPECT_EQ(files_including([&](const std::string& name) { return slow_parts.contains(name); }),
+              (std::set<std::string>{"kernel/geometry/sparse_factors.cpp", "kernel/geometry/symmetric_axes.cpp",
+                                     "kernel/solve/dense.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "toml++"; }),
               (std::set<std::string>{"kernel/request/config_file.cpp", "kernel/solve/case_table.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 namespace kerf::view {
 
