@@ -46,8 +46,8 @@ def missing_tools():
 
 def configure(tree):
     """A build tree without tests; the variable CMAKE_ARGS has more options for CMake, in a shell's words."""
-    options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0",
-               "-DKERF_TESTS=OFF", "-DKERF_BENCHMARKS=OFF", f"-DPython3_EXECUTABLE={sys.executable}"]
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DKERF_JOIN_SOURCES=ON", "-DKERF_TESTS=OFF", "-DKERF_BENCHMARKS=OFF",
+               f"-DPython3_EXECUTABLE={sys.executable}"]
     if shutil.which("ninja"):  # another one each time, where it comes from the index
         options += ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={shutil.which('ninja')}"]
     if importlib.util.find_spec("pybind11") is not None:

@@ -132,7 +132,7 @@ def part_of(args):
     if not (args.build / "build.ninja").exists() or not args.deps and not shutil.which("ninja"):
         print(f"{args.build} is not built by Ninja, which tells what the compiler has read")
         sys.exit(77)
-    if "/Unity/" not in (args.build / "build.ninja").read_text():
+    if "/joined/" not in (args.build / "build.ninja").read_text():
         print(f"{args.build} compiles each source for itself; bounds are for those of a folder as one, as ./run does")
         sys.exit(77)
     return Lines(args.root, args.build, args.deps.read_text() if args.deps else deps_of(args.build))
@@ -184,12 +184,12 @@ def try_includes(trial):
 
 class FakeBuild:
     """A build folder with two sources of kernel/io that use a precompiled header, as far as Ninja tells it."""
-    MADE, PRECOMPILED = "kernel/io/kerf_io.dir/Unity/unity_0_cxx.cxx.o", "kerf_precompiled.dir/cmake_pch.hxx.gch"
+    MADE, PRECOMPILED = "kernel/io/kerf_io.dir/joined/kerf_io.cpp.o", "kerf_precompiled.dir/cmake_pch.hxx.gch"
 
     def __init__(self, root):
         self.folder, self.deps = root / "build", root / "deps.txt"
         self.folder.mkdir()
-        rule = f"build {self.MADE}: CXX unity_0_cxx.cxx | {self.folder / self.PRECOMPILED} || order\n"
+        rule = f"build {self.MADE}: CXX kerf_io.cpp | {self.folder / self.PRECOMPILED} || order\n"
         (self.folder / "build.ninja").write_text(rule)
         self.sources = sorted((root / "kernel/io").glob("*.cpp"))[:2]
 
