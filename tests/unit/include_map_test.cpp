@@ -166,9 +166,11 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
 }
 
 // Then a header brings nobody what takes seconds to compile.
-TEST(IncludeMap, HeadersOnlyDeclareJson) {
+TEST(IncludeMap, HeadersOnlyDeclareJsonAndTheCommandLine) {
     for (const std::string& file : files_including([](const std::string& name) { return name == "nlohmann/json.hpp"; }))
         EXPECT_FALSE(file.ends_with(".h")) << file << " can do with nlohmann/json_fwd.hpp";
+    for (const std::string& file : files_including([](const std::string& name) { return first_folder(name) == "CLI"; }))
+        EXPECT_TRUE(!file.ends_with(".h") || file == "help/number_option.h") << file << " can declare what it names";
 }
 
 // By io/json.h, so that they are compiled once.
