@@ -1,6 +1,8 @@
 // kerf check: what is wrong with a surface.
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/option_flags.h"

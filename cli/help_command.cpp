@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/other_programs.h"

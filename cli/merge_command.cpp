@@ -10,6 +10,7 @@
 #include "export/merged_file.h"
 #include "help/number_option.h"
 #include "help/usage_error.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "io/standard_streams.h"
 
@@ -30,7 +31,7 @@ int merge_and_tell(const MergeLine& line) {
                                              {"nodes", merged.nodes},
                                              {"tets", merged.tets},
                                              {"bytes", merged.bytes}};
-        print_data(json.dump(2) + "\n");
+        print_data(json_text(json, 2) + "\n");
     } else if (!line.quiet) {
         const std::string nodes = merged.nodes > merged.vertices ? fmt::format(" of {} nodes", merged.nodes) : "";
         tell(fmt::format("kerf: {}: {} vertices{}, {} tetrahedra, {:.1f} MB\n", line.request.output, merged.vertices,

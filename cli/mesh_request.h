@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "request/options.h"
+
+namespace CLI {
+class App;
+}
 
 namespace kerf {
 

@@ -1,9 +1,13 @@
 // The table of options as flags of a command.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "request/options.h"
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
 
 namespace kerf {
 

@@ -1,6 +1,8 @@
 // kerf repair: what can be mended of a surface is, and is said.
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/option_flags.h"

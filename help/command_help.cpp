@@ -1,6 +1,7 @@
 #include "help/command_help.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace kerf {
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "help/command_help.h"
 #include "help/nearest.h"

@@ -18,6 +18,7 @@
 #include "html/page_surface.h"
 #include "io/compressed.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
 #include "part/vtu_reader.h"
@@ -43,7 +44,7 @@ PageJson read_sealed_report(const std::string& folder) {
                     fmt::format("{} is not as Kerf has written it, so that nobody knows what of it is true. Copy the "
                                 "run again, or run kerf mesh again.",
                                 path));
-    return PageJson::parse(text);
+    return parse_ordered_json(text);
 }
 
 template <std::size_t count>
@@ -146,8 +147,7 @@ PageJson json_of(const ReadSurface& read) {
 // Text that ends no script and begins no comment of HTML.
 std::string as_script(const PageJson& json) {
     std::string text;
-    for (const char c : json.dump(-1, ' ', false, PageJson::error_handler_t::replace))
-        text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+    for (const char c : json_text(json)) text += c == '<' ? std::string("\\u003c") : std::string(1, c);
     return text;
 }
 

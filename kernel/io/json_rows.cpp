@@ -5,15 +5,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
+
 namespace kerf {
 
 namespace {
 
 using RowJson = nlohmann::ordered_json;
-
-std::string dumped(const RowJson& value, int indent) {
-    return value.dump(indent, ' ', false, RowJson::error_handler_t::replace);
-}
 
 bool is_list_of_rows(const RowJson& value) { return value.is_array() && !value.empty() && value.front().is_object(); }
 
@@ -21,7 +19,7 @@ void append_rows(const RowJson& rows, std::string& text) {
     const char* before = "[\n    ";
     for (const RowJson& row : rows) {
         text += before;
-        text += dumped(row, -1);
+        text += json_text(row);
         before = ",\n    ";
     }
     text += "\n  ]";
@@ -29,7 +27,7 @@ void append_rows(const RowJson& rows, std::string& text) {
 
 // Line ends within strings are escaped, so that all that are seen are of the layout.
 void append_indented(const RowJson& value, std::string& text) {
-    for (const char c : dumped(value, 2)) {
+    for (const char c : json_text(value, 2)) {
         text += c;
         if (c == '\n') text += "  ";
     }
@@ -41,7 +39,7 @@ std::string text_with_rows(const RowJson& object) {
     std::string text;
     for (const auto& [name, value] : object.items()) {
         text += text.empty() ? "{\n  " : ",\n  ";
-        text += dumped(name, -1) + ": ";
+        text += json_text(RowJson(name)) + ": ";
         is_list_of_rows(value) ? append_rows(value, text) : append_indented(value, text);
     }
     return text.empty() ? "{}\n" : text + "\n}\n";

@@ -14,6 +14,7 @@
 #include "io/checked_file.h"
 #include "io/file_bytes.h"
 #include "io/folder_files.h"
+#include "io/json.h"
 
 namespace kerf {
 
@@ -140,7 +141,7 @@ FolderContent inspect_run_folder(const std::string& folder) {
     try {
         const std::string report = read_file((fs::path(folder) / report_name).string());
         if (is_sealed(report)) {
-            const auto json = nlohmann::json::parse(report);
+            const auto json = parse_json(report);
             for (const auto& file : json.at("files")) listed.insert(file.at("path").get<std::string>());
             content.is_valid = json.at("exit_code") == 0;
             content.is_run = true;

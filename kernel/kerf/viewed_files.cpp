@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/unique_name.h"
+#include "io/json.h"
 #include "io/obj_writer.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
@@ -156,7 +157,7 @@ void write_surface_to_view(const ClosedSurface& surface, const std::string& path
     std::vector<std::string> names = surface.patch_names();
     if (complex.region_count() > 1) {
         WallGroups walls = group_walls(complex, names);
-        write_text_file(walls_path(path), walls.regions.dump(-1, ' ', false, Json::error_handler_t::replace));
+        write_text_file(walls_path(path), json_text(walls.regions));
         arrays.patch = std::move(walls.group);
         names = std::move(walls.names);
     }
@@ -175,7 +176,7 @@ void write_mesh_to_view(const MeshArrays& mesh, const std::string& folder) {
         write_part(file, part, {.has_regions = !mesh.region_names.empty()});
         write_part_surface(folder + "/parts/" + part_surface_file_name(part.id), part);
     });
-    write_text_file(folder + "/report.json", report_to_view(mesh, parts).dump());
+    write_text_file(folder + "/report.json", json_text(report_to_view(mesh, parts)));
 }
 
 }  // namespace kerf

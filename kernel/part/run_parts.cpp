@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/run_folder.h"
 #include "mesh/verification.h"
 #include "part/curved_nodes_file.h"
@@ -28,7 +29,7 @@ nlohmann::json read_report(const std::string& folder) {
                     fmt::format("{} is not a finished run: it holds no report.json. Name the folder that "
                                 "kerf mesh -o was given.",
                                 folder));
-    return nlohmann::json::parse(read_file(path));
+    return parse_json(read_file(path));
 }
 
 // What the report says of the whole; triangles are not counted in it.

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "part/run_parts.h"
@@ -24,7 +25,7 @@ Json report_of(const fs::path& folder) {
     std::error_code ignored;
     const fs::path path = folder / "report.json";
     if (!fs::exists(path, ignored)) return nullptr;
-    return Json::parse(read_file(path.string()), nullptr, false);
+    return parse_json_or_null(read_file(path.string()));
 }
 
 std::string path_beside(const fs::path& folder, const Json& name) {

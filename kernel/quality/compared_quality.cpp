@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
 #include "quality/quality_json.h"
 #include "quality/quality_sheet.h"
 
@@ -31,7 +32,7 @@ std::string to_json(const ComparedQuality& quality, const std::vector<std::strin
     nlohmann::ordered_json json = quality_json(quality.mesh);
     if (quality.other) json["compared_with"] = quality_json(*quality.other);
     json["missed_limits"] = missed;
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 std::string to_text(const ComparedQuality& quality, QualityDetail detail) {

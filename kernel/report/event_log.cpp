@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/checked_file.h"
+#include "io/json.h"
 #include "io/output_file.h"
 #include "io/path_text.h"
 #include "report/recovery_json.h"
@@ -30,7 +31,7 @@ void EventLog::write(Object json) {
     json["seconds"] = stopwatch_.seconds();
     if (!file_) return;
     try {
-        file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+        file_->write(json_text(json) + "\n");
         file_->flush();
     } catch (const ReaderLeft&) {
         file_.reset();

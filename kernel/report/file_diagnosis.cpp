@@ -9,6 +9,7 @@
 
 #include "core/number_text.h"
 #include "io/cad_body.h"
+#include "io/json.h"
 #include "prepare/region_diagnosis.h"
 #include "prepare/slivers.h"
 #include "report/repair_json.h"
@@ -193,7 +194,7 @@ std::string defect_text(const Defect& defect, const Soup& soup) {
 
 std::string to_json(const FileDiagnosis& found) {
     const Json json = found.refused ? refused_json(found.path, *found.refused) : surface_json(found);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 std::string to_text(const FileDiagnosis& found) {

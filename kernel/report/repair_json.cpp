@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
 #include "io/path_text.h"
 #include "repair/repair_step.h"
 #include "report/repair_text.h"
@@ -53,7 +54,7 @@ nlohmann::ordered_json json_of_repair(const RepairReport& report) {
             {"steps", std::move(steps)}};
 }
 
-std::string to_json(const RepairReport& report) { return json_of_repair(report).dump() + "\n"; }
+std::string to_json(const RepairReport& report) { return json_text(json_of_repair(report)) + "\n"; }
 
 nlohmann::ordered_json json_of_remedy(const Remedy& remedy, const std::string& path) {
     const bool is_level = remedy.level != RepairLevel::none;
@@ -85,7 +86,7 @@ std::string to_json(const RepairedFile& repaired) {
                  {"distance_of_added", distance_json(measures.distance_of_added)},
                  {"counts", std::move(counts)}};
     if (repaired.remedy) json["remedy"] = json_of_remedy(*repaired.remedy, repaired.input);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 }  // namespace kerf

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/durable_file.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
@@ -20,7 +21,7 @@ namespace {
 RunOptions load_saved_run(const std::string& file) {
     RunOptions options;
     try {
-        const auto json = nlohmann::json::parse(read_file(file));
+        const auto json = parse_json(read_file(file));
         options.input = path_of_text(json.at("input").get<std::string>());
         options.input_hash = json.at("input_hash").get<std::string>();
         std::vector<OptionText> texts;
@@ -47,7 +48,7 @@ void save_run(const std::string& path, const RunOptions& options, const std::str
     nlohmann::ordered_json json = {{"input", path_text(std::filesystem::absolute(options.input).string())},
                                    {"input_hash", input_hash}};
     for (const OptionText& option : option_texts(saved, false)) json["options"][option.name] = path_text(option.text);
-    write_durable_file(path, json.dump(2) + "\n");
+    write_durable_file(path, json_text(json, 2) + "\n");
 }
 
 bool is_complete_run(const std::string& folder) {

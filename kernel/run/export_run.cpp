@@ -17,6 +17,7 @@
 #include "core/version.h"
 #include "io/durable_file.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/json_rows.h"
 #include "io/output_file.h"
 #include "part/joined_parts.h"
@@ -98,7 +99,7 @@ class Target {
             throw Error(ErrorCode::io, fmt::format("{} is not as Kerf has written it, so that nobody knows whose files "
                                                    "lie there. Choose another folder.",
                                                    list_file_));
-        list_ = Json::parse(text);
+        list_ = parse_ordered_json(text);
         list_.erase("report_hash");
     }
     // Before any file gets its place: whatever happens, all of them are known as Kerf's.

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
 #include "io/path_text.h"
 
 namespace kerf {
@@ -14,7 +15,7 @@ std::string text_of_option(const nlohmann::json& value) {
         for (const nlohmann::json& item : value) items.push_back(path_of_text(item));
         return join_items(items);
     }
-    return value.is_number() || value.is_boolean() ? value.dump() : path_of_text(value);
+    return value.is_number() || value.is_boolean() ? json_text(value) : path_of_text(value);
 }
 
 }  // namespace

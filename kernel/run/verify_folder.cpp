@@ -20,6 +20,7 @@
 #include "core/version.h"
 #include "io/file_bytes.h"
 #include "io/folder_files.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
@@ -52,7 +53,7 @@ class FolderVerifier {
         : folder_(folder),
           options_(options),
           report_text_(read_report(folder)),
-          report_(nlohmann::json::parse(report_text_)),
+          report_(parse_json(report_text_)),
           is_of_this_version_(report_.at("kerf") == version),
           order_(report_.at("totals").value("order", 1)) {}
 

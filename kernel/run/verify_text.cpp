@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "run/verify_folder.h"
 
@@ -54,7 +55,7 @@ std::string to_json(const FolderVerification& found, const std::string& folder, 
     for (const RunLaw& law : run_laws) json[law.name] = laws.*law.count;
     json["differences"] = found.differences;
     json["not_compared"] = found.not_compared;
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 }  // namespace kerf

@@ -10,6 +10,7 @@
 #include "core/number_text.h"
 #include "core/version.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "io/run_manifest.h"
 #include "io/text_file.h"
@@ -75,7 +76,7 @@ class StepFolders {
     static bool is_report(const fs::path& path) {
         if (path.filename() != "report.json") return false;
         const std::string text = read_file(path.string());
-        return is_sealed(text) && nlohmann::json::parse(text).contains("steps");
+        return is_sealed(text) && parse_json(text).contains("steps");
     }
 
     std::string output_;
@@ -98,7 +99,7 @@ std::string to_json(const MeshAndSolveRequest& request, const MeshAndSolveReport
                                          {"target_error", request.solve.target_error.value_or(0)},
                                          {"reached", report.reached},
                                          {"steps", steps}};
-    return sealed(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    return sealed(json_text(json, 2) + "\n");
 }
 
 MeshAndSolveStep summary_of(const RunReport& mesh, const SolveReport& solution) {

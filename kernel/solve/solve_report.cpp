@@ -5,6 +5,7 @@
 
 #include "core/number_text.h"
 #include "core/version.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "solve/solve_run.h"
 
@@ -198,7 +199,7 @@ std::string to_json(const SolveReport& report) {
                             {"seconds", seconds_json(report.seconds)},
                             {"peak_rss_bytes", report.peak_rss_bytes},
                             {"files", files}};
-    return sealed(json.dump(2, ' ', false, SolveJson::error_handler_t::replace) + "\n");
+    return sealed(json_text(json, 2) + "\n");
 }
 
 std::string to_text(const SolveReport& report) {

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/output_file.h"
 #include "io/run_folder.h"
 #include "io/text_file.h"
@@ -133,7 +134,7 @@ void SolveStages::open_folder() {
                                     saved, output));
         const std::string old = output + "/report.json";
         if (std::filesystem::exists(old, ignored)) {
-            const auto json = nlohmann::json::parse(read_file(old), nullptr, false);
+            const auto json = parse_json_or_null(read_file(old));
             if (!json.is_object() || !json.contains("solve"))
                 throw Error(ErrorCode::io, fmt::format("{} holds another run than a solution. Move it away, or choose "
                                                        "another folder.",

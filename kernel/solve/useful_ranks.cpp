@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 
 namespace kerf {
 
@@ -24,7 +25,7 @@ int between_one_and(std::int64_t most, std::int64_t ranks) {
 
 int useful_ranks_of_run(const std::string& folder) {
     try {
-        const auto report = nlohmann::json::parse(read_file(folder + "/report.json"));
+        const auto report = parse_json(read_file(folder + "/report.json"));
         return between_one_and(static_cast<std::int64_t>(report.at("parts").size()),
                                report.at("totals").at("tets").get<std::int64_t>() / least_tets_of_rank);
     } catch (const nlohmann::json::exception&) {

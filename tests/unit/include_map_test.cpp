@@ -171,5 +171,29 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
             << file;
 }
 
+// Then a header brings nobody what takes seconds to compile.
+TEST(IncludeMap, HeadersOnlyDeclareJsonAndTheCommandLine) {
+    for (const std::string& file : files_including([](const std::string& name) { return name == "nlohmann/json.hpp"; }))
+        EXPECT_FALSE(file.ends_with(".h")) << file << " can do with nlohmann/json_fwd.hpp";
+    for (const std::string& file : files_including([](const std::string& name) { return first_folder(name) == "CLI"; }))
+        EXPECT_TRUE(!file.ends_with(".h") || file == "help/number_option.h") << file << " can declare what it names";
+}
+
+// By io/json.h, so that they are compiled once.
+TEST(IncludeMap, JsonIsParsedAndWrittenInOneFolder) {
+    static const std::regex call(R"re([jJ]son::parse\(|\.dump\()re");
+    std::int64_t own = 0;
+    for (const std::string& name :
+         files_including([](const std::string& name) { return name == "nlohmann/json.hpp"; })) {
+        std::ifstream file(root / name);
+        for (std::string line; std::getline(file, line);) {
+            if (!std::regex_search(line, call)) continue;
+            ++own;
+            EXPECT_TRUE(name.starts_with("kernel/io/")) << name << ": " << line;
+        }
+    }
+    EXPECT_GT(own, 3);
+}
+
 }  // namespace
 }  // namespace kerf

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "viewer/app/command_line.h"
+
+namespace CLI {
+class App;
+}
 
 namespace kerf::view {
 

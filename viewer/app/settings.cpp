@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
+
 namespace kerf::view {
 
 namespace {
@@ -55,8 +57,8 @@ std::string user_config_folder() {
 Settings load_settings(const std::string& folder) {
     Settings settings;
     if (folder.empty()) return settings;
-    std::ifstream file(settings_file(folder));
-    const auto json = nlohmann::json::parse(file, nullptr, false);
+    std::ifstream file(settings_file(folder), std::ios::binary);
+    const auto json = parse_json_or_null(std::string(std::istreambuf_iterator<char>(file), {}));
     if (!json.is_object()) return settings;
     try {
         settings.theme = json.value("theme", "light") == "dark" ? Theme::dark : Theme::light;
@@ -91,7 +93,7 @@ void save_settings(const std::string& folder, const Settings& settings) {
     const std::string path = settings_file(folder), partial = path + ".partial";
     {
         std::ofstream file(partial);
-        file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+        file << json_text(json, 2) << "\n";
         if (!file.flush()) return;
     }
     std::filesystem::rename(partial, path, ignored);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "io/json.h"
 
 namespace kerf::view {
 
@@ -23,7 +24,7 @@ bool begins_with_event(const std::string& path) {
     std::string line(limit, '\0');
     file.read(line.data(), static_cast<std::streamsize>(limit));
     line.resize(static_cast<std::size_t>(file.gcount()));
-    const nlohmann::json json = nlohmann::json::parse(line.substr(0, line.find('\n')), nullptr, false);
+    const nlohmann::json json = parse_json_or_null(line.substr(0, line.find('\n')));
     return json.is_object() && json.contains("event");
 }
 

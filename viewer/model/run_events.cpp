@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
 #include "io/path_text.h"
 #include "viewer/model/tree_source.h"
 
@@ -98,8 +99,7 @@ std::vector<RunEvent> EventTail::read_new() {
     std::size_t begin = 0;
     for (std::size_t end = 0; (end = rest_.find('\n', begin)) != rest_.npos; begin = end + 1) {
         try {
-            events.push_back(event_from_json(Json::parse(rest_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                         rest_.begin() + static_cast<std::ptrdiff_t>(end))));
+            events.push_back(event_from_json(parse_json(std::string_view(rest_).substr(begin, end - begin))));
         } catch (const Json::exception&) {  // no line of ours
         }
     }

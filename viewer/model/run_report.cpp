@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "mesh/quality.h"
 #include "report/cut_json.h"
@@ -74,7 +75,7 @@ void set_regions_of_nodes(Tree& tree) {
 
 std::string option_text(const Json& value) {
     if (value.is_array()) return join_items(value.get<std::vector<std::string>>());
-    return value.is_string() ? path_of_text(value.get<std::string>()) : value.dump();
+    return value.is_string() ? path_of_text(value.get<std::string>()) : json_text(value);
 }
 
 // An option of another version is no reason not to show the run.
@@ -159,7 +160,7 @@ RunReportFile read_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
     const std::string text = read_file(path);
     try {
-        const Json json = Json::parse(text);
+        const Json json = parse_json(text);
         RunReportFile report = report_from_json(json);
         report.damage = damage_of(folder, json.value("files", Json::array()));
         return report;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "part/solution_parts.h"
@@ -127,7 +128,7 @@ std::optional<Solution> find_solution(const std::string& path) {
     solution.folder = *folder;
     solution.mesh = mesh_of_solution(*folder);
     try {
-        const Json report = Json::parse(read_file(*folder + "/report.json"));
+        const Json report = parse_json(read_file(*folder + "/report.json"));
         const Json& solve = report.at("solve");
         solution.order = solve.value("order", 1);
         for (const Json& of_case : solve.value("cases", Json::array()))

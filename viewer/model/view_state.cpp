@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "io/json.h"
 #include "io/path_text.h"
 #include "viewer/model/name_index.h"
 
@@ -71,7 +72,7 @@ void read_fields(const OrderedJson& json, const Fields& fields, const std::strin
         try {
             field->second(value);
         } catch (const nlohmann::json::exception&) {
-            throw Error(ErrorCode::usage, fmt::format("{}: '{}' cannot be {}.", source, key, value.dump()));
+            throw Error(ErrorCode::usage, fmt::format("{}: '{}' cannot be {}.", source, key, json_text(value)));
         }
     }
 }
@@ -213,7 +214,7 @@ void add_origin(ViewOrigin& origin, Fields& fields, const std::string& source) {
         if (!is_good(numbers[0]) || !is_good(numbers[1]) || !(numbers[2] > 0 && numbers[2] <= 16))
             throw Error(ErrorCode::usage, fmt::format("{}: 'size' is {}, but it must be width and height in pixels, "
                                                       "16 to 16384, and the scale of fonts, up to 16.",
-                                                      source, j.dump()));
+                                                      source, json_text(j)));
         origin.width = static_cast<int>(numbers[0]);
         origin.height = static_cast<int>(numbers[1]);
         origin.scale = numbers[2];
@@ -226,7 +227,7 @@ void add_origin(ViewOrigin& origin, Fields& fields, const std::string& source) {
 
 OrderedJson parse(const std::string& text, const std::string& source) {
     try {
-        return OrderedJson::parse(text);
+        return parse_ordered_json(text);
     } catch (const nlohmann::json::exception& e) {
         throw Error(ErrorCode::usage, fmt::format("{} is no JSON: {}.", source, e.what()));
     }
@@ -241,7 +242,7 @@ ClipStyle clip_style_from_name(const std::string& text) {
     return static_cast<ClipStyle>(index_of(clip_names, text, "clip style"));
 }
 
-std::string to_json(const Camera& camera) { return write(camera).dump(2) + "\n"; }
+std::string to_json(const Camera& camera) { return json_text(write(camera), 2) + "\n"; }
 
 Camera camera_from_json(const std::string& text, const std::string& source) {
     return camera_from(parse(text, source), source);
@@ -282,7 +283,7 @@ std::string to_json(const ViewState& state, const ViewOrigin& origin) {
     json["selection"] = write(state.selection);
     json["theme"] = theme_names[static_cast<std::size_t>(state.theme)];
     json["panels"] = write_switches(state.panels);
-    return json.dump(2) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 ViewState state_from_json(const std::string& text, const std::string& source, ViewOrigin* origin) {

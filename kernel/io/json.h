@@ -1,0 +1,26 @@
+// JSON as text. The parser and the writer of nlohmann/json are templates, which every source that calls them would
+// compile again, in two to four seconds: here they are compiled once. Sources that look into values, or make them,
+// include nlohmann/json.hpp beside this.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace kerf {
+
+/// The value that a text says. Throws nlohmann::json::parse_error, with the place in it, for what is no JSON.
+nlohmann::json parse_json(std::string_view text);
+/// The same, with the members of objects in the order of the text.
+nlohmann::ordered_json parse_ordered_json(std::string_view text);
+
+/// The value that a text says, null for what is no JSON.
+nlohmann::json parse_json_or_null(std::string_view text);
+
+/// A value as text, with so many spaces of indentation a level; on one line without blanks if there are fewer than 0.
+/// Numbers that are not finite are null, bytes that are no UTF-8 are replaced.
+std::string json_text(const nlohmann::json& value, int indent = -1);
+std::string json_text(const nlohmann::ordered_json& value, int indent = -1);
+
+}  // namespace kerf
