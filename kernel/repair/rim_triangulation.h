@@ -21,8 +21,8 @@ bool is_planar(const RimPlane& plane, const std::vector<Vec3>& rim);
 
 /// Triangles over positions in a closed rim, in its direction; empty if there are none. A planar rim gets its
 /// constrained Delaunay triangulation, others the one whose largest angle between neighbours is the smallest (Liepa
-/// 2003): triangulate_hole(). That takes O(n^3) at worst: a rim of more than 100 vertices is triangulated in the plane where it is
-/// nearly planar, and otherwise divided by the shortest chord that leaves a quarter of it on either side.
+/// 2003): triangulate_hole(). That takes O(n^3) at worst: a rim of more than 100 vertices is triangulated in the plane
+/// where it is nearly planar, and otherwise divided by the shortest chord that leaves a quarter of it on either side.
 /// `apexes`: of the facet at each edge its third corner. Deterministic.
 std::vector<Triangle> triangulate_rim(const std::vector<Vec3>& rim, const std::vector<Vec3>& apexes);
 

@@ -1,6 +1,8 @@
 // Loads and supports of cases beside formulas, on one or more ranks: every test on all ranks together.
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "cube_of_parts.h"
 #include "solve/case_report.h"
 #include "solve/elastic_problem.h"

@@ -26,7 +26,7 @@ HEAD = """# What may make compiling slow, and how much of it: room, what, bound.
 # LIBRARY: sources of the room that see its headers; of Eigen decompositions, of json and toml++ the full header.
 # sources: of a folder of tests.
 # lines: that the compiler reads for one source, of all as one, without what is precompiled; with 15 % to grow, at least
-# 300 lines, and with the libraries of Debian 12. kerf_precompiled and kerf_test_support are the precompiled headers.
+# 300 lines, and with the libraries of Debian 12. kerf_precompiled and kerf_test_shapes are the precompiled headers.
 # tests/sources/compile_budget_test.py ROOT --build BUILD --write has written this; who raises a bound says why.
 """
 

@@ -13,6 +13,8 @@
 namespace kerf::test {
 namespace {
 
+using namespace view;
+
 namespace fs = std::filesystem;
 
 const fs::path gallery = test::asset_folder() + "/gallery";
