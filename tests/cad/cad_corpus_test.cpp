@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
+#include <map>
+#include <optional>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -29,16 +32,39 @@ std::vector<std::string> corpus() {
     return paths;
 }
 
-// Files whose solids touch, and bounds of the volume where faces do not meet exactly in the file itself.
+// What is known of a file: whether its solids touch, the bound of its volume where faces do not meet exactly in the
+// file itself, and some words of the refusal of what cannot be imported as it is.
 struct Known {
     bool touches = false;
     double volume_tolerance = CadOptions::volume_tolerance;
+    std::string refusal = {};
 };
 
-Known known(const std::string& path) {
-    const std::string name = fs::path(path).filename();
-    if (name == "dm1-oc-214.stp") return {.touches = true};
-    if (name == "CrankArm.brep") return {.volume_tolerance = 2e-4};
+std::optional<Known> known(const std::string& path) {
+    static const std::map<std::string, Known> files = {
+        {"CrankArm.brep", {.volume_tolerance = 2e-4}},
+        {"asm_microgen_octettruss.step", {.touches = true}},
+        {"asm_openmc_oblate_ellipsoids.step", {.touches = true}},
+        {"asm_trimesh_box_sides.STEP", {.refusal = "'box_sides/box_base' and 'box_sides/side_long' overlap near"}},
+        {"conical.step", {}},
+        {"cube-in.step", {}},
+        {"dm1-oc-214.stp", {.touches = true}},
+        {"frame.step", {}},
+        {"gmsh_mesh_T106_V3.step", {.refusal = "solid 'body' is not closed"}},
+        {"m6screw.step", {}},
+        {"model1.igs", {}},
+        {"red_cube_blue_cylinder.step", {}}};
+    const auto found = files.find(fs::path(path).filename());
+    return found == files.end() ? std::nullopt : std::optional(found->second);
+}
+
+// The words of the refusal; none if there is none.
+std::string refusal_of(const std::string& bytes, const std::string& path) {
+    try {
+        import_cad(bytes, path, {});
+    } catch (const Error& error) {
+        return error.what();
+    }
     return {};
 }
 
@@ -53,7 +79,16 @@ INSTANTIATE_TEST_SUITE_P(Files, CadCorpus, testing::ValuesIn(corpus()), [](const
 
 TEST_P(CadCorpus, IsClosedNamedAndOfTheRightVolume) {
     const std::string bytes = read_file(GetParam());
-    const Known expected = known(GetParam());
+    const std::optional<Known> in_table = known(GetParam());
+    if (!in_table) {  // the folder grows without this repository: imported, or refused in words
+        std::cout << "no table has " << GetParam() << '\n' << refusal_of(bytes, GetParam()) << '\n';
+        return;
+    }
+    const Known& expected = *in_table;
+    if (!expected.refusal.empty()) {
+        EXPECT_NE(refusal_of(bytes, GetParam()).find(expected.refusal), std::string::npos);
+        return;
+    }
     if (expected.touches) {
         EXPECT_THROW(import_cad(bytes, GetParam(), {.no_imprint = true}), Error);
     }

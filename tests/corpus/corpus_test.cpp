@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iostream>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -224,6 +226,13 @@ const std::vector<BadFile>& bad_files() {
          {},
          244},
         {"selfint_vtk_gears.stl", {{Kind::self_intersection, error, 110}}},
+        {"manifold_openscad-nonmanifold-crash.obj",
+         {{Kind::degenerate_facet, error, 1},
+          {Kind::duplicate_facet, repaired, 3},
+          {Kind::non_manifold_edge, error, 11},
+          {Kind::non_manifold_vertex, error, 34},
+          {Kind::one_sided, error, 1},
+          {Kind::self_intersection, error, 7522}}},
         // Odd, but other programs write so.
         {"parse_VALID_end_solid_circle_knot.stl", {}},
         {"parse_VALID_tristrips_igea.ply", {}},
@@ -272,12 +281,21 @@ std::size_t open_edges(const Diagnosis& diagnosis) {
     return count;
 }
 
-TEST(BadFiles, AreAllInTheTables) {
-    std::vector<std::string> expected;
-    for (const BadFile& file : bad_files()) expected.push_back(bad_path(file.name));
-    for (const UnreadableFile& file : unreadable_files()) expected.push_back(bad_path(file.name));
-    std::sort(expected.begin(), expected.end());
-    EXPECT_EQ(surfaces("bad"), expected);
+// The folder grows without this repository: a file that no table has is read, or refused in words, and nothing more.
+TEST(BadFiles, AreInTheTablesOrReadOrRefused) {
+    std::set<std::string> known;
+    for (const BadFile& file : bad_files()) known.insert(bad_path(file.name));
+    for (const UnreadableFile& file : unreadable_files()) known.insert(bad_path(file.name));
+    for (const std::string& path : surfaces("bad")) {
+        if (known.erase(path) > 0) continue;
+        std::cout << "no table has " << path << '\n';
+        try {
+            check_input(path);
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()), "") << path;
+        }
+    }
+    EXPECT_EQ(known, std::set<std::string>()) << "are not there";
 }
 
 TEST(BadFiles, AreCheckedWithTheRightKindsAndNumbers) {
