@@ -14,6 +14,7 @@
 #include "geometry/closest_point.h"
 #include "prepare/remeshing.h"
 #include "prepare/slivers.h"
+#include "report/listener.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "surface/intersections.h"
