@@ -1,4 +1,4 @@
-# What tests a build has, besides what is not a test: ./run builds and runs it.
+# All test programs of this build, without programs that none of them needs.
 add_custom_target(kerf_tests)
 
 # kerf_is_left_out(<variable> <set>): whether tests of the set, functions or programs, are left out by KERF_TEST_SET.
