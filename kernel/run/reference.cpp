@@ -24,7 +24,7 @@ PartOutcome mesh_in_one_piece(const RunFolder& folder, const Surface& surface, d
     job.length_scale = length_scale;
     const std::string job_file = folder.job_file(no_leaf), part_file = folder.stored_part_file(no_leaf);
     write_job(job_file, job);
-    PartQueue queue({{job_file, part_file, box_around(job.surface.vertices)}},
+    PartQueue queue({{job_file, part_file, options.mesher.size, box_around(job.surface.vertices)}},
                     {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts});
     queue.add(0);
     std::optional<PartQueue::Finished> finished;

@@ -93,12 +93,16 @@ class VolumeStage::Tally {
     std::int64_t tets_ = 0;
 };
 
+SizeField VolumeStage::size_in(RegionIndex region) const {
+    return plan_.options.decompose.region_sizes.of(region, plan_.options.mesher.size);
+}
+
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.stored_part_file(part.id);
     if (plan_.options.transient) return write_job(folder_.job_file(part.id), job);
     const std::string vtu_file = folder_.part_file(part.id);
     MesherOptions mesher = plan_.options.mesher;
-    mesher.size = plan_.options.decompose.region_sizes.of(part.region, mesher.size).within(part.box());
+    mesher.size = size_in(part.region).within(part.box());
     part.job_hash = hash_of_job(job, mesher, plan_.options.attempts, plan_.worker_hash);
     std::error_code ignored;
     if (std::filesystem::exists(journal, ignored) && !std::filesystem::exists(file, ignored))
@@ -152,7 +156,8 @@ void VolumeStage::post_to_others(const VolumeMessage& message) {
 PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std::vector<std::size_t>& order) const {
     std::vector<QueuedPart> queued;
     for (const std::size_t i : order)
-        queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id), parts[i].box()});
+        queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id),
+                          size_in(parts[i].region), parts[i].box()});
     return {std::move(queued),
             {plan_.options.worker_program, plan_.options.mesher, plan_.options.workers, plan_.options.timeout_seconds,
              plan_.options.memory_mb, plan_.options.attempts, !plan_.options.transient}};

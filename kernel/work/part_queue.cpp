@@ -51,12 +51,15 @@ std::string message_of_all(const PartOutcome& outcome) {
 }  // namespace
 
 PartQueue::PartQueue(std::vector<QueuedPart> parts, QueueOptions options)
-    : parts_(std::move(parts)),
-      options_(std::move(options)),
-      calls_(mesher_calls(options_.mesher)),
-      progress_(parts_.size()) {
+    : parts_(std::move(parts)), options_(std::move(options)), progress_(parts_.size()) {
     KERF_CHECK(options_.workers >= 1 && options_.attempts >= 1);
     for (std::int32_t worker = options_.workers; worker-- > 0;) idle_.push_back(worker);
+}
+
+std::vector<MesherCall> PartQueue::calls_of(std::size_t part) const {
+    MesherOptions mesher = options_.mesher;
+    mesher.size = parts_[part].size;
+    return mesher_calls(mesher);
 }
 
 std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
@@ -65,7 +68,7 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
         PartOutcome& outcome = progress_[part].outcome;
         outcome.worker = idle_.back();
         idle_.pop_back();
-        MesherCall call = calls_[progress_[part].call];
+        MesherCall call = calls_of(part)[progress_[part].call];
         call.options.size = call.options.size.within(parts_[part].box);
         outcome.fallback = call.fallback;
         ++outcome.attempts;
@@ -101,8 +104,8 @@ std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, cons
     const bool mesher_failed = outcome.result.code == static_cast<int>(ErrorCode::subdomain) &&
                                (answered || timed_out || died_by_itself(child));
     if (mesher_failed && outcome.attempts < options_.attempts) {
-        const auto next =
-            next_call(calls_, progress_[part].call, timed_out ? MesherFailure::timed_out : MesherFailure::failed);
+        const auto next = next_call(calls_of(part), progress_[part].call,
+                                    timed_out ? MesherFailure::timed_out : MesherFailure::failed);
         if (next) {
             outcome.failures.push_back(outcome.result.message);
             progress_[part].call = *next;

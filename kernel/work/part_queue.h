@@ -15,6 +15,7 @@ namespace kerf {
 struct QueuedPart {
     std::string job_file;  ///< of write_job()
     std::string part_file;
+    SizeField size;           ///< wanted in its region, in place of that of QueueOptions::mesher
     Eigen::AlignedBox3d box;  ///< around its surface: sizes that have no say there are not told to its worker
 };
 
@@ -77,13 +78,14 @@ class PartQueue {
  private:
     struct Progress {
         PartOutcome outcome;
-        std::size_t call = 0;  // of calls_, the one under way
+        std::size_t call = 0;  // of calls_of(), the one under way
     };
+    /// As the mesher of the options is called for a part, in the order of attempts.
+    std::vector<MesherCall> calls_of(std::size_t part) const;
     std::optional<Finished> take_result(std::size_t part, const ChildResult& child);
 
     std::vector<QueuedPart> parts_;
     QueueOptions options_;
-    std::vector<MesherCall> calls_;
     std::vector<Progress> progress_;
     std::vector<std::int32_t> idle_;  // workers, the next one last
     std::deque<std::size_t> waiting_;

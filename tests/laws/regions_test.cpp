@@ -1,6 +1,11 @@
 // The laws of whole runs, for bodies of several regions that touch in every way.
+#include <algorithm>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/check.h"
+#include "mesh/edge_table.h"
 #include "part/run_parts.h"
 #include "part/second_order_parts.h"
 #include "support/checked_run.h"
@@ -107,6 +112,46 @@ TEST(SizesOfRegions, HoldInTheirRegionAndOnItsWalls) {
     options.sizes.in_region = {"region_2=0.5"};
     Input again = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
     EXPECT_THROW(test::run_parts("", folder.file("again"), 5, again, nullptr, options), Error);
+}
+
+// Of edges inside of a region, whose ends no other region and no surface has.
+double median_edge_inside(const std::vector<Part>& parts, RegionIndex region) {
+    std::vector<double> lengths;
+    for (const Part& part : parts) {
+        if (part.region_of(0) != region) continue;
+        std::vector<char> is_outside(part.mesh.vertices.size(), 0);
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            if (part.is_of_input(f))
+                for (const std::int32_t v : part.facets[f]) is_outside[v] = 1;
+        for (const auto& tet : part.mesh.tets)
+            for (const auto& [a, b] : tet_edges)
+                if (!is_outside[tet[a]] && !is_outside[tet[b]])
+                    lengths.push_back((part.mesh.vertices[tet[a]] - part.mesh.vertices[tet[b]]).norm());
+    }
+    KERF_CHECK(!lengths.empty());
+    std::nth_element(lengths.begin(), lengths.begin() + std::ssize(lengths) / 2, lengths.end());
+    return lengths[lengths.size() / 2];
+}
+
+// Cells of a region have its size, whether it is finer than the rest or coarser.
+TEST(SizesOfRegions, HoldInsideOfTheRegion) {
+    const test::VoxelBody body = test::voxel_body({2, 1, 1}, [](Cube cube) { return cube[0]; });
+    for (const double size : {0.05, 0.1}) {
+        SCOPED_TRACE(size);
+        RunOptions options;
+        const double of_the_other = 0.15 - size;
+        options.sizes.size = of_the_other;
+        options.sizes.in_region = {fmt::format("region_1={}", size)};
+        for (const std::int32_t count : {2, 5}) {
+            Input input =
+                make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
+            const test::TemporaryFolder folder;
+            test::expect_verified(test::run_parts("", folder.file("out"), count, input, nullptr, options), count);
+            const std::vector<Part> parts = test::read_parts(folder.file("out"));
+            EXPECT_NEAR(median_edge_inside(parts, RegionIndex(0)), of_the_other, 0.2 * of_the_other);
+            EXPECT_NEAR(median_edge_inside(parts, RegionIndex(1)), size, 0.2 * size);
+        }
+    }
 }
 
 }  // namespace
