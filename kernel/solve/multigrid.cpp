@@ -82,16 +82,14 @@ std::unique_ptr<MultigridLevel> make_level(MpiRanks& ranks, const LevelMatrix<B>
 template <int B>
 class SmoothedLevel : public MultigridLevel {
  public:
-    SmoothedLevel(MpiRanks& ranks, const LevelMatrix<B>& matrix, const NearNullSpace& motions,
-                  const std::vector<std::uint8_t>& is_apart)
-        : matrix_(matrix), smoother_(matrix) {
-        CoarserLevel<B> coarser = coarsen(ranks, matrix, smoother_, motions, is_apart);
-        prolongation_ = std::move(coarser.prolongation);
-        coarser_ = std::move(coarser.matrix);
-        next_ = make_level(ranks, coarser_, coarser.motions, std::vector<std::uint8_t>(coarser_.owned, 0));
-        coarse_right_.resize(coarser_.size());
-        coarse_x_.resize(coarser_.size());
-    }
+    SmoothedLevel(MpiRanks& ranks, const LevelMatrix<B>& matrix, ChebyshevSmoother<B> smoother, CoarserLevel<B> coarser)
+        : matrix_(matrix),
+          smoother_(std::move(smoother)),
+          prolongation_(std::move(coarser.prolongation)),
+          coarser_(std::move(coarser.matrix)),
+          next_(make_level(ranks, coarser_, coarser.motions, std::vector<std::uint8_t>(coarser_.owned, 0))),
+          coarse_right_(coarser_.size()),
+          coarse_x_(coarser_.size()) {}
     void cycle(const std::vector<double>& right, std::vector<double>& x) override {
         std::fill(x.begin(), x.end(), 0);
         smoother_.smooth(right, x, true);
@@ -112,17 +110,23 @@ class SmoothedLevel : public MultigridLevel {
     Prolongation<B> prolongation_;
     LevelMatrix<rigid_motions> coarser_;
     std::unique_ptr<MultigridLevel> next_;
-    std::vector<double> rest_, coarse_right_, coarse_x_;
+    std::vector<double> coarse_right_, coarse_x_, rest_;
 };
 
 template <int B>
 std::unique_ptr<MultigridLevel> make_level(MpiRanks& ranks, const LevelMatrix<B>& matrix, const NearNullSpace& motions,
                                            const std::vector<std::uint8_t>& is_apart) {
+    const auto nodes_of = [&](const auto& level) {
+        return ranks.all_reduce(static_cast<std::int64_t>(level.owned), Reduction::sum);
+    };
     // Each rank has an aggregate at least: more ranks need more nodes.
-    const auto nodes = ranks.all_reduce(static_cast<std::int64_t>(matrix.owned), Reduction::sum);
+    const std::int64_t nodes = nodes_of(matrix);
     if (nodes <= std::max<std::int64_t>(few_nodes, 4 * ranks.size()))
         return std::make_unique<CoarsestLevel<B>>(ranks, matrix);
-    return std::make_unique<SmoothedLevel<B>>(ranks, matrix, motions, is_apart);
+    ChebyshevSmoother<B> smoother(matrix);
+    CoarserLevel<B> coarser = coarsen(ranks, matrix, smoother, motions, is_apart);
+    if (nodes_of(coarser.matrix) == nodes) return std::make_unique<CoarsestLevel<B>>(ranks, matrix);
+    return std::make_unique<SmoothedLevel<B>>(ranks, matrix, std::move(smoother), std::move(coarser));
 }
 
 // Nodes of which nothing is free.

@@ -68,6 +68,22 @@ void orthonormalise(Eigen::MatrixXd& columns, MotionBlock& factor) {
     }
 }
 
+// Which owned nodes have no part in what is coarse: those of `is_apart`, and those that nothing couples with another
+// one, on any rank. Smoothing is enough for them.
+template <int B>
+std::vector<std::uint8_t> with_uncoupled(const LevelMatrix<B>& matrix, const LowerBlocks& lower,
+                                         std::vector<std::uint8_t> is_apart) {
+    std::vector<double> couplings(matrix.node_count());
+    for (std::int32_t n = 0; n < matrix.node_count(); ++n) {
+        const std::int64_t above = matrix.share.first[n + 1] - matrix.share.first[n] - 1;
+        couplings[n] = static_cast<double>(above + lower.first[n + 1] - lower.first[n]);
+    }
+    matrix.exchange.add_to_owners(std::span(couplings), 1);
+    for (std::int32_t n = 0; n < matrix.owned; ++n)
+        if (couplings[n] == 0) is_apart[n] = 1;
+    return is_apart;
+}
+
 template <int B>
 class Coarsening {
  public:
@@ -77,7 +93,7 @@ class Coarsening {
           fine_(fine),
           smoother_(smoother),
           lower_(lower_blocks_of(fine.share)),
-          aggregates_(aggregate(fine.share, lower_, fine.owned, is_apart)) {
+          aggregates_(aggregate(fine.share, lower_, fine.owned, with_uncoupled(fine, lower_, is_apart))) {
         starts_.push_back(0);
         for (const std::int32_t count : all_gather(ranks, aggregates_.count)) starts_.push_back(starts_.back() + count);
     }

@@ -22,7 +22,8 @@ struct CoarserLevel {
 };
 
 /// Collective. Aggregates do not cross ranks; all else does, so that the result hardly depends on their number. Nodes
-/// of `is_apart` have no part in what is coarse. O(n).
+/// of `is_apart`, and nodes that nothing couples with another one, have no part in what is coarse. There may be as many
+/// coarse nodes as there were: where a node is coupled with nodes of other ranks alone. O(n).
 template <int B>
 CoarserLevel<B> coarsen(MpiRanks& ranks, const LevelMatrix<B>& fine, const ChebyshevSmoother<B>& smoother,
                         const NearNullSpace& motions, const std::vector<std::uint8_t>& is_apart);
