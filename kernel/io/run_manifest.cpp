@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -79,6 +80,29 @@ std::string first_name_in(const std::string& folder) {
     return first;
 }
 
+// What the report of a run says of its folder.
+struct SealedReport {
+    std::set<std::string> files;  // the report, too
+    bool is_valid = false;
+};
+
+// Nothing where there is no report that Kerf has sealed.
+std::optional<SealedReport> read_report(const std::string& folder) {
+    try {
+        const std::string text = read_file((fs::path(folder) / report_name).string());
+        if (!is_sealed(text)) return {};
+        SealedReport report = {{std::string(report_name)}, false};
+        const auto json = parse_json(text);
+        for (const auto& file : json.at("files")) report.files.insert(file.at("path").get<std::string>());
+        report.is_valid = json.at("exit_code") == 0;
+        return report;
+    } catch (const Error&) {  // no report that can be read
+        return {};
+    } catch (const nlohmann::json::exception&) {
+        return {};
+    }
+}
+
 }  // namespace
 
 std::string hash_text(const FileHash& hash) { return fmt::format("{:016x}{:016x}", hash[0], hash[1]); }
@@ -118,9 +142,10 @@ bool is_sealed(const std::string& report) {
 
 bool is_named_like_run_file(const std::string& path) {
     std::string_view name = path;
-    for (const std::string_view whole : {"report.json", "mesh.pvtu", "surfaces.pvtu", "surfaces.vtu", "comparison.svg",
-                                         "size_field.vtu", "results.csv", "reactions.csv", "parts/", curved_nodes_name,
-                                         "failed/", "work/", "work/journal/", "work/jobs/", "work/taken/"})
+    for (const std::string_view whole :
+         {"report.json", "mesh.pvtu", "surfaces.pvtu", "surfaces.vtu", "comparison.svg", "size_field.vtu",
+          "results.csv", "reactions.csv", "modes.csv", "parts/", curved_nodes_name, "failed/", "work/", "work/journal/",
+          "work/jobs/", "work/taken/"})
         if (name == whole) return true;
     if (take_prefix(name, "parts/")) return is_part_name(name, {".part", ".vtu", ".surface.vtu", ".stl"});
     if (take_prefix(name, "export/")) return true;
@@ -137,18 +162,9 @@ FolderContent inspect_run_folder(const std::string& folder) {
     FolderContent content;
     std::error_code error;
     content.exists = fs::is_directory(folder, error);
-    std::set<std::string> listed = {std::string(report_name)};
-    try {
-        const std::string report = read_file((fs::path(folder) / report_name).string());
-        if (is_sealed(report)) {
-            const auto json = parse_json(report);
-            for (const auto& file : json.at("files")) listed.insert(file.at("path").get<std::string>());
-            content.is_valid = json.at("exit_code") == 0;
-            content.is_run = true;
-        }
-    } catch (const Error&) {  // no report that can be read
-    } catch (const nlohmann::json::exception&) {
-    }
+    const std::optional<SealedReport> report = read_report(folder);
+    content.is_run = report.has_value();
+    content.is_valid = report && report->is_valid;
     if (!content.is_run) {
         content.foreign = first_name_in(folder);
         return content;
@@ -156,7 +172,7 @@ FolderContent inspect_run_folder(const std::string& folder) {
     // An empty folder of a run's is not on the list, nor is what lets a failed run go on.
     const std::vector<std::string> files = list_files(folder);
     const auto foreign = std::find_if_not(files.begin(), files.end(), [&](const std::string& file) {
-        return listed.contains(file) ||
+        return report->files.contains(file) ||
                ((file.ends_with('/') || file.starts_with("work/")) && is_named_like_run_file(file));
     });
     if (foreign != files.end()) content.foreign = *foreign;
@@ -178,8 +194,10 @@ void remove_run_files(const std::string& folder, const std::function<bool(const 
 void remove_run_folder(const std::string& folder) {
     std::error_code ignored;
     try {
+        const std::optional<SealedReport> report = read_report(folder);  // another version may have other names
         for (const std::string& file : list_files(folder))
-            if (is_named_like_run_file(file)) fs::remove(fs::path(folder) / file, ignored);
+            if (is_named_like_run_file(file) || (report && report->files.contains(file)))
+                fs::remove(fs::path(folder) / file, ignored);
     } catch (const Error&) {  // it cannot be read, so it stays
     }
     remove_empty_run_folders(folder, "");

@@ -90,6 +90,21 @@ TEST_F(RunFolderTest, ReplacesAnOlderRunAsAWhole) {
     EXPECT_EQ(entries(), 1u);
 }
 
+// Also such as this version would not name so.
+TEST_F(RunFolderTest, AllFilesOfAnOlderRunGoWithIt) {
+    for (int i = 0; i < 100; ++i) {
+        RunFolder folder = RunFolder::create(path("run"));
+        nlohmann::ordered_json report = {{"files", nlohmann::json::array()}, {"exit_code", 0}};
+        for (const std::string file : {"modes.csv", "of_another_version.txt"}) {
+            put(folder.file(file), "x");
+            report["files"].push_back({{"path", file}});
+        }
+        put(folder.file("report.json"), sealed(report.dump(2) + "\n"));
+        ASSERT_EQ(folder.commit(true), path("run"));
+        ASSERT_EQ(entries(), 1u) << "after run " << i + 1;
+    }
+}
+
 TEST_F(RunFolderTest, UsesAnEmptyFolderAndCreatesTheFoldersAbove) {
     fs::create_directory(path("empty"));
     run(path("empty"), "a");
