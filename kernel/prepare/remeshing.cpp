@@ -31,7 +31,8 @@ constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_shares[] = {0.05, 0.03, 0.015};
 // The deviation where none is given: of the wanted length, or, if none is wanted, of the diagonal.
 constexpr double share_of_length = 0.05, shares_of_diagonal[] = {2e-3, 5e-4, 1.5e-4};
-constexpr double bytes_per_facet = 280;  // of the process while it remeshes
+constexpr double share_of_thickness = 0.01;  // that it is at most where none is given
+constexpr double bytes_per_facet = 280;      // of the process while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 std::vector<double> smallest_sines(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
@@ -151,12 +152,14 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
                        {.longest = longest_edge(options, input.diagonal), .creases = input.creases}};
     RemeshOptions& result = task.options;
     result.walls = task.facets.walls;
+    for (const LabelledFacets::Label& label : task.facets.labels) result.sides.push_back(label.sides);
     if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p, std::int32_t) { return wanted.at(p); };
     want_lengths_of_regions(options, wanted, input, task);
     result.deviation = options.deviation.number() > 0
                            ? deviation_for(options.deviation, input.diagonal)
                            : std::max(usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness),
                                       input.wrapped ? share_of_gap * input.wrapped->gap : 0);
+    if (options.deviation.number() == 0 && !input.wrapped) result.share_of_thickness = share_of_thickness;
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
     if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted && !bad.are_too_wide())
         result.kept = facets_away_from_slivers(task.facets.surface);

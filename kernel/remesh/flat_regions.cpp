@@ -36,7 +36,7 @@ class RegionGrowth {
 
  private:
     void grow(std::int32_t seed) {
-        FlatRegion plane = {twice_area_[seed].normalized(), 0, options_.tolerance};
+        FlatRegion plane = {twice_area_[seed].normalized(), 0, options_.tolerance(seed)};
         for (const std::int32_t v : facets_[seed]) plane.offset += plane.normal.dot(vertices_[v]) / 3;
         const auto number = static_cast<std::int32_t>(regions_.planes.size());
         regions_.of[seed] = number;
@@ -57,7 +57,9 @@ class RegionGrowth {
 
     bool lies_in(const FlatRegion& plane, std::int32_t f) const {
         const Triangle& t = facets_[f];
-        if (!std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return plane.contains(vertices_[v]); }))
+        const double tolerance = std::min(plane.tolerance, options_.tolerance(f));
+        if (!std::all_of(t.begin(), t.end(),
+                         [&](std::int32_t v) { return std::abs(plane.height(vertices_[v])) <= tolerance; }))
             return false;
         const double area = twice_area_[f].norm();
         if (twice_area_[f].dot(plane.normal) >= turned_cosine * area) return true;

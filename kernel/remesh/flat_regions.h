@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// A piece of a surface of which all vertices lie within `tolerance` of a plane.
+/// A piece of a surface that lies near a plane, and what may become of it stays within `tolerance` of that.
 struct FlatRegion {
     Vec3 normal;    ///< of length 1, out of the body
     double offset;  ///< normal.dot(x) in the plane
@@ -24,7 +24,8 @@ struct FlatRegions {
 };
 
 struct FlatRegionOptions {
-    double tolerance = 0;
+    /// How far the vertices of a facet may be from the plane of its region; that of the region is its first facet's.
+    std::function<double(std::int32_t)> tolerance;
     double noise = 0;                                  ///< height of a facet below which its normal says nothing
     std::function<bool(std::int32_t)> is_border = {};  ///< of a corner: whether a region ends at its edge
 };

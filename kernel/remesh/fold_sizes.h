@@ -13,8 +13,8 @@ namespace kerf {
 
 struct FoldSizeOptions {
     double longest = 0;                                       ///< anywhere, > 0
-    double shortest = 0;                                      ///< that folds may ask for
-    double thinnest = 0;                                      ///< that walls may ask for
+    double shortest = 0;                                      ///< that folds may ask for where the body is thick
+    double thinnest = 0;                                      ///< that walls may ask for there
     double growth = 0.4;                                      ///< of the size with distance
     double edges_per_thickness = 0;                           ///< across a wall; 0: walls ask for nothing
     std::function<double(const Vec3&, std::int32_t)> wanted;  ///< by the user at a point of a patch, if given
@@ -42,6 +42,8 @@ class FoldSizes {
     WantedLength at(EditedSurface::Vertex v, double own_chord, const WantedLength& grown) const;
     double straight_length(EditedSurface::Edge e) const;
     double across_wall(EditedSurface::Vertex v, double limit) const;
+    /// Of the shortest lengths, where the thickness around a vertex makes tolerances smaller.
+    double share_at(EditedSurface::Vertex v) const;
 
     const EditedSurface& surface_;
     FoldSizeOptions options_;

@@ -33,9 +33,12 @@ void InputBound::find_regions(EditMesh& mesh, double share) {
         const EditMesh::VertexHandle v(t[corner % 3]), w(t[(corner + 1) % 3]);
         return mesh.data(mesh.edge_between(v, w)).is_feature;
     };
-    FlatRegions regions = find_flat_regions(
-        now.vertices, now.facets,
-        {.tolerance = share * input_.largest_tolerance(), .noise = input_.noise(), .is_border = is_border});
+    const auto flatness = [&](std::int32_t f) {
+        const std::int32_t near = mesh.data(EditMesh::FaceHandle(f)).near;
+        return share * input_.largest_tolerance() * input_.share_by_thickness(near);
+    };
+    FlatRegions regions = find_flat_regions(now.vertices, now.facets,
+                                            {.tolerance = flatness, .noise = input_.noise(), .is_border = is_border});
     planes_ = std::move(regions.planes);
     for (const auto f : mesh.faces()) mesh.data(f).region = regions.of[f.idx()];
 }

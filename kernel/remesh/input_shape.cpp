@@ -27,18 +27,18 @@ bool share_a_vertex(const Triangle& s, const Triangle& t) {
 
 }  // namespace
 
-InputShape::InputShape(const Sheets& sheets, const TriangleTree& tree, std::vector<double> tolerance,
-                       double feature_angle_deg, const std::vector<UndirectedEdge>& creases,
-                       const std::vector<char>& walls)
+InputShape::InputShape(const Sheets& sheets, const TriangleTree& tree, Tolerances tolerances, double feature_angle_deg,
+                       const std::vector<UndirectedEdge>& creases, const std::vector<char>& walls)
     : sheets_(sheets),
       tree_(tree),
       walls_(walls),
-      tolerance_(std::move(tolerance)),
+      tolerances_(std::move(tolerances)),
       vertex_tolerance_(vertices().size(), std::numeric_limits<double>::infinity()) {
-    KERF_CHECK(tolerance_.size() == facets().size());
+    const std::vector<double>& tolerance = tolerances_.of_facet;
+    KERF_CHECK(tolerance.size() == facets().size() && tolerances_.by_thickness.size() == facets().size());
     for (std::size_t f = 0; f < facets().size(); ++f)
-        for (const std::int32_t v : facets()[f]) vertex_tolerance_[v] = std::min(vertex_tolerance_[v], tolerance_[f]);
-    largest_tolerance_ = *std::max_element(tolerance_.begin(), tolerance_.end());
+        for (const std::int32_t v : facets()[f]) vertex_tolerance_[v] = std::min(vertex_tolerance_[v], tolerance[f]);
+    largest_tolerance_ = *std::max_element(tolerance.begin(), tolerance.end());
     noise_ = rounding_of_files * box_around(vertices()).diagonal().norm();
     find_features(feature_angle_deg, creases);
 }
@@ -52,36 +52,93 @@ void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedE
         return partner[corner] < 0 || patch(corner / 3) != patch(partner[corner] / 3) ||
                std::binary_search(creases.begin(), creases.end(), sheets_.edge_before(corner));
     };
-    regions_ = find_flat_regions(
-        vertices(), facets(), {.tolerance = flat_share * largest_tolerance_, .noise = noise_, .is_border = is_border});
+    const auto flatness = [&](std::int32_t f) { return flat_share * largest_tolerance_ * share_by_thickness(f); };
+    regions_ =
+        find_flat_regions(vertices(), facets(), {.tolerance = flatness, .noise = noise_, .is_border = is_border});
     const double least_cosine = std::cos(feature_angle_deg * std::numbers::pi / 180);
     for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(partner.size()); ++corner)
         feature_.push_back(is_border(corner) || normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
 }
 
-std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation,
-                                       const std::vector<char>& walls, const CancellationCheck& poll) {
-    const auto is_wall = [&](std::size_t f) { return !walls.empty() && walls[f] != 0; };
-    std::vector<double> tolerance(surface.facets.size(), deviation);
-    std::vector<Vec3> normal;
-    for (const Triangle& t : surface.facets) normal.push_back(doubled_area_vector(surface.vertices, t).normalized());
-    const double smallest = least_share * deviation;
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-        poll.at(f);
-        const Triangle& t = surface.facets[f];
-        const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
-        double gap = std::numeric_limits<double>::infinity();
+namespace {
+
+// Of one surface, by rays from its facets.
+class ToleranceFinder {
+ public:
+    ToleranceFinder(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
+                    const std::vector<char>& walls)
+        : surface_(surface), tree_(tree), rules_(rules), walls_(walls) {
+        for (const Triangle& t : surface.facets)
+            normal_.push_back(doubled_area_vector(surface.vertices, t).normalized());
+        least_by_thickness_ = 4 * rounding_of_files * box_around(surface.vertices).diagonal().norm();
+    }
+
+    double by_gap(std::int32_t f) const {
+        const auto [a, b, c] = corners(f);
+        const double deviation = rules_.deviation;
+        double gap = infinite;
         const auto faces_it = [&](std::int32_t g) {
-            const double cosine = normal[g].dot(normal[f]);
-            const bool are_opposite = (is_wall(f) || is_wall(g) ? -std::abs(cosine) : cosine) < opposite_cosine;
-            return are_opposite && !share_a_vertex(surface.facets[g], t);
+            return are_opposite(f, g) && !share_a_vertex(surface_.facets[g], surface_.facets[f]);
         };
         for (const Vec3& p : {Vec3((a + b + c) / 3), a, b, c, Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
-            for (const Vec3& way : {normal[f], Vec3(-normal[f])})
-                gap = std::min(gap, tree.first_hit(p, way, 0, std::min(gap, deviation / gap_share), faces_it));
-        tolerance[f] = std::clamp(gap_share * gap, smallest, deviation);
+            for (const Vec3& way : {normal_[f], Vec3(-normal_[f])})
+                gap = std::min(gap, tree_.first_hit(p, way, 0, std::min(gap, deviation / gap_share), faces_it));
+        return std::clamp(gap_share * gap, least_share * deviation, deviation);
     }
-    return tolerance;
+
+    // The thickest place behind the facet counts: beside sharp edges thickness ends in nothing.
+    double by_thickness(std::int32_t f) const {
+        const double share = rules_.share_of_thickness;
+        if (share == 0) return rules_.deviation;
+        const auto [a, b, c] = corners(f);
+        const Vec3 centre = (a + b + c) / 3;
+        double thickest = 0;
+        for (const Vec3& p : {centre, Vec3((centre + a) / 2), Vec3((centre + b) / 2), Vec3((centre + c) / 2)}) {
+            double thickness = thickness_at(p, f, -normal_[f]);
+            if (is_wall(f)) thickness = std::min(thickness, thickness_at(p, f, normal_[f]));
+            thickest = std::max(thickest, thickness);
+            if (share * thickest >= rules_.deviation) return rules_.deviation;
+        }
+        return std::max(share * thickest, std::min(least_by_thickness_, rules_.deviation));
+    }
+
+ private:
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    std::array<Vec3, 3> corners(std::int32_t f) const {
+        const Triangle& t = surface_.facets[f];
+        return {surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]};
+    }
+    bool is_wall(std::int32_t f) const { return !walls_.empty() && walls_[f] != 0; }
+    bool are_opposite(std::int32_t f, std::int32_t g) const {
+        const double cosine = normal_[g].dot(normal_[f]);
+        return (is_wall(f) || is_wall(g) ? -std::abs(cosine) : cosine) < opposite_cosine;
+    }
+    double thickness_at(const Vec3& p, std::int32_t f, const Vec3& inwards) const {
+        return tree_.first_hit(p, inwards, 0, rules_.deviation / rules_.share_of_thickness,
+                               [&](std::int32_t g) { return g != f && are_opposite(f, g); });
+    }
+
+    const SurfaceArrays& surface_;
+    const TriangleTree& tree_;
+    const ToleranceRules& rules_;
+    const std::vector<char>& walls_;
+    std::vector<Vec3> normal_;
+    double least_by_thickness_;
+};
+
+}  // namespace
+
+Tolerances find_tolerances(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
+                           const std::vector<char>& walls, const CancellationCheck& poll) {
+    const ToleranceFinder finder(surface, tree, rules, walls);
+    Tolerances found;
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.facets.size()); ++f) {
+        poll.at(static_cast<std::size_t>(f));
+        found.by_thickness.push_back(finder.by_thickness(f));
+        found.of_facet.push_back(std::min(finder.by_gap(f), found.by_thickness.back()));
+    }
+    return found;
 }
 
 }  // namespace kerf

@@ -1,6 +1,7 @@
 // The surface as it was given: what a changed surface must stay close to.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/cancellation.h"
@@ -10,14 +11,19 @@
 
 namespace kerf {
 
+/// How far from each facet the new surface may be, units of the input.
+struct Tolerances {
+    std::vector<double> of_facet;      ///< #F
+    std::vector<double> by_thickness;  ///< #F; what the thickness of the body there would allow alone
+};
+
 /// The input of the remesher and its bound. Immutable.
 class InputShape {
  public:
-    /// Keeps the references; `tree` is of the facets of `sheets`. `tolerance` (#F): how far from a facet the new
-    /// surface may be, units of the input. Edges of more than `feature_angle_deg` between the normals, those between
-    /// patches and seams are features, and so are `creases`, by the numbers before the sheets were taken apart.
-    /// `walls` (#F): the facets that have a body on both sides; empty: none.
-    InputShape(const Sheets& sheets, const TriangleTree& tree, std::vector<double> tolerance, double feature_angle_deg,
+    /// Keeps the references; `tree` is of the facets of `sheets`. Edges of more than `feature_angle_deg` between the
+    /// normals, those between patches and seams are features, and so are `creases`, by the numbers before the sheets
+    /// were taken apart. `walls` (#F): the facets that have a body on both sides; empty: none.
+    InputShape(const Sheets& sheets, const TriangleTree& tree, Tolerances tolerances, double feature_angle_deg,
                const std::vector<UndirectedEdge>& creases = {}, const std::vector<char>& walls = {});
 
     const Sheets& sheets() const { return sheets_; }
@@ -26,7 +32,12 @@ class InputShape {
     const TriangleTree& tree() const { return tree_; }
     std::int32_t patch(std::int32_t facet) const { return sheets_.surface.patch[facet]; }
     bool is_wall(std::int32_t facet) const { return !walls_.empty() && walls_[facet] != 0; }
-    double tolerance(std::int32_t facet) const { return tolerance_[facet]; }
+    double tolerance(std::int32_t facet) const { return tolerances_.of_facet[facet]; }
+    /// What the thickness there allows, of largest_tolerance(): 1 where the body is thick. Sizes and flat regions,
+    /// which follow from the largest tolerance elsewhere, are smaller by that.
+    double share_by_thickness(std::int32_t facet) const {
+        return std::min(1.0, tolerances_.by_thickness[facet] / largest_tolerance_);
+    }
     /// The smallest tolerance of the facets around a vertex.
     double vertex_tolerance(std::int32_t vertex) const { return vertex_tolerance_[vertex]; }
 
@@ -46,16 +57,23 @@ class InputShape {
     const Sheets& sheets_;
     const TriangleTree& tree_;
     const std::vector<char>& walls_;
-    std::vector<double> tolerance_, vertex_tolerance_;
+    Tolerances tolerances_;
+    std::vector<double> vertex_tolerance_;
     std::vector<char> feature_;  // 3 #F
     FlatRegions regions_;
     double largest_tolerance_ = 0, noise_ = 0;
 };
 
-/// The tolerance of every facet: `deviation`, or a third of the gap to a sheet that faces the other way, or any way if
-/// one of them is a wall, so that sheets which come closer than that do not grow into each other. `tree` is of the
+struct ToleranceRules {
+    double deviation = 0;           ///< the largest tolerance, > 0
+    double share_of_thickness = 0;  ///< that a tolerance may be at most; 0: the thickness says nothing
+};
+
+/// The tolerance of every facet: the deviation, or a third of the gap to a sheet that faces the other way, or any way
+/// if one of them is a wall, so that sheets which come closer than that do not grow into each other; and no more than
+/// the share of the thickness of the body behind it, lest what it loses is much of a slender one. `tree` is of the
 /// facets of `surface`, `walls` as for InputShape. O(#F log #F).
-std::vector<double> tolerances_of_gaps(const SurfaceArrays& surface, const TriangleTree& tree, double deviation,
-                                       const std::vector<char>& walls = {}, const CancellationCheck& poll = {});
+Tolerances find_tolerances(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
+                           const std::vector<char>& walls = {}, const CancellationCheck& poll = {});
 
 }  // namespace kerf

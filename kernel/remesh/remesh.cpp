@@ -12,6 +12,7 @@
 #include "remesh/edited_surface.h"
 #include "remesh/inspection.h"
 #include "remesh/triangle_shaping.h"
+#include "remesh/volume_restoration.h"
 #include "surface/touching.h"
 
 namespace kerf {
@@ -24,6 +25,8 @@ constexpr double used_share = 0.8;
 constexpr int most_rounds = 5, most_rounds_that_keep = 3;
 constexpr double largest_share_left = 0.1;  // of the facets: so many may stay as they are because nothing else does
 constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
+constexpr double same_volume = 5e-5;        // of a region, before and after: nothing is to be restored
+constexpr int most_restorations = 3;
 constexpr double area_per_squared_length = 0.342;  // of a facet, and of the length wanted there; measured
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
@@ -65,9 +68,9 @@ SurfaceArrays with_seams_joined(SurfaceArrays sheets) {
     return joined;
 }
 
-Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const std::vector<double>& tolerance,
+Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const Tolerances& tolerances,
                      const RemeshOptions& options) {
-    const InputShape input(sheets, tree, tolerance, options.feature_angle_deg, options.creases, options.walls);
+    const InputShape input(sheets, tree, tolerances, options.feature_angle_deg, options.creases, options.walls);
     EditedSurface edited(input, options.kept);
     shape_triangles(edited, options);
     const EditMesh& mesh = edited.mesh();
@@ -96,6 +99,43 @@ bool leave(const SurfaceArrays& surface, const std::vector<char>& refused, std::
         if (is_left) kept[f] = 1;
     }
     return static_cast<double>(added) <= largest_share_left * static_cast<double>(kept.size());
+}
+
+// The vertices of the result that are corners of facets which are kept.
+std::vector<char> corners_of_kept(const SurfaceArrays& surface, const std::vector<char>& kept,
+                                  const SurfaceArrays& result) {
+    std::vector<std::array<double, 3>> corners;
+    const auto coordinates = [](const Vec3& p) { return std::array{p.x(), p.y(), p.z()}; };
+    for (std::size_t f = 0; f < kept.size(); ++f)
+        if (kept[f] != 0)
+            for (const std::int32_t v : surface.facets[f]) corners.push_back(coordinates(surface.vertices[v]));
+    std::sort(corners.begin(), corners.end());
+    std::vector<char> is_corner;
+    for (const Vec3& p : result.vertices)
+        is_corner.push_back(std::binary_search(corners.begin(), corners.end(), coordinates(p)));
+    return is_corner;
+}
+
+// Vertices stay where a move would leave the bound or make an intersection.
+void restore_volumes_within_bound(const SurfaceArrays& surface, const TriangleTree& tree, const RemeshOptions& options,
+                                  const std::vector<char>& kept, Remeshed& result) {
+    result.report.volume_difference = volume_difference(surface, result.surface, options.sides);
+    if (result.report.volume_difference <= same_volume) return;
+    std::vector<char> is_fixed = corners_of_kept(surface, kept, result.surface);
+    for (int round = 0; round < most_restorations; ++round) {
+        SurfaceArrays moved = result.surface;
+        if (!restore_volumes(surface, tree, options.sides, options.deviation, is_fixed, moved)) return;
+        RemeshReport report = result.report;
+        const std::vector<char> refused = inspect(surface, tree, options, moved, report);
+        if (std::find(refused.begin(), refused.end(), char{1}) == refused.end()) {
+            result.surface = std::move(moved);
+            result.report = report;
+            result.report.volume_difference = volume_difference(surface, result.surface, options.sides);
+            return;
+        }
+        for (std::size_t v = 0; v < is_fixed.size(); ++v)
+            if (refused[static_cast<std::size_t>(result.places[v].facet)] != 0) is_fixed[v] = 1;
+    }
 }
 
 [[noreturn]] void refuse(const SurfaceArrays& surface, const std::vector<char>& refused, double deviation) {
@@ -138,15 +178,17 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     check_remesh_options(options, surface.facets.size());
     const TriangleTree tree(surface.vertices, surface.facets);
     const Sheets sheets = take_apart(surface);
-    std::vector<double> tolerance = tolerances_of_gaps(surface, tree, used_share * options.deviation, options.walls,
-                                                       CancellationCheck(options.poll));
+    Tolerances tolerances =
+        find_tolerances(surface, tree, {used_share * options.deviation, used_share * options.share_of_thickness},
+                        options.walls, CancellationCheck(options.poll));
     RemeshOptions own = options;
     for (int round = 1;; ++round) {
-        Remeshed result = remesh_once(sheets, tree, tolerance, own);
+        Remeshed result = remesh_once(sheets, tree, tolerances, own);
         result.report.rounds = round;
         const std::vector<char> refused = inspect(surface, tree, options, result.surface, result.report);
         if (std::find(refused.begin(), refused.end(), char{1}) == refused.end()) {
             result.places = places_on(tree, result.surface.vertices);
+            restore_volumes_within_bound(surface, tree, options, own.kept, result);
             result.report.facets_left = std::count(own.kept.begin(), own.kept.end(), char{1}) -
                                         std::count(options.kept.begin(), options.kept.end(), char{1});
             return result;
@@ -156,7 +198,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
                 refuse(surface, refused, options.deviation);
         } else {
             for (std::size_t f = 0; f < refused.size(); ++f)
-                if (refused[f] != 0) tolerance[f] *= smaller_tolerance;
+                if (refused[f] != 0) tolerances.of_facet[f] *= smaller_tolerance;
         }
     }
 }

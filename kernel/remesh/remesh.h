@@ -4,12 +4,14 @@
 #include <functional>
 #include <vector>
 
+#include "surface/facet_sides.h"
 #include "surface/surface.h"
 
 namespace kerf {
 
 struct RemeshOptions {
     double deviation = 0;           ///< largest distance between input and result, both ways; units of the input, > 0
+    double share_of_thickness = 0;  ///< of a body, which the distance is at most there, too; 0: that asks for nothing
     double longest = 0;             ///< edge anywhere, > 0
     double growth = 0.4;            ///< of the size along the surface
     double feature_angle_deg = 30;  ///< between facets: their edge stays an edge
@@ -17,9 +19,10 @@ struct RemeshOptions {
     std::vector<char> kept = {};               ///< facets of the surface that stay as they are; empty: none
     double edges_per_thickness = 0.5;          ///< across thin walls; 0: they ask for nothing
     std::function<double(const Vec3&, std::int32_t)> wanted =
-        {};                           ///< edge length at a point of a patch, if given: besides `longest`
-    std::function<void()> poll = {};  ///< called every few milliseconds, if given; ends the work by what it throws
-    std::vector<char> walls = {};     ///< facets of the surface that have a body on both sides; empty: none
+        {};                              ///< edge length at a point of a patch, if given: besides `longest`
+    std::function<void()> poll = {};     ///< called every few milliseconds, if given; ends the work by what it throws
+    std::vector<char> walls = {};        ///< facets of the surface that have a body on both sides; empty: none
+    std::vector<FacetSides> sides = {};  ///< of patches: the regions beside them; empty: one, behind all facets
 };
 
 /// Of the area of a surface, where its shape asks for smaller edges than `wanted` and `longest`, by what does.
@@ -38,6 +41,7 @@ struct RemeshReport {
     std::int64_t feature_edges = 0;  ///< of the new surface
     FinerShares finer;
     std::int64_t facets_left = 0;  ///< of the input, as they were, because no change of them stayed within the bound
+    double volume_difference = 0;  ///< the largest of a region's volume to that in the input, as a share of it
 };
 
 /// sin of the smallest angle of a triangle, 0 for a degenerate one.
@@ -64,9 +68,11 @@ struct Remeshed {
 /// surface is further than `deviation` from the other, which is proven (Nearness), and the result has no
 /// self-intersections, by exact predicates: where one of them fails, the tolerance of the facets there is made smaller
 /// and all is done again; where that does not help, they stay as they are (RemeshReport::facets_left). Keys are the
-/// numbers in the result. Throws Error(input) with the place if that would be more than a tenth. Requires a surface
-/// without intersections and open edges; facets that meet in an edge of two have it in opposite directions.
-/// Deterministic. O(#F log #F) for the larger of both surfaces.
+/// numbers in the result. Where the volume of a region is another than before by more than 5e-5 of it, vertices leave
+/// the input until it is the same, if that stays within the deviation and makes no intersections. Throws Error(input)
+/// with the place if that would be more than a tenth. Requires a surface without intersections and open edges; facets
+/// that meet in an edge of two have it in opposite directions. Deterministic. O(#F log #F) for the larger of both
+/// surfaces.
 ///
 /// The bound of operations instead of the whole follows Cohen et al. 1996; sizes by distance between folds are those of
 /// Ruppert 1995.
