@@ -29,10 +29,10 @@ bool move_to_volume(Tessellation& mesh, const std::vector<Vec3>& start, const st
         const double next = scale + (volume - now) * (scale - last) / (now - last_volume);
         last = scale;
         last_volume = now;
-        scale = std::clamp(next, 0.0, 2 * balance_limits::most_scale);
+        scale = std::clamp(next, 0.0, 2 * balance_limits::chords.most);
         now = volume_at(scale);
     }
-    return scale >= balance_limits::least_scale && scale <= balance_limits::most_scale &&
+    return scale >= balance_limits::chords.least && scale <= balance_limits::chords.most &&
            std::abs(now - volume) <= balance_limits::precision * std::abs(volume);
 }
 
@@ -73,7 +73,7 @@ std::vector<double> volumes_between(const Tessellation& mesh, std::size_t region
 }
 
 bool balance_volumes(Tessellation& mesh, const std::vector<double>& volumes, const std::vector<char>& is_fixed) {
-    return kerf::balance_volumes(mesh.vertices, faces_of(mesh), volumes, is_fixed);
+    return kerf::balance_volumes(mesh.vertices, faces_of(mesh), volumes, is_fixed, balance_limits::chords);
 }
 
 }  // namespace kerf::cad

@@ -1,5 +1,7 @@
 #include "remesh/inspection.h"
 
+#include <algorithm>
+
 #include "core/cancellation.h"
 #include "surface/intersections.h"
 #include "surface/nearness.h"
@@ -9,23 +11,29 @@ namespace kerf {
 namespace {
 
 constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
-constexpr int most_divisions_of_inspection = 100'000;      // of a facet, to see that it is near the other surface
+// Of a facet, to see that it is near the other surface: it may be near all of that, and is divided along its sides.
+constexpr int least_divisions = 100'000, divisions_per_facet = 16;
+
+int divisions_for(std::size_t facets) {
+    return static_cast<int>(std::min<std::size_t>(least_divisions + divisions_per_facet * facets, 1 << 30));
+}
 
 // One of the surfaces, and what the facets of the other are known to be near.
 struct Side {
     Nearness nearness;
+    int most_divisions;
     double bound;            // that does for all so far
     std::int32_t last = -1;  // facet of this side that the last one is near
 
     Side(const TriangleTree& tree, const std::vector<Triangle>& facets, double deviation)
-        : nearness(tree, facets), bound(first_bound * deviation) {}
+        : nearness(tree, facets), most_divisions(divisions_for(facets.size())), bound(first_bound * deviation) {}
 };
 
 bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, const RemeshOptions& options, Side& side) {
     const auto holds = [&] {
         return side.nearness.holds(
             {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, side.bound, [&](std::int32_t) { return side.bound; },
-            most_divisions_of_inspection, side.last);
+            side.most_divisions, side.last);
     };
     for (; !holds(); side.bound = std::min(options.deviation, step_of_bound * side.bound))
         if (side.bound == options.deviation) return false;

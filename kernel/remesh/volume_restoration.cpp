@@ -18,6 +18,8 @@ namespace {
 constexpr double smooth_cosine = std::numbers::sqrt3 / 2;  // of the normals of neighbours on one face: 30 degrees
 constexpr double coplanar_cosine = 1 - 1e-9;
 constexpr double facing_cosine_of_input = 0.3;  // of a facet's normal and that of the input over it
+// Chords of facets that follow others are partly above and partly below them, and the mean of both may be near nothing.
+constexpr ScaleRange restored_range = {-50, 50};
 constexpr double flat_share_of_diagonal = 1e-8;
 
 std::vector<FacetSides> sides_of_facets(const SurfaceArrays& surface, const std::vector<FacetSides>& sides) {
@@ -114,7 +116,7 @@ bool restore_volumes(const SurfaceArrays& input, const TriangleTree& tree, const
                      double deviation, const std::vector<char>& is_fixed, SurfaceArrays& result) {
     const FacesOfInput faces(input, tree, deviation, result);
     const std::vector<FacetSides> of_facets = sides_of_facets(result, sides);
-    return balance_volumes(result.vertices, faces.facets(of_facets), volumes_of(input, sides), is_fixed);
+    return balance_volumes(result.vertices, faces.facets(of_facets), volumes_of(input, sides), is_fixed, restored_range);
 }
 
 }  // namespace kerf

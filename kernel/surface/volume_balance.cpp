@@ -134,7 +134,7 @@ class RegionVolumes {
 // Moves the vertices from `start` by multiples of `moves` such that the regions have their volumes. False if they do
 // not.
 bool move_to_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const std::vector<Vec3>& start,
-                     const std::vector<Vec3>& moves, const std::vector<double>& volumes) {
+                     const std::vector<Vec3>& moves, const std::vector<double>& volumes, const ScaleRange& range) {
     Eigen::VectorXd scales = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(moves.size()));
     for (int step = 0; step <= balance_limits::secant_steps; ++step) {
         for (std::size_t v = 0; v < moves.size(); ++v)
@@ -147,8 +147,7 @@ bool move_to_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, con
             missing[static_cast<Eigen::Index>(r)] = is_off ? volumes[r] - now[r] : 0;
             is_right = is_right && !is_off;
         }
-        if (is_right)
-            return scales.minCoeff() >= balance_limits::least_scale && scales.maxCoeff() <= balance_limits::most_scale;
+        if (is_right) return scales.minCoeff() >= range.least && scales.maxCoeff() <= range.most;
         scales += RegionVolumes(vertices, mesh, moves, volumes).scales_for(missing);
     }
     return false;
@@ -218,13 +217,13 @@ std::vector<double> region_volumes(const std::vector<Vec3>& vertices, const Face
 }
 
 bool balance_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const std::vector<double>& volumes,
-                     const std::vector<char>& is_fixed) {
+                     const std::vector<char>& is_fixed, const ScaleRange& range) {
     std::vector<Vec3> moves = moves_to_faces(vertices, mesh);
     for (std::size_t v = 0; v < moves.size(); ++v)
         if (is_fixed[v]) moves[v].setZero();
     const std::vector<Vec3> start = vertices, normals = area_vectors(vertices, mesh.facets);
     for (int round = 0; round < balance_limits::most_rounds; ++round) {
-        const bool is_right = move_to_volumes(vertices, mesh, start, moves, volumes);
+        const bool is_right = move_to_volumes(vertices, mesh, start, moves, volumes, range);
         if (keep_turned(vertices, mesh.facets, normals, moves)) continue;
         if (is_right) return true;
         break;

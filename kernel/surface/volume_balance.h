@@ -20,10 +20,15 @@ struct FacetsOfFaces {
     FacetSides sides_of(std::size_t facet) const { return sides.empty() ? FacetSides{} : sides[facet]; }
 };
 
+/// Of the moves that facets ask for, which balances take multiples of.
+struct ScaleRange {
+    double least, most;
+};
+
 /// How far balances go.
 namespace balance_limits {
-// Of the moves that the facets ask for: what is far from 1 has other causes than chords.
-inline constexpr double least_scale = 0.4, most_scale = 2.5;
+// What is far from 1 has other causes than chords.
+inline constexpr ScaleRange chords = {0.4, 2.5};
 inline constexpr int secant_steps = 3, most_rounds = 12;
 inline constexpr double precision = 1e-7;  // of a volume
 }  // namespace balance_limits
@@ -49,9 +54,9 @@ std::vector<double> region_volumes(const std::vector<Vec3>& vertices, const Face
 /// region its volume those are taken that differ the least from what the faces ask for. `is_fixed`: of each vertex,
 /// whether it stays.
 ///
-/// False, and nothing is moved, if the difference is not what the facets have missed of their faces. The result may
+/// False, and nothing is moved, if that takes multiples out of `range`, or turns too many facets. The result may
 /// intersect itself. O(#F (log #F + regions)), deterministic.
 bool balance_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& faces, const std::vector<double>& volumes,
-                     const std::vector<char>& is_fixed);
+                     const std::vector<char>& is_fixed, const ScaleRange& range);
 
 }  // namespace kerf
