@@ -18,8 +18,9 @@ namespace {
 constexpr double smooth_cosine = std::numbers::sqrt3 / 2;  // of the normals of neighbours on one face: 30 degrees
 constexpr double coplanar_cosine = 1 - 1e-9;
 constexpr double facing_cosine_of_input = 0.3;  // of a facet's normal and that of the input over it
-// Chords of facets that follow others are partly above and partly below them, and the mean of both may be near nothing.
-constexpr ScaleRange restored_range = {-50, 50};
+// Of the heights of the input. Facets that follow facets are partly above and partly below them: what is missed in all
+// may be far more, or less, than the mean of a few.
+constexpr ScaleRange range_of_heights = {-4, 6};
 constexpr double flat_share_of_diagonal = 1e-8;
 
 std::vector<FacetSides> sides_of_facets(const SurfaceArrays& surface, const std::vector<FacetSides>& sides) {
@@ -56,6 +57,14 @@ class FacesOfInput {
         return {result_.facets, face_, plane_, rise_, sides};
     }
 
+    /// Flat faces that go on smoothly, as the strips of a cylinder do, need not stay flat; all that may move rises by
+    /// the same.
+    void let_rise_evenly(double height) {
+        for (std::size_t f = 0; f < face_.size(); ++f)
+            if (goes_on_[face_[f]] != 0) plane_[f].setZero();
+        std::fill(rise_.begin(), rise_.end(), height);
+    }
+
  private:
     struct Heights {
         double mean = 0, largest = 0;
@@ -83,14 +92,21 @@ class FacesOfInput {
     // Neighbours of one patch that go on smoothly, both flat or both not.
     void find_faces() {
         UnionFind joined(result_.facets.size());
+        std::vector<std::int32_t> that_go_on;
         EdgeCorners(result_.facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
             if (corners.size() != 2) return;
             const std::int32_t f = corners[0].corner / 3, g = corners[1].corner / 3;
-            const bool is_flat = plane_[f] != Vec3::Zero();
-            if (result_.patch[f] != result_.patch[g] || is_flat != (plane_[g] != Vec3::Zero())) return;
-            if (normal_[f].dot(normal_[g]) >= (is_flat ? coplanar_cosine : smooth_cosine)) joined.join(f, g);
+            const double cosine = normal_[f].dot(normal_[g]);
+            if (result_.patch[f] != result_.patch[g] || cosine < smooth_cosine) return;
+            const bool is_flat = plane_[f] != Vec3::Zero(), other_is_flat = plane_[g] != Vec3::Zero();
+            if (is_flat == other_is_flat && (!is_flat || cosine >= coplanar_cosine))
+                joined.join(f, g);
+            else
+                that_go_on.insert(that_go_on.end(), {f, g});
         });
         for (std::int32_t f = 0; f < std::ssize(result_.facets); ++f) face_.push_back(joined.root(f));
+        goes_on_.resize(face_.size(), 0);
+        for (const std::int32_t f : that_go_on) goes_on_[face_[f]] = 1;
     }
 
     const SurfaceArrays& result_;
@@ -99,6 +115,7 @@ class FacesOfInput {
     std::vector<Vec3> input_normal_, normal_, plane_;
     std::vector<double> rise_;
     std::vector<std::int32_t> face_;
+    std::vector<char> goes_on_;  // of a face: whether it ends smoothly somewhere
 };
 
 }  // namespace
@@ -114,9 +131,12 @@ double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result
 
 bool restore_volumes(const SurfaceArrays& input, const TriangleTree& tree, const std::vector<FacetSides>& sides,
                      double deviation, const std::vector<char>& is_fixed, SurfaceArrays& result) {
-    const FacesOfInput faces(input, tree, deviation, result);
+    FacesOfInput faces(input, tree, deviation, result);
     const std::vector<FacetSides> of_facets = sides_of_facets(result, sides);
-    return balance_volumes(result.vertices, faces.facets(of_facets), volumes_of(input, sides), is_fixed, restored_range);
+    const std::vector<double> volumes = volumes_of(input, sides);
+    if (balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, range_of_heights)) return true;
+    faces.let_rise_evenly(deviation);
+    return balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, {-1, 2});
 }
 
 }  // namespace kerf
