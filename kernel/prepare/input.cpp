@@ -356,6 +356,29 @@ Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::
     return input_of_arrays(std::move(soup), options);
 }
 
+std::vector<double> region_volumes(const Input& input) {
+    std::vector<double> volumes;
+    for (const InputRegion& region : input.regions) volumes.push_back(region.volume);
+    if (volumes.empty()) volumes.push_back(input.volume);
+    return volumes;
+}
+
+double volume_before_remeshing(const Input& input) {
+    if (!input.remeshed) return input.volume;
+    const std::vector<double>& volumes = input.remeshed->volumes_before;
+    return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+}
+
+std::int64_t count_changed_volumes(const Input& input) {
+    if (!input.remeshed || input.remeshed->may_change_volume) return 0;
+    const std::vector<double> now = region_volumes(input);
+    const std::vector<double>& before = input.remeshed->volumes_before;
+    std::int64_t changed = 0;
+    for (std::size_t r = 0; r < now.size(); ++r)
+        changed += !(std::abs(now[r] - before[r]) <= largest_volume_change * before[r]);
+    return changed;
+}
+
 void measure_input(Input& input) {
     const Complex& complex = input.complex;
     input.largest_coordinate = 0;

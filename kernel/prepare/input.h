@@ -76,7 +76,14 @@ struct InputRemeshing {
            distance_from_input = 0;  ///< largest that was found, of the new surface and of the old
     std::int64_t feature_edges = 0;  ///< of the new surface
     FinerShares finer = {};          ///< where its shape asks for smaller edges than sizes do, if any
+    std::vector<double> volumes_before = {};  ///< of the regions
+    /// Whether the volume may be another: where a deviation was asked for, where the surface is a wrap, and before
+    /// vertices are put on the curved faces of a CAD model.
+    bool may_change_volume = false;
 };
+
+/// The volume of a region may differ by this share from that before the surface was remeshed.
+inline constexpr double largest_volume_change = 1e-3;
 
 /// One of several regions.
 struct InputRegion {
@@ -143,6 +150,16 @@ Complex make_complex(Soup soup);
 
 /// Fills the counts, volume, area and genus from the surface.
 void measure_input(Input& input);
+
+/// Of all regions, before the surface was remeshed.
+double volume_before_remeshing(const Input& input);
+
+/// The volumes of the regions; of one region that of the whole.
+std::vector<double> region_volumes(const Input& input);
+
+/// Regions whose volume is another than before the surface was remeshed, by more than largest_volume_change, although
+/// it should not be.
+std::int64_t count_changed_volumes(const Input& input);
 
 /// Bounds of volumes of cells for each region of the input: what SizeOptions::in_region says, else the file; 0:
 /// nothing. Empty if nothing is said at all. Throws as SizeOptions::max_volumes_of_regions().

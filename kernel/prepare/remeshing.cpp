@@ -32,6 +32,7 @@ constexpr double longest_shares[] = {0.05, 0.03, 0.015};
 // The deviation where none is given: of the wanted length, or, if none is wanted, of the diagonal.
 constexpr double share_of_length = 0.05, shares_of_diagonal[] = {2e-3, 5e-4, 1.5e-4};
 constexpr double share_of_thickness = 0.01;  // that it is at most where none is given
+constexpr double volume_tolerance = 1e-4;    // of a region, as a share, likewise
 constexpr double bytes_per_facet = 280;      // of the process while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
@@ -144,6 +145,12 @@ void want_lengths_of_regions(const RunOptions& options, const SizeField& all, co
     task.options.longest = longest;
 }
 
+// Who asks for a deviation says how much the shape may change; a wrap is another shape than the file's. Where curved
+// cells follow, vertices are put on the faces of the model again, and the edges between them bulge.
+bool may_change_volume(const Input& input, const RunOptions& options) {
+    return options.deviation.number() > 0 || input.wrapped || (input.is_cad && options.has_curved_edges());
+}
+
 RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
                        const RunOptions& options) {
     constexpr double share_of_gap = 0.1;  // a wrap is rough where it bridges
@@ -160,6 +167,7 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
                            : std::max(usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness),
                                       input.wrapped ? share_of_gap * input.wrapped->gap : 0);
     if (options.deviation.number() == 0 && !input.wrapped) result.share_of_thickness = share_of_thickness;
+    if (!may_change_volume(input, options)) result.volume_tolerance = volume_tolerance;
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
     if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted && !bad.are_too_wide())
         result.kept = facets_away_from_slivers(task.facets.surface);
@@ -204,6 +212,22 @@ std::vector<std::string> region_names(const Complex& complex) {
     return {complex.region_names().begin(), complex.region_names().end()};
 }
 
+void refuse_changed_volumes(const Input& input) {
+    if (count_changed_volumes(input) == 0) return;
+    const std::vector<double> now = region_volumes(input);
+    const std::vector<double>& before = input.remeshed->volumes_before;
+    const auto change = [&](std::size_t r) { return std::abs(now[r] - before[r]) / before[r]; };
+    std::size_t worst = 0;
+    for (std::size_t r = 1; r < now.size(); ++r)
+        if (!(change(r) <= change(worst))) worst = r;
+    const std::string where = now.size() == 1 ? "" : fmt::format(" of {}", input.complex.region_names()[worst]);
+    throw Error(ErrorCode::verification,
+                fmt::format("The remeshed surface holds another volume{} than the file: {:.6g} for {:.6g}, {:+.2f} %. "
+                            "Keep the surface as it is by --surface split, or bound its changes by a --deviation of "
+                            "yours, whose volume is not compared.",
+                            where, now[worst], before[worst], 100 * (now[worst] - before[worst]) / before[worst]));
+}
+
 Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
                StageListener* listener) {
     RemeshTask task = remesh_task(input, before, bad, options);
@@ -222,7 +246,9 @@ Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, c
                       .distance_to_input = result.report.distance_to_input,
                       .distance_from_input = result.report.distance_from_input,
                       .feature_edges = result.report.feature_edges,
-                      .finer = wanted.wanted ? result.report.finer : FinerShares()};
+                      .finer = wanted.wanted ? result.report.finer : FinerShares(),
+                      .volumes_before = region_volumes(input),
+                      .may_change_volume = may_change_volume(input, options)};
     if (result.report.facets_left > 0)
         input.notes.push_back(
             fmt::format("{} facets stay as they are, because no change of them stays within {:.2g}: "
@@ -230,6 +256,7 @@ Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, c
                         grouped(result.report.facets_left), wanted.deviation));
     input.complex = task.facets.to_complex(std::move(result.surface), region_names(input.complex));
     measure_input(input);
+    refuse_changed_volumes(input);
     return input;
 }
 
@@ -251,20 +278,21 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
                       .facets_kept = result.kept,
                       .only_divided = true,
                       .smallest_angle_before_deg = smallest_angle(before),
-                      .smallest_angle_deg = smallest_angle(result.surface)};
+                      .smallest_angle_deg = smallest_angle(result.surface),
+                      .volumes_before = region_volumes(input)};
     input.complex = with_pieces(input.complex, std::move(result));
     measure_input(input);
     return input;
 }
 
-// A wrap may be so rough that no bound can be kept. Its facets do.
+// A surface may be so rough, or so thin, that no bound can be kept. Its facets do.
 Input remeshed_if_possible(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
                            StageListener* listener) {
     try {
         return remeshed(input, before, bad, options, listener);
     } catch (const Error& error) {
-        if (error.code() != ErrorCode::input) throw;
-        input.notes.push_back(fmt::format("The facets of the wrap are kept. {}", error.what()));
+        if (error.code() != ErrorCode::input && error.code() != ErrorCode::verification) throw;
+        input.notes.push_back(fmt::format("The facets of the surface are kept. {}", error.what()));
         return divided(std::move(input), before, options, listener);
     }
 }
@@ -324,8 +352,9 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
     if (change == SurfaceChange::none) return input;
     const SurfaceArrays before = input.complex.arrays();
     if (change == SurfaceChange::division) return divided(std::move(input), before, options, listener);
-    return input.wrapped ? remeshed_if_possible(std::move(input), before, bad, options, listener)
-                         : remeshed(std::move(input), before, bad, options, listener);
+    return input.wrapped || options.remeshing == Remeshing::where_needed
+               ? remeshed_if_possible(std::move(input), before, bad, options, listener)
+               : remeshed(std::move(input), before, bad, options, listener);
 }
 
 }  // namespace kerf

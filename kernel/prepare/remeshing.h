@@ -40,8 +40,10 @@ double forecast_changed_facets(const Input& input, const RunOptions& options);
 /// and volume are the new ones then, and Input::remeshed tells what was done. The wanted lengths are those of
 /// options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
 /// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,
-/// Error(input) where the bound cannot be kept, Error(memory) with the way out for more facets than there is memory
-/// for, before the first of them, Error(cancelled).
+/// Error(memory) with the way out for more facets than there is memory for, before the first of them,
+/// Error(cancelled). Where the bound cannot be kept, or a volume changes by more than largest_volume_change although no
+/// deviation was asked for, the facets stay and are divided, which is noted; that is Error(input) or
+/// Error(verification) where remeshing was asked for.
 Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -129,6 +129,11 @@ class ToleranceFinder {
 
 }  // namespace
 
+void Tolerances::multiply(double factor) {
+    for (std::vector<double>* tolerances : {&of_facet, &by_thickness})
+        for (double& tolerance : *tolerances) tolerance *= factor;
+}
+
 Tolerances find_tolerances(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
                            const std::vector<char>& walls, const CancellationCheck& poll) {
     const ToleranceFinder finder(surface, tree, rules, walls);

@@ -15,6 +15,8 @@ namespace kerf {
 struct Tolerances {
     std::vector<double> of_facet;      ///< #F
     std::vector<double> by_thickness;  ///< #F; what the thickness of the body there would allow alone
+
+    void multiply(double factor);
 };
 
 /// The input of the remesher and its bound. Immutable.

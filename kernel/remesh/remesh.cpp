@@ -23,10 +23,11 @@ constexpr double as_asked = 0.95;  // a size over that which is asked for, which
 // Points between those that operations compare with the input may be further off.
 constexpr double used_share = 0.8;
 constexpr int most_rounds = 5, most_rounds_that_keep = 3;
-constexpr double largest_share_left = 0.1;  // of the facets: so many may stay as they are because nothing else does
 constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
 constexpr double same_volume = 5e-5;        // of a region, before and after: nothing is to be restored
 constexpr int most_restorations = 3;
+constexpr int most_rounds_for_volume = 2;  // with smaller tolerances, because volumes were not restored
+constexpr double smaller_for_volume = 0.5;
 constexpr double area_per_squared_length = 0.342;  // of a facet, and of the length wanted there; measured
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
@@ -84,21 +85,18 @@ void check_remesh_options(const RemeshOptions& options, std::size_t facets) {
     KERF_CHECK(options.deviation > 0 && options.longest > 0 && options.growth > 0 && options.feature_angle_deg > 0);
 }
 
-// Adds facets to those that stay as they are, with all that share a vertex with them. Returns whether these are few.
+// Adds facets to those that stay as they are, with all that share a vertex with them. Returns whether others are left.
 bool leave(const SurfaceArrays& surface, const std::vector<char>& refused, std::vector<char>& kept) {
     std::vector<char> is_near(surface.vertices.size(), 0);
     for (std::size_t f = 0; f < refused.size(); ++f)
         if (refused[f] != 0)
             for (const std::int32_t v : surface.facets[f]) is_near[v] = 1;
     kept.resize(surface.facets.size(), 0);
-    std::int64_t added = 0;
     for (std::size_t f = 0; f < kept.size(); ++f) {
         const Triangle& t = surface.facets[f];
-        const bool is_left = is_near[t[0]] != 0 || is_near[t[1]] != 0 || is_near[t[2]] != 0;
-        added += is_left && kept[f] == 0;
-        if (is_left) kept[f] = 1;
+        if (is_near[t[0]] != 0 || is_near[t[1]] != 0 || is_near[t[2]] != 0) kept[f] = 1;
     }
-    return static_cast<double>(added) <= largest_share_left * static_cast<double>(kept.size());
+    return std::find(kept.begin(), kept.end(), char{0}) != kept.end();
 }
 
 // The vertices of the result that are corners of facets which are kept.
@@ -182,6 +180,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
         find_tolerances(surface, tree, {used_share * options.deviation, used_share * options.share_of_thickness},
                         options.walls, CancellationCheck(options.poll));
     RemeshOptions own = options;
+    int rounds_for_volume = 0;
     for (int round = 1;; ++round) {
         Remeshed result = remesh_once(sheets, tree, tolerances, own);
         result.report.rounds = round;
@@ -191,10 +190,14 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
             restore_volumes_within_bound(surface, tree, options, own.kept, result);
             result.report.facets_left = std::count(own.kept.begin(), own.kept.end(), char{1}) -
                                         std::count(options.kept.begin(), options.kept.end(), char{1});
-            return result;
-        }
-        if (round >= most_rounds) {
-            if (round == most_rounds + most_rounds_that_keep || !leave(surface, refused, own.kept))
+            if (result.report.volume_difference <= options.volume_tolerance ||
+                rounds_for_volume == most_rounds_for_volume)
+                return result;
+            ++rounds_for_volume;
+            tolerances.multiply(smaller_for_volume);
+        } else if (round >= most_rounds + rounds_for_volume) {
+            if (round >= most_rounds + most_rounds_that_keep + rounds_for_volume ||
+                !leave(surface, refused, own.kept))
                 refuse(surface, refused, options.deviation);
         } else {
             for (std::size_t f = 0; f < refused.size(); ++f)

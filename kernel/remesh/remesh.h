@@ -12,6 +12,7 @@ namespace kerf {
 struct RemeshOptions {
     double deviation = 0;           ///< largest distance between input and result, both ways; units of the input, > 0
     double share_of_thickness = 0;  ///< of a body, which the distance is at most there, too; 0: that asks for nothing
+    double volume_tolerance = 1;    ///< of a region, as a share: above it all is done again with smaller deviations
     double longest = 0;             ///< edge anywhere, > 0
     double growth = 0.4;            ///< of the size along the surface
     double feature_angle_deg = 30;  ///< between facets: their edge stays an edge
@@ -69,10 +70,11 @@ struct Remeshed {
 /// self-intersections, by exact predicates: where one of them fails, the tolerance of the facets there is made smaller
 /// and all is done again; where that does not help, they stay as they are (RemeshReport::facets_left). Keys are the
 /// numbers in the result. Where the volume of a region is another than before by more than 5e-5 of it, vertices leave
-/// the input until it is the same, if that stays within the deviation and makes no intersections. Throws Error(input)
-/// with the place if that would be more than a tenth. Requires a surface without intersections and open edges; facets
-/// that meet in an edge of two have it in opposite directions. Deterministic. O(#F log #F) for the larger of both
-/// surfaces.
+/// the input until it is the same, if that stays within the deviation and makes no intersections; where it does not,
+/// and more than `volume_tolerance` is left of the difference, all is done again within half of the tolerances, and
+/// within a quarter. Throws Error(input) with the place if no facet can be changed. Requires a surface without
+/// intersections and open edges; facets that meet in an edge of two have it in opposite directions. Deterministic.
+/// O(#F log #F) for the larger of both surfaces.
 ///
 /// The bound of operations instead of the whole follows Cohen et al. 1996; sizes by distance between folds are those of
 /// Ruppert 1995.

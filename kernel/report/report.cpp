@@ -303,6 +303,16 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     if (report.curve) lines.add("curved", curve_text(*report.curve));
 }
 
+std::string volume_text(const RunReport& report) {
+    const Input& input = *report.input;
+    const double before = volume_before_remeshing(input);
+    const double volume = input.volume + (report.curve ? report.curve->volume_gain : 0);
+    const bool is_as_read = input.ladder.steps.empty() && !input.wrapped;
+    const char* of = is_as_read ? "the file" : "the repaired surface";
+    if (volume == before) return fmt::format("{:.7g}, as {} has it", volume, of);
+    return fmt::format("{:.7g}; {} has {:.7g}, difference {:+.1e}", volume, of, before, (volume - before) / before);
+}
+
 std::string ranks_text(const RunReport& report) {
     return fmt::format("{} rank{} x {} worker{}", report.ranks, report.ranks == 1 ? "" : "s", report.options.workers,
                        report.options.workers == 1 ? "" : "s");
@@ -325,6 +335,7 @@ std::string to_text(const RunReport& report, ReportDetail detail) {
     if (report.reference) lines.add("reference", reference_text(report));
     lines.add("time", all ? time_text(report) : fmt::format("{:.2f} s on {}", report.seconds.wall, ranks_text(report)));
     if (all) lines.add("processes", processes_text(report));
+    lines.add("volume", volume_text(report));
     lines.add("verified",
               fmt::format("{}; volume error {:.1e}", report.verification.passed ? "yes, every law holds" : "NO",
                           report.verification.volume_rel_error));

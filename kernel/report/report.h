@@ -63,6 +63,7 @@ struct RunVerification {
     std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
     std::int64_t moved_vertices = 0;   ///< vertices whose coordinates differ between parts, or from the input
     std::int64_t misnumbered = 0;      ///< global numbers that are missing, or used by two interior vertices or edges
+    std::int64_t changed_volumes = 0;  ///< as count_changed_volumes() has it
     std::int64_t unequal_edge_nodes = 0;    ///< of order 2: edges whose nodes differ between parts
     std::int64_t invalid_curved_cells = 0;  ///< likewise: cells that are not proven to have a positive Jacobian
 
@@ -79,7 +80,7 @@ struct RunLaw {
 };
 /// The laws that are counts, in the order in which they are told. A new one is a count of RunVerification and a row
 /// here; reports and kerf verify have it then, and whoever sees it counts.
-inline constexpr std::array<RunLaw, 10> run_laws = {
+inline constexpr std::array<RunLaw, 11> run_laws = {
     {{"input_faces_missing", &RunVerification::input_faces_missing, "facets of the input missing"},
      {"extra_boundary_faces", &RunVerification::extra_boundary_faces,
       "boundary faces that are neither input nor interface"},
@@ -89,6 +90,7 @@ inline constexpr std::array<RunLaw, 10> run_laws = {
       true},
      {"inverted_tets", &RunVerification::inverted_tets, "tetrahedra that are not positively oriented"},
      {"tets_zero_parts", &RunVerification::tets_zero_parts, "parts without tetrahedra"},
+     {"changed_volumes", &RunVerification::changed_volumes, "regions whose volume is not that of the file"},
      {"moved_vertices", &RunVerification::moved_vertices,
       "vertices whose coordinates differ between parts or from the input", true},
      {"misnumbered", &RunVerification::misnumbered, "wrong global vertex numbers", true},

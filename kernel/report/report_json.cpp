@@ -45,6 +45,7 @@ Json input_json(const Input& input) {
                  {"components", input.components},
                  {"genus", input.genus},
                  {"volume", input.volume},
+                 {"volume_of_file", volume_before_remeshing(input)},
                  {"area", input.area},
                  {"repairs",
                   {{"vertices_welded", input.repairs.welded_vertices},
@@ -62,6 +63,8 @@ Json input_json(const Input& input) {
                                    {"faces", region.facets},
                                    {"components", region.components},
                                    {"volume", region.volume},
+                                   {"volume_of_file",
+                                    input.remeshed ? input.remeshed->volumes_before[r] : region.volume},
                                    {"area", region.area}});
     }
     if (!input.ladder.steps.empty()) json["repair"] = json_of_repair(input.ladder);

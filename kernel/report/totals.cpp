@@ -69,6 +69,7 @@ RunVerification verify_parts(const RunReport& report) {
         [](const RegionVolume& a, const RegionVolume& b) { return a.share_of_bound() < b.share_of_bound(); });
     v.volume_rel_error = worst->relative_error();
     v.volume_rel_bound = worst->relative_bound();
+    v.changed_volumes = count_changed_volumes(*report.input);
     v.passed = parts_hold && v.all_hold();
     return v;
 }

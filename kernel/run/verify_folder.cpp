@@ -279,6 +279,7 @@ void FolderVerifier::check_input() {
             return;
         }
         input = remesh_where_asked(std::move(input), options);
+        result_.laws.changed_volumes = count_changed_volumes(input);
         if (input.is_cad) make_surface_nodes(input, {}, options);  // moves vertices onto the faces
     } catch (const Error& e) {
         result_.not_compared = e.what();
