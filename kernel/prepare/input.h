@@ -73,9 +73,9 @@ struct InputRemeshing {
     double smallest_angle_before_deg = 0, smallest_angle_deg = 0;
     double deviation = 0;  ///< that was allowed, units of the input
     double distance_to_input = 0,
-           distance_from_input = 0;  ///< largest that was found, of the new surface and of the old
-    std::int64_t feature_edges = 0;  ///< of the new surface
-    FinerShares finer = {};          ///< where its shape asks for smaller edges than sizes do, if any
+           distance_from_input = 0;           ///< largest that was found, of the new surface and of the old
+    std::int64_t feature_edges = 0;           ///< of the new surface
+    FinerShares finer = {};                   ///< where its shape asks for smaller edges than sizes do, if any
     std::vector<double> volumes_before = {};  ///< of the regions
     /// Whether the volume may be another: where a deviation was asked for, where the surface is a wrap, and before
     /// vertices are put on the curved faces of a CAD model.

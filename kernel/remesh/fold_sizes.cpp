@@ -16,8 +16,9 @@ namespace kerf {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double well_shaped_sine = 0.5;  // of 30 degrees
-constexpr double straight_share = 0.2;    // of the tolerance: how far from a straight line its vertices may be
+constexpr double well_shaped_sine = 0.5;     // of 30 degrees
+constexpr double walls_over_tolerance = 25;  // of what walls may ask for, a fifth of the thickness, and its hundredth
+constexpr double straight_share = 0.2;       // of the tolerance: how far from a straight line its vertices may be
 
 // Of the third vertex of the facet of a half-edge.
 double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
@@ -187,7 +188,9 @@ WantedLength FoldSizes::at(EditedSurface::Vertex v, double own_chord, const Want
     const double share = share_at(v);
     size.length = std::max(size.length, share * options_.shortest);
     if (options_.edges_per_thickness > 0)
-        size.shorten(std::max(across_wall(v, size.length), share * options_.thinnest), LengthRule::walls);
+        size.shorten(
+            std::max(across_wall(v, size.length), std::min(1.0, walls_over_tolerance * share) * options_.thinnest),
+            LengthRule::walls);
     if (grown.length <= size.length) size = grown;
     size.shorten(asked(v), LengthRule::asked);
     return size;

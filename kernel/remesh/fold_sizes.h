@@ -11,6 +11,9 @@
 
 namespace kerf {
 
+/// What walls may ask for where the body is thick, of that it may deviate by.
+constexpr double shortest_on_walls(double deviation) { return 0.75 * deviation; }
+
 struct FoldSizeOptions {
     double longest = 0;                                       ///< anywhere, > 0
     double shortest = 0;                                      ///< that folds may ask for where the body is thick

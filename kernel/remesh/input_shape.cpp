@@ -9,6 +9,7 @@
 
 #include "geometry/box.h"
 #include "geometry/triangle.h"
+#include "remesh/thickness.h"
 #include "surface/edge_corners.h"
 
 namespace kerf {
@@ -18,7 +19,6 @@ namespace {
 constexpr double flat_share = 0.1;          // of the tolerance: what counts as flat
 constexpr double gap_share = 1. / 3;        // of a gap that each of its sheets may use
 constexpr double rounding_of_files = 6e-8;  // of coordinates in single precision: lower facets have any normal
-constexpr double opposite_cosine = -0.1;    // of the normals of two sheets with a gap between them
 constexpr double least_share = 1. / 8;      // of the deviation: beside sharp edges gaps end in nothing
 
 bool share_a_vertex(const Triangle& s, const Triangle& t) {
@@ -67,9 +67,7 @@ class ToleranceFinder {
  public:
     ToleranceFinder(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
                     const std::vector<char>& walls)
-        : surface_(surface), tree_(tree), rules_(rules), walls_(walls) {
-        for (const Triangle& t : surface.facets)
-            normal_.push_back(doubled_area_vector(surface.vertices, t).normalized());
+        : surface_(surface), tree_(tree), rules_(rules), thickness_(surface, tree, walls) {
         least_by_thickness_ = 4 * rounding_of_files * box_around(surface.vertices).diagonal().norm();
     }
 
@@ -78,10 +76,10 @@ class ToleranceFinder {
         const double deviation = rules_.deviation;
         double gap = infinite;
         const auto faces_it = [&](std::int32_t g) {
-            return are_opposite(f, g) && !share_a_vertex(surface_.facets[g], surface_.facets[f]);
+            return thickness_.are_opposite(f, g) && !share_a_vertex(surface_.facets[g], surface_.facets[f]);
         };
         for (const Vec3& p : {Vec3((a + b + c) / 3), a, b, c, Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
-            for (const Vec3& way : {normal_[f], Vec3(-normal_[f])})
+            for (const Vec3& way : {thickness_.normal(f), Vec3(-thickness_.normal(f))})
                 gap = std::min(gap, tree_.first_hit(p, way, 0, std::min(gap, deviation / gap_share), faces_it));
         return std::clamp(gap_share * gap, least_share * deviation, deviation);
     }
@@ -94,9 +92,7 @@ class ToleranceFinder {
         const Vec3 centre = (a + b + c) / 3;
         double thickest = 0;
         for (const Vec3& p : {centre, Vec3((centre + a) / 2), Vec3((centre + b) / 2), Vec3((centre + c) / 2)}) {
-            double thickness = thickness_at(p, f, -normal_[f]);
-            if (is_wall(f)) thickness = std::min(thickness, thickness_at(p, f, normal_[f]));
-            thickest = std::max(thickest, thickness);
+            thickest = std::max(thickest, thickness_.at(p, f, rules_.deviation / share));
             if (share * thickest >= rules_.deviation) return rules_.deviation;
         }
         return std::max(share * thickest, std::min(least_by_thickness_, rules_.deviation));
@@ -109,21 +105,10 @@ class ToleranceFinder {
         const Triangle& t = surface_.facets[f];
         return {surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]};
     }
-    bool is_wall(std::int32_t f) const { return !walls_.empty() && walls_[f] != 0; }
-    bool are_opposite(std::int32_t f, std::int32_t g) const {
-        const double cosine = normal_[g].dot(normal_[f]);
-        return (is_wall(f) || is_wall(g) ? -std::abs(cosine) : cosine) < opposite_cosine;
-    }
-    double thickness_at(const Vec3& p, std::int32_t f, const Vec3& inwards) const {
-        return tree_.first_hit(p, inwards, 0, rules_.deviation / rules_.share_of_thickness,
-                               [&](std::int32_t g) { return g != f && are_opposite(f, g); });
-    }
-
     const SurfaceArrays& surface_;
     const TriangleTree& tree_;
     const ToleranceRules& rules_;
-    const std::vector<char>& walls_;
-    std::vector<Vec3> normal_;
+    Thickness thickness_;
     double least_by_thickness_;
 };
 

@@ -10,7 +10,9 @@
 #include "core/error.h"
 #include "geometry/triangle.h"
 #include "remesh/edited_surface.h"
+#include "remesh/fold_sizes.h"
 #include "remesh/inspection.h"
+#include "remesh/thickness.h"
 #include "remesh/triangle_shaping.h"
 #include "remesh/volume_restoration.h"
 #include "surface/touching.h"
@@ -29,6 +31,9 @@ constexpr int most_restorations = 3;
 constexpr int most_rounds_for_volume = 2;  // with smaller tolerances, because volumes were not restored
 constexpr double smaller_for_volume = 0.5;
 constexpr double area_per_squared_length = 0.342;  // of a facet, and of the length wanted there; measured
+
+// Walls ask for this many facets, about, or for so many edges across them.
+constexpr double most_facets_on_walls = 2e6, least_edges_per_thickness = 0.1;
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
     std::vector<InputPlace> places;
@@ -77,6 +82,18 @@ Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const Toler
     const EditMesh& mesh = edited.mesh();
     const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer = finer_shares(mesh)};
     return {with_seams_joined(edited.arrays()), {}, report};
+}
+
+// Facets of a very thin body that are as small as it is thick would be too many.
+double affordable_edges_per_thickness(const SurfaceArrays& surface, const TriangleTree& tree,
+                                      const RemeshOptions& options) {
+    const double wanted = options.edges_per_thickness;
+    if (wanted == 0) return 0;
+    const double facets = sum_of_squares_on_walls(surface, Thickness(surface, tree, options.walls),
+                                                  {wanted, shortest_on_walls(options.deviation), options.longest}) /
+                          area_per_squared_length;
+    return std::clamp(wanted * std::sqrt(most_facets_on_walls / facets), std::min(wanted, least_edges_per_thickness),
+                      wanted);
 }
 
 void check_remesh_options(const RemeshOptions& options, std::size_t facets) {
@@ -180,6 +197,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
         find_tolerances(surface, tree, {used_share * options.deviation, used_share * options.share_of_thickness},
                         options.walls, CancellationCheck(options.poll));
     RemeshOptions own = options;
+    own.edges_per_thickness = affordable_edges_per_thickness(surface, tree, options);
     int rounds_for_volume = 0;
     for (int round = 1;; ++round) {
         Remeshed result = remesh_once(sheets, tree, tolerances, own);
@@ -196,8 +214,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
             ++rounds_for_volume;
             tolerances.multiply(smaller_for_volume);
         } else if (round >= most_rounds + rounds_for_volume) {
-            if (round >= most_rounds + most_rounds_that_keep + rounds_for_volume ||
-                !leave(surface, refused, own.kept))
+            if (round >= most_rounds + most_rounds_that_keep + rounds_for_volume || !leave(surface, refused, own.kept))
                 refuse(surface, refused, options.deviation);
         } else {
             for (std::size_t f = 0; f < refused.size(); ++f)

@@ -21,7 +21,7 @@ constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings 
 // Of the tolerance: what is left out first, and what counts as flat then, leaves room for what comes after.
 constexpr double share_of_merging = 0.8, share_of_simplification = 0.4, share_of_flatness = 0.2;
 // What folds and walls may ask for.
-constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005, thinnest_over_deviation = 0.75;
+constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005;
 constexpr std::int64_t steps_between_polls = 256;
 
 // What was refused is refused again as long as nothing around it has changed.
@@ -57,7 +57,7 @@ class Shaping {
         sizes_.emplace(surface_, FoldSizeOptions{.longest = options_.longest,
                                                  .shortest = std::max(shortest_over_deviation * options_.deviation,
                                                                       shortest_over_longest * options_.longest),
-                                                 .thinnest = thinnest_over_deviation * options_.deviation,
+                                                 .thinnest = shortest_on_walls(options_.deviation),
                                                  .growth = options_.growth,
                                                  .edges_per_thickness = options_.edges_per_thickness,
                                                  .wanted = options_.wanted,

@@ -59,13 +59,13 @@ Json input_json(const Input& input) {
                    {"shells_flipped", input.orientation.shells_flipped}}}};
     for (std::size_t r = 0; r < input.regions.size(); ++r) {
         const InputRegion& region = input.regions[r];
-        json["regions"].push_back({{"name", path_text(input.complex.region_names()[r])},
-                                   {"faces", region.facets},
-                                   {"components", region.components},
-                                   {"volume", region.volume},
-                                   {"volume_of_file",
-                                    input.remeshed ? input.remeshed->volumes_before[r] : region.volume},
-                                   {"area", region.area}});
+        json["regions"].push_back(
+            {{"name", path_text(input.complex.region_names()[r])},
+             {"faces", region.facets},
+             {"components", region.components},
+             {"volume", region.volume},
+             {"volume_of_file", input.remeshed ? input.remeshed->volumes_before[r] : region.volume},
+             {"area", region.area}});
     }
     if (!input.ladder.steps.empty()) json["repair"] = json_of_repair(input.ladder);
     if (!input.notes.empty()) json["notes"] = input.notes;
