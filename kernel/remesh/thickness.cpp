@@ -1,0 +1,73 @@
+#include "remesh/thickness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "geometry/triangle.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double opposite_cosine = -0.1;       // of the normals of two sheets with a body or a gap between them
+constexpr double shortest_of_thickness = 0.2;  // that walls may ask for
+constexpr int most_pieces_of_side = 64;        // of a side of a facet, for samples
+constexpr double samples_of_surface = 20'000;  // besides those that each facet has
+
+// The centres of the n^2 pieces that dividing the sides by n makes.
+template <class Visit>
+void for_each_piece(const Vec3& a, const Vec3& b, const Vec3& c, int n, Visit visit) {
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+            visit(Vec3(a + (b - a) * ((i + 1. / 3) / n) + (c - a) * ((j + 1. / 3) / n)));
+            if (i + j + 1 < n) visit(Vec3(a + (b - a) * ((i + 2. / 3) / n) + (c - a) * ((j + 2. / 3) / n)));
+        }
+}
+
+}  // namespace
+
+Thickness::Thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls)
+    : surface_(surface), tree_(tree), walls_(walls) {
+    for (const Triangle& t : surface.facets) normal_.push_back(doubled_area_vector(surface.vertices, t).normalized());
+}
+
+bool Thickness::are_opposite(std::int32_t f, std::int32_t g) const {
+    const double cosine = normal_[g].dot(normal_[f]);
+    return (is_wall(f) || is_wall(g) ? -std::abs(cosine) : cosine) < opposite_cosine;
+}
+
+double Thickness::at(const Vec3& p, std::int32_t f, double limit) const {
+    const auto along = [&](const Vec3& way) {
+        return tree_.first_hit(p, way, 0, limit, [&](std::int32_t g) { return g != f && are_opposite(f, g); });
+    };
+    const double behind = along(-normal_[f]);
+    return is_wall(f) ? std::min(behind, along(normal_[f])) : behind;
+}
+
+double sum_of_squares_on_walls(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& edges) {
+    double area = 0;
+    for (const Triangle& t : surface.facets) area += triangle_area(surface.vertices, t);
+    double sum = 0;
+    for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f) {
+        const Triangle& t = surface.facets[f];
+        const double of_facet = triangle_area(surface.vertices, t);
+        const double share = area > 0 ? of_facet / area : 0;
+        const int n = std::clamp(static_cast<int>(std::sqrt(samples_of_surface * share)), 1, most_pieces_of_side);
+        std::vector<double> across;
+        for_each_piece(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]], n, [&](const Vec3& p) {
+            across.push_back(thickness.at(p, f, edges.longest * edges.per_thickness));
+        });
+        const double thickest = *std::max_element(across.begin(), across.end());
+        const double shortest = std::min(edges.shortest, shortest_of_thickness * thickest);
+        for (const double thin : across) {
+            const double edge = std::clamp(thin / edges.per_thickness, shortest, std::max(shortest, edges.longest));
+            sum += of_facet / (n * n) / (edge * edge);
+        }
+    }
+    return sum;
+}
+
+}  // namespace kerf

@@ -1,0 +1,46 @@
+// How thick the body is behind the facets of a surface, and what that asks of edges.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "surface/surface.h"
+#include "surface/triangle_tree.h"
+
+namespace kerf {
+
+/// Thickness by rays. A facet on the other side counts if it faces the other way; one that a body on both sides has
+/// counts whichever way it faces.
+class Thickness {
+ public:
+    /// Keeps the references; `tree` is of the facets of `surface`. `walls` (#F): the facets that have a body on both
+    /// sides; empty: none. O(#F).
+    Thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls);
+
+    /// Of the body behind facet `f` at its point `p`; of a wall, of the thinner of both bodies. Infinity where it is
+    /// more than `limit`. O(log #F).
+    double at(const Vec3& p, std::int32_t f, double limit) const;
+
+    const Vec3& normal(std::int32_t f) const { return normal_[f]; }
+    bool is_wall(std::int32_t f) const { return !walls_.empty() && walls_[f] != 0; }
+    /// Whether two facets may bound what is between them.
+    bool are_opposite(std::int32_t f, std::int32_t g) const;
+
+ private:
+    const SurfaceArrays& surface_;
+    const TriangleTree& tree_;
+    const std::vector<char>& walls_;
+    std::vector<Vec3> normal_;
+};
+
+struct WallEdges {
+    double per_thickness = 0;  ///< edges across the body, > 0
+    double shortest = 0;  ///< that walls may ask for where the body is thick, > 0; elsewhere a fifth of the thickness
+    double longest = 0;   ///< > 0
+};
+
+/// The sum over the surface of area / edge^2, with edges as walls ask for them. From samples, more of larger facets;
+/// O(#F log #F).
+double sum_of_squares_on_walls(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& edges);
+
+}  // namespace kerf
