@@ -18,6 +18,7 @@
 #include "prepare/slivers.h"
 #include "prepare/thin_layers.h"
 #include "remesh/remesh.h"
+#include "remesh/thickness.h"
 #include "size/region_sizes.h"
 #include "surface/mass_properties.h"
 
@@ -31,9 +32,10 @@ constexpr double smallest_share = 1e-9;  // coordinates have few more digits
 constexpr double longest_shares[] = {0.05, 0.03, 0.015};
 // The deviation where none is given: of the wanted length, or, if none is wanted, of the diagonal.
 constexpr double share_of_length = 0.05, shares_of_diagonal[] = {2e-3, 5e-4, 1.5e-4};
-constexpr double share_of_thickness = 0.01;  // that it is at most where none is given
-constexpr double volume_tolerance = 1e-4;    // of a region, as a share, likewise
-constexpr double bytes_per_facet = 280;      // of the process while it remeshes
+// That it is at most where none is given: of the thickness of most of the body, and at each place.
+constexpr double share_of_median_thickness = 0.05, share_of_thickness = 0.1;
+constexpr double volume_tolerance = 1e-4;  // of a region, as a share, likewise
+constexpr double bytes_per_facet = 280;    // of the process while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 std::vector<double> smallest_sines(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
@@ -145,6 +147,13 @@ void want_lengths_of_regions(const RunOptions& options, const SizeField& all, co
     task.options.longest = longest;
 }
 
+// Less than `usual` where most of the body is thin.
+double slender_deviation(const LabelledFacets& facets, double usual) {
+    const TriangleTree tree(facets.surface.vertices, facets.surface.facets);
+    const double limit = usual / share_of_median_thickness;
+    return std::min(usual, share_of_median_thickness * median_thickness(facets.surface, tree, facets.walls, limit));
+}
+
 // Who asks for a deviation says how much the shape may change; a wrap is another shape than the file's. Where curved
 // cells follow, vertices are put on the faces of the model again, and the edges between them bulge.
 bool may_change_volume(const Input& input, const RunOptions& options) {
@@ -162,11 +171,18 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     for (const LabelledFacets::Label& label : task.facets.labels) result.sides.push_back(label.sides);
     if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p, std::int32_t) { return wanted.at(p); };
     want_lengths_of_regions(options, wanted, input, task);
-    result.deviation = options.deviation.number() > 0
-                           ? deviation_for(options.deviation, input.diagonal)
-                           : std::max(usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness),
-                                      input.wrapped ? share_of_gap * input.wrapped->gap : 0);
-    if (options.deviation.number() == 0 && !input.wrapped) result.share_of_thickness = share_of_thickness;
+    if (options.deviation.number() > 0) {
+        result.deviation = deviation_for(options.deviation, input.diagonal);
+    } else {
+        result.deviation = usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);
+        if (input.wrapped) {
+            result.deviation = std::max(result.deviation, share_of_gap * input.wrapped->gap);
+        } else {
+            result.deviation =
+                std::max(smallest_share * input.diagonal, slender_deviation(task.facets, result.deviation));
+            result.share_of_thickness = share_of_thickness;
+        }
+    }
     if (!may_change_volume(input, options)) result.volume_tolerance = volume_tolerance;
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
     if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted && !bad.are_too_wide())

@@ -16,9 +16,8 @@ namespace kerf {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double well_shaped_sine = 0.5;     // of 30 degrees
-constexpr double walls_over_tolerance = 25;  // of what walls may ask for, a fifth of the thickness, and its hundredth
-constexpr double straight_share = 0.2;       // of the tolerance: how far from a straight line its vertices may be
+constexpr double well_shaped_sine = 0.5;  // of 30 degrees
+constexpr double straight_share = 0.2;    // of the tolerance: how far from a straight line its vertices may be
 
 // Of the third vertex of the facet of a half-edge.
 double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
@@ -99,7 +98,7 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
     for (const auto e : mesh.edges())
         if (const std::int32_t fold = mesh.data(e).fold; fold >= 0)
             for (const auto v : {e.v0(), e.v1()})
-                sizes[v.idx()].shorten(std::max({chord_[fold], straight_length(e), options.shortest * share_at(v)}),
+                sizes[v.idx()].shorten(std::max({chord_[fold], straight_length(e), options.shortest}),
                                        rule_of(chord_[fold], 0));
     for (const auto v : mesh.vertices()) {
         options.poll.at(static_cast<std::size_t>(v.idx()));
@@ -185,23 +184,12 @@ WantedLength FoldSizes::at(EditedSurface::Vertex v, double own_chord, const Want
                 size.shorten(std::max({own_chord, chord_[fold], std::sqrt(squared)}), rule_of(own_chord, chord_[fold]));
             return false;
         });
-    const double share = share_at(v);
-    size.length = std::max(size.length, share * options_.shortest);
+    size.length = std::max(size.length, options_.shortest);
     if (options_.edges_per_thickness > 0)
-        size.shorten(
-            std::max(across_wall(v, size.length), std::min(1.0, walls_over_tolerance * share) * options_.thinnest),
-            LengthRule::walls);
+        size.shorten(std::max(across_wall(v, size.length), options_.thinnest), LengthRule::walls);
     if (grown.length <= size.length) size = grown;
     size.shorten(asked(v), LengthRule::asked);
     return size;
-}
-
-double FoldSizes::share_at(EditedSurface::Vertex v) const {
-    const EditMesh& mesh = surface_.mesh();
-    double share = 1;
-    for (const auto f : mesh.vf_range(v))
-        share = std::min(share, surface_.input().share_by_thickness(mesh.data(f).near));
-    return share;
 }
 
 // The way inwards to a sheet that faces the other way. From a wall it goes both ways, and to sheets that face any way:

@@ -11,13 +11,13 @@
 
 namespace kerf {
 
-/// What walls may ask for where the body is thick, of that it may deviate by.
+/// What walls may ask for, by what the surface may deviate.
 constexpr double shortest_on_walls(double deviation) { return 0.75 * deviation; }
 
 struct FoldSizeOptions {
     double longest = 0;                                       ///< anywhere, > 0
-    double shortest = 0;                                      ///< that folds may ask for where the body is thick
-    double thinnest = 0;                                      ///< that walls may ask for there
+    double shortest = 0;                                      ///< that folds may ask for
+    double thinnest = 0;                                      ///< that walls may ask for
     double growth = 0.4;                                      ///< of the size with distance
     double edges_per_thickness = 0;                           ///< across a wall; 0: walls ask for nothing
     std::function<double(const Vec3&, std::int32_t)> wanted;  ///< by the user at a point of a patch, if given
@@ -45,8 +45,6 @@ class FoldSizes {
     WantedLength at(EditedSurface::Vertex v, double own_chord, const WantedLength& grown) const;
     double straight_length(EditedSurface::Edge e) const;
     double across_wall(EditedSurface::Vertex v, double limit) const;
-    /// Of the shortest lengths, where the thickness around a vertex makes tolerances smaller.
-    double share_at(EditedSurface::Vertex v) const;
 
     const EditedSurface& surface_;
     FoldSizeOptions options_;

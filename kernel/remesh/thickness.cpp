@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -13,7 +14,6 @@ namespace kerf {
 namespace {
 
 constexpr double opposite_cosine = -0.1;       // of the normals of two sheets with a body or a gap between them
-constexpr double shortest_of_thickness = 0.2;  // that walls may ask for
 constexpr int most_pieces_of_side = 64;        // of a side of a facet, for samples
 constexpr double samples_of_surface = 20'000;  // besides those that each facet has
 
@@ -47,25 +47,41 @@ double Thickness::at(const Vec3& p, std::int32_t f, double limit) const {
     return is_wall(f) ? std::min(behind, along(normal_[f])) : behind;
 }
 
-double sum_of_squares_on_walls(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& edges) {
+std::vector<ThicknessSample> sample_thickness(const SurfaceArrays& surface, const Thickness& thickness, double limit) {
     double area = 0;
     for (const Triangle& t : surface.facets) area += triangle_area(surface.vertices, t);
-    double sum = 0;
+    std::vector<ThicknessSample> samples;
     for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f) {
         const Triangle& t = surface.facets[f];
         const double of_facet = triangle_area(surface.vertices, t);
         const double share = area > 0 ? of_facet / area : 0;
         const int n = std::clamp(static_cast<int>(std::sqrt(samples_of_surface * share)), 1, most_pieces_of_side);
-        std::vector<double> across;
         for_each_piece(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]], n, [&](const Vec3& p) {
-            across.push_back(thickness.at(p, f, edges.longest * edges.per_thickness));
+            samples.push_back({thickness.at(p, f, limit), of_facet / (n * n)});
         });
-        const double thickest = *std::max_element(across.begin(), across.end());
-        const double shortest = std::min(edges.shortest, shortest_of_thickness * thickest);
-        for (const double thin : across) {
-            const double edge = std::clamp(thin / edges.per_thickness, shortest, std::max(shortest, edges.longest));
-            sum += of_facet / (n * n) / (edge * edge);
-        }
+    }
+    return samples;
+}
+
+double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls,
+                        double limit) {
+    std::vector<ThicknessSample> samples = sample_thickness(surface, Thickness(surface, tree, walls), limit);
+    std::sort(samples.begin(), samples.end(), [](const ThicknessSample& a, const ThicknessSample& b) {
+        return std::pair(a.thickness, a.area) < std::pair(b.thickness, b.area);
+    });
+    double area = 0, below = 0;
+    for (const ThicknessSample& s : samples) area += s.area;
+    for (const ThicknessSample& s : samples)
+        if (below += s.area; 2 * below >= area) return s.thickness;
+    return std::numeric_limits<double>::infinity();
+}
+
+double sum_of_squares_on_walls(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& edges) {
+    double sum = 0;
+    for (const ThicknessSample& s : sample_thickness(surface, thickness, edges.longest * edges.per_thickness)) {
+        const double edge =
+            std::clamp(s.thickness / edges.per_thickness, std::min(edges.shortest, edges.longest), edges.longest);
+        sum += s.area / (edge * edge);
     }
     return sum;
 }

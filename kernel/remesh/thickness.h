@@ -34,13 +34,23 @@ class Thickness {
 };
 
 struct WallEdges {
-    double per_thickness = 0;  ///< edges across the body, > 0
-    double shortest = 0;  ///< that walls may ask for where the body is thick, > 0; elsewhere a fifth of the thickness
-    double longest = 0;   ///< > 0
+    double per_thickness = 0;          ///< edges across the body, > 0
+    double shortest = 0, longest = 0;  ///< > 0
 };
 
-/// The sum over the surface of area / edge^2, with edges as walls ask for them. From samples, more of larger facets;
-/// O(#F log #F).
+/// Points of a surface, more of larger facets, with the thickness there and the area that each stands for.
+struct ThicknessSample {
+    double thickness, area;
+};
+
+/// Thickness of more than `limit` is infinite. O(#F log #F).
+std::vector<ThicknessSample> sample_thickness(const SurfaceArrays& surface, const Thickness& thickness, double limit);
+
+/// The thickness that half of the area has at most; infinity if that is more than `limit`. O(#F log #F).
+double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls,
+                        double limit);
+
+/// The sum over the surface of area / edge^2, with edges as walls ask for them. O(#F log #F).
 double sum_of_squares_on_walls(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& edges);
 
 }  // namespace kerf
