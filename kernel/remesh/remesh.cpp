@@ -27,7 +27,8 @@ constexpr double used_share = 0.8;
 constexpr int most_rounds = 5, most_rounds_that_keep = 3;
 constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
 constexpr double same_volume = 5e-5;        // of a region, before and after: nothing is to be restored
-constexpr int most_restorations = 3;
+constexpr int most_restorations = 6;
+constexpr double needle_sine = 0.3, needle_share = 0.7;  // of a facet after a move, and of what it was before
 constexpr int most_rounds_for_volume = 2;  // with smaller tolerances, because volumes were not restored
 constexpr double smaller_for_volume = 0.5;
 constexpr double area_per_squared_length = 0.342;  // of a facet, and of the length wanted there; measured
@@ -131,7 +132,21 @@ std::vector<char> corners_of_kept(const SurfaceArrays& surface, const std::vecto
     return is_corner;
 }
 
-// Vertices stay where a move would leave the bound or make an intersection.
+// Fixes the corners of facets that a move has made needles. Returns whether some of them had moved.
+bool fix_needles(const SurfaceArrays& before, const SurfaceArrays& moved, std::vector<char>& is_fixed) {
+    bool any = false;
+    for (const Triangle& t : moved.facets) {
+        const auto sine = [&t](const std::vector<Vec3>& p) { return smallest_sine(p[t[0]], p[t[1]], p[t[2]]); };
+        if (sine(moved.vertices) >= std::min(needle_sine, needle_share * sine(before.vertices))) continue;
+        for (const std::int32_t v : t) {
+            any = any || moved.vertices[v] != before.vertices[v];
+            is_fixed[v] = 1;
+        }
+    }
+    return any;
+}
+
+// Vertices stay where a move would leave the bound, make an intersection or a needle.
 void restore_volumes_within_bound(const SurfaceArrays& surface, const TriangleTree& tree, const RemeshOptions& options,
                                   const std::vector<char>& kept, Remeshed& result) {
     result.report.volume_difference = volume_difference(surface, result.surface, options.sides);
@@ -140,6 +155,7 @@ void restore_volumes_within_bound(const SurfaceArrays& surface, const TriangleTr
     for (int round = 0; round < most_restorations; ++round) {
         SurfaceArrays moved = result.surface;
         if (!restore_volumes(surface, tree, options.sides, options.deviation, is_fixed, moved)) return;
+        if (fix_needles(result.surface, moved, is_fixed) && round + 1 < most_restorations) continue;
         RemeshReport report = result.report;
         const std::vector<char> refused = inspect(surface, tree, options, moved, report);
         if (std::find(refused.begin(), refused.end(), char{1}) == refused.end()) {
