@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/elements.h"
+#include "repair/covered_facets.h"
 #include "repair/facet_copies.h"
 #include "repair/flat_facets.h"
 #include "repair/repair_step.h"
@@ -15,7 +16,8 @@ namespace {
 
 class Cleaning {
  public:
-    Cleaning(Soup& soup, bool with_walls, StepReport& report) : soup_(soup), with_walls_(with_walls), report_(report) {}
+    Cleaning(Soup& soup, const StepRequest& request, StepReport& report)
+        : soup_(soup), request_(request), report_(report) {}
 
     void run() {
         accept_unfit();
@@ -28,12 +30,37 @@ class Cleaning {
  private:
     void drop_copies() {
         if (is_of_touching_bodies(soup_)) return;  // whose walls may be there twice
-        const SurplusCopies surplus = find_surplus_copies(soup_.facets, with_walls_);
+        SurplusCopies surplus = find_surplus_copies(soup_.facets, unites());
+        if (surplus.copies.empty() && surplus.folds.empty()) return;
+        const std::vector<std::int32_t> inside = take_out_closed(surplus);
         std::vector<char> drop(soup_.facets.size(), 0);
         mark(surplus.copies, {"copy of a facet removed", "copies of facets removed"}, drop);
         mark(surplus.folds, {"facet folded upon another removed", "facets folded upon each other removed"}, drop);
+        mark(inside,
+             {"facet inside of bodies that share others removed", "facets inside of bodies that share others removed"},
+             drop);
         drop_facets(soup_, drop);
     }
+    // Closed bodies that have facets in common are united as they wind, which copies tell: where these cross, too, or
+    // are to be regions, that is left to the step that divides them, if it is asked for. What lies inside.
+    std::vector<std::int32_t> take_out_closed(SurplusCopies& surplus) const {
+        if (!unites() && !request_.is_divided_later) return {};
+        CoveredFacets covered = find_covered_facets(soup_.vertices, soup_.facets, request_.poll);
+        const auto is_of_others = [&](std::int32_t f) {
+            return (unites() && covered.is_told[f] != 0) || (request_.is_divided_later && covered.is_closed[f] != 0);
+        };
+        std::erase_if(surplus.copies, is_of_others);
+        std::erase_if(surplus.folds, is_of_others);
+        if (!unites()) return {};
+        insert_sorted(covered.copies, surplus.copies);
+        insert_sorted(covered.folds, surplus.folds);
+        return std::move(covered.inside);
+    }
+    static void insert_sorted(const std::vector<std::int32_t>& more, std::vector<std::int32_t>& all) {
+        const auto middle = all.insert(all.end(), more.begin(), more.end());
+        std::inplace_merge(all.begin(), middle, all.end());
+    }
+    bool unites() const { return request_.bodies == BodyRepair::unite; }
 
     // Says that all of them are removed; a facet without a finite corner has no place.
     void mark(const std::vector<std::int32_t>& facets, RepairAction action, std::vector<char>& drop) {
@@ -92,14 +119,12 @@ class Cleaning {
     }
 
     Soup& soup_;
-    bool with_walls_;  // what lies between two bodies goes, too
+    const StepRequest& request_;
     StepReport& report_;
 };
 
 }  // namespace
 
-void clean_step(Soup& soup, const StepRequest& request, StepReport& report) {
-    Cleaning(soup, request.bodies == BodyRepair::unite, report).run();
-}
+void clean_step(Soup& soup, const StepRequest& request, StepReport& report) { Cleaning(soup, request, report).run(); }
 
 }  // namespace kerf

@@ -26,9 +26,9 @@ struct CopySheet {
 
     // Whether nothing of it stays.
     bool is_fold(bool is_all, bool with_walls) const {
-        if (!with_walls && free == 0) return false;
-        if (is_folded && groups == 1 && odd + even == 0) return !is_all;  // a flat pocket
-        return odd > even + (is_folded ? 0 : free);
+        if (!is_folded || (!with_walls && free == 0)) return false;
+        if (groups == 1 && odd + even == 0) return !is_all;  // a flat pocket
+        return odd > even;
     }
 };
 

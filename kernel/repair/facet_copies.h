@@ -14,11 +14,11 @@ struct SurplusCopies {
 };
 
 /// Of facets with three equal vertices one stays, the first. None stays of a sheet of copies that are turned against
-/// each other, or stands on other facets, where most edges of its rim have an even number of facets without it: a fold
-/// or a fin bounds nothing, and, `with_walls`, neither does what lies between two bodies, without a free edge. Sheets
-/// of copies go together over edges of two. Of a body that is there twice, and of a sheet with nothing around it, one
-/// stays. Requires numbers in range and no facet with a repeated vertex. O(#F log #F); exact, as only numbers of
-/// vertices are compared.
+/// each other where most edges of its rim have an even number of facets without it: a fold bounds nothing, and, `with_
+/// walls`, neither does what lies between two bodies, without a free edge. Sheets of copies that are all turned alike
+/// bound the same twice. Sheets of copies go together over edges of two. Of a body that is there twice, and of a sheet
+/// with nothing around it, one stays. Requires numbers in range and no facet with a repeated vertex. O(#F log #F);
+/// exact, as only numbers of vertices are compared.
 SurplusCopies find_surplus_copies(const std::vector<Triangle>& facets, bool with_walls);
 
 }  // namespace kerf

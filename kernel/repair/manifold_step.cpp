@@ -1,6 +1,7 @@
 // First what bounds nothing goes. Then each fan of facets at a vertex gets a vertex of its own, and moves a little into
 // itself, so that what touched is apart: equal coordinates would be welded again. Where both ends of an edge have one
-// fan, the pairs of its facets get middles of their own.
+// fan, the pairs of its facets get middles of their own. What is divided where it crosses is opened only behind that,
+// but for the borders of openings, which are to be filled before: bodies that touch would come apart by a crack.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -23,7 +24,7 @@ class ManifoldOpening {
         if (is_of_touching_bodies(soup_)) return;
         drop_loose();
         request_.poll();
-        FanSeparation separation = separate_fans(soup_, request_.bound);
+        FanSeparation separation = separate_fans(soup_, request_.bound, request_.is_divided_later);
         report_.largest_move = std::max(report_.largest_move, separation.largest_move);
         for (RepairAction& action : separation.actions) report_.actions.push_back(std::move(action));
     }

@@ -26,9 +26,10 @@ class Ladder {
             if (row.kind == RepairKind::renew) continue;
             if (row.kind == RepairKind::intersections) apply(RepairKind::renew);
             apply(row.kind);
+            if (row.kind == RepairKind::intersections) is_divided_later_ = false;
             if (row.kind == RepairKind::holes && has_changed(row.kind)) apply(RepairKind::manifold);
         }
-        if (has_changed(RepairKind::intersections)) tidy();
+        if (plan_.find(RepairKind::intersections) != nullptr) tidy(has_changed(RepairKind::intersections));
         renew();
         return std::move(report_);
     }
@@ -45,7 +46,8 @@ class Ladder {
                             .poll = poll_,
                             .plan = &plan_,
                             .round = round,
-                            .is_last_round = round == most_renewals - 1};
+                            .is_last_round = round == most_renewals - 1,
+                            .is_divided_later = is_divided_later_};
         request.amount = step->amount.value_or(usual_amount(row)).of(report_.diagonal);
         StepReport& done = report_.steps.emplace_back(StepReport{kind, {}});
         row.apply(soup_, request, done);
@@ -61,10 +63,11 @@ class Ladder {
     bool has_changed(RepairKind kind) const {
         return !report_.steps.empty() && report_.steps.back().kind == kind && report_.steps.back().changed();
     }
-    // Behind intersections: what was divided may touch itself.
-    void tidy() {
+    // Behind intersections: what was divided may touch itself, and what touched before waits for it.
+    void tidy(bool was_divided) {
         if (!soup_.sides.empty()) return;
-        for (const RepairKind again : {RepairKind::clean, RepairKind::manifold}) apply(again);
+        if (was_divided) apply(RepairKind::clean);
+        apply(RepairKind::manifold);
     }
 
     // Goes up the rest of the ladder again: first with all that is left, then without what is still defective, each
@@ -106,7 +109,7 @@ class Ladder {
         }
         if (!is_any) return false;
         apply(RepairKind::intersections);
-        if (has_changed(RepairKind::intersections)) tidy();
+        if (has_changed(RepairKind::intersections)) tidy(true);
         return true;
     }
     static double surface_area(const Soup& soup) {
@@ -123,6 +126,7 @@ class Ladder {
     std::function<void()> poll_ = [] {};
     RepairReport report_;
     bool is_renewing_ = false;
+    bool is_divided_later_ = plan_.find(RepairKind::intersections) != nullptr;
 };
 
 }  // namespace

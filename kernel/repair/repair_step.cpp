@@ -12,7 +12,10 @@ const RepairStepRow step_rows[] = {
     {RepairKind::weld, "weld", RepairLevel::near, AmountKind::length, Length::percent(1e-4),
      "merge vertices nearer than TOL", weld_step},
     {RepairKind::clean, "clean", RepairLevel::exact, AmountKind::none, 0,
-     "remove copies of facets, facets folded upon each other and facets without area", clean_step},
+     "remove copies of facets, facets folded upon each other or without area, and what lies inside of closed bodies "
+     "that "
+     "share facets",
+     clean_step},
     {RepairKind::stitch, "stitch", RepairLevel::near, AmountKind::length, Length::percent(0.1),
      "join borders nearer than TOL", stitch_step},
     {RepairKind::orient, "orient", RepairLevel::exact, AmountKind::none, 0, "turn facets to agree", orient_step},

@@ -21,6 +21,7 @@ struct StepRequest {
     const RepairPlan* plan = {};         ///< all that is asked for; none: this step alone
     int round = 0;                       ///< of renewing; 0: before facets are divided where they cross
     bool is_last_round = false;
+    bool is_divided_later = false;  ///< facets that cross or touch, by a step behind this one
 
     bool has(RepairKind kind) const { return plan != nullptr && plan->find(kind) != nullptr; }
 };

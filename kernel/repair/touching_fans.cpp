@@ -50,20 +50,23 @@ struct EdgeMiddle {
 
 class FanSeparator {
  public:
-    FanSeparator(Soup& soup, double bound)
-        : soup_(soup), bound_(bound), pairs_(pair_facets(soup.vertices, soup.facets)) {}
+    FanSeparator(Soup& soup, double bound, bool at_openings)
+        : soup_(soup), bound_(bound), at_openings_(at_openings), pairs_(pair_facets(soup.vertices, soup.facets)) {}
 
     FanSeparation run() {
         find_fans_to_copy();
         if (!fans_.empty()) copy_fans();
-        say_crowded();
-        std::vector<EdgeMiddle> middles = find_middles();
-        if (!middles.empty()) divide(std::move(middles));
+        say_why();
+        if (!at_openings_) {
+            say_crowded();
+            std::vector<EdgeMiddle> middles = find_middles();
+            if (!middles.empty()) divide(std::move(middles));
+        }
         if (divided_.count + opened_.count > 0)
             drop_unused_vertices(soup_);
         else
             forget_copies();
-        for (RepairAction* action : {&divided_, &opened_, &too_near_, &would_cross_, &crowded_})
+        for (RepairAction* action : {&divided_, &opened_, &too_near_, &lies_on_, &would_cross_, &crowded_})
             result_.actions.push_back(std::move(*action));
         return std::move(result_);
     }
@@ -82,12 +85,14 @@ class FanSeparator {
     void choose(std::vector<TouchingFan>& fans);
     void copy_fans();
     void set_copies();
+    void leave_what_lies_on_others(const Pairs& before);
     bool undo_what_crosses(const Pairs& before, std::vector<char>& chosen);
     std::vector<EdgeMiddle> find_middles() const;
     void add_middles(const std::vector<std::array<std::int32_t, 2>>& pairs, std::vector<EdgeMiddle>& middles) const;
     double wedge(std::int32_t c, std::int32_t d) const;
     void divide(std::vector<EdgeMiddle> middles);
     void say_crowded();
+    void say_why();
     void forget_copies() {
         soup_.vertices.resize(vertex_count_);
         soup_.vertex_number.resize(had_numbers_ ? vertex_count_ : 0);
@@ -100,6 +105,7 @@ class FanSeparator {
 
     Soup& soup_;
     double bound_;
+    bool at_openings_;
     std::size_t vertex_count_ = soup_.vertices.size();
     bool had_numbers_ = !soup_.vertex_number.empty();
     EdgePairs pairs_;
@@ -108,6 +114,7 @@ class FanSeparator {
     RepairAction divided_{"pinched vertex divided", "pinched vertices divided", "moved"},
         opened_{"touching edge divided", "touching edges divided", "moved"},
         too_near_{"place where the surface touches itself", "places where the surface touches itself"},
+        lies_on_{"place where the surface touches itself", "places where the surface touches itself"},
         would_cross_{"place where the surface touches itself", "places where the surface touches itself"},
         crowded_{"edge of more than two facets", "edges of more than two facets", "facets"};
 };
@@ -115,12 +122,15 @@ class FanSeparator {
 void FanSeparator::find_fans_to_copy() {
     const std::vector<std::int32_t> root = find_fans(soup_.facets, pairs_);
     std::vector<std::int32_t> first(soup_.vertices.size(), -1);
-    std::vector<char> has_many(soup_.vertices.size(), 0);
+    std::vector<char> has_many(soup_.vertices.size(), 0), is_open(soup_.vertices.size(), 0);
     for (std::size_t c = 0; c < root.size(); ++c) {
-        const std::int32_t v = vertex(static_cast<std::int32_t>(c));
+        const auto corner = static_cast<std::int32_t>(c);
+        const std::int32_t v = vertex(corner);
         if (first[v] < 0) first[v] = root[c];
         has_many[v] |= first[v] != root[c];
+        if (pairs_.is_open[c]) is_open[v] = is_open[vertex(next_corner(corner))] = 1;
     }
+    for (std::size_t v = 0; at_openings_ && v < has_many.size(); ++v) has_many[v] &= is_open[v];
     std::vector<std::array<std::int32_t, 3>> corners;
     for (std::size_t c = 0; c < root.size(); ++c)
         if (const std::int32_t v = vertex(static_cast<std::int32_t>(c)); has_many[v])
@@ -183,6 +193,7 @@ void FanSeparator::copy_fans() {
     for (const TouchingFan& fan : fans_)
         for (const std::int32_t c : fan.corners) chosen[c / 3] = 1;
     const Pairs before = find_intersections_of(chosen, soup_.vertices, soup_.facets, most_fan_crossings);
+    leave_what_lies_on_others(before);
     number_vertices(soup_);
     for (TouchingFan& fan : fans_)
         fan.copy = add_vertex(Vec3(soup_.vertices[fan.vertex]), soup_.vertex_number[fan.vertex]);
@@ -194,6 +205,20 @@ void FanSeparator::copy_fans() {
         result_.largest_move = std::max(result_.largest_move, move);
         divided_.add({soup_.vertices[fan.vertex], soup_.file_facets({fan.corners[0] / 3}), move});
     }
+}
+
+// Fans of which a facet lies on another at the vertex stay: what touches with other facets would come apart by a crack.
+void FanSeparator::leave_what_lies_on_others(const Pairs& before) {
+    std::vector<char> is_on_another(soup_.vertices.size(), 0);
+    for (const auto& [f, g] : before)
+        for (const std::int32_t v : soup_.facets[f])
+            if (std::count(soup_.facets[g].begin(), soup_.facets[g].end(), v) > 0) is_on_another[v] = 1;
+    std::vector<char> stays;
+    for (const TouchingFan& fan : fans_) {
+        stays.push_back(is_on_another[fan.vertex]);
+        if (stays.back()) lies_on_.add(place(fan.corners[0], 0));
+    }
+    drop_items(fans_, stays);
 }
 
 // Fans with a facet that crosses one which it did not cross before share the old vertex again. Whether there are any.
@@ -313,12 +338,18 @@ void FanSeparator::say_crowded() {
         crowded_.add({(soup_.vertices[edge.low] + soup_.vertices[edge.high]) / 2,
                       soup_.file_facets({edge.corners[0] / 3}), static_cast<double>(edge.corners.size())});
     }
+}
+
+void FanSeparator::say_why() {
     too_near_.refused_because = "to move it apart takes more than the bound, or an edge there is too short";
+    lies_on_.refused_because = "facets lie on others there, or cross them, which --repair intersections resolves";
     would_cross_.refused_because = "facets would cross if it moved apart";
 }
 
 }  // namespace
 
-FanSeparation separate_fans(Soup& soup, double bound) { return FanSeparator(soup, bound).run(); }
+FanSeparation separate_fans(Soup& soup, double bound, bool at_openings) {
+    return FanSeparator(soup, bound, at_openings).run();
+}
 
 }  // namespace kerf

@@ -16,8 +16,9 @@ struct FanSeparation {
 /// Gives each closed fan of facets at a vertex but the widest a vertex of its own, and at an edge of more than two
 /// facets both of whose ends have one fan each pair but one a middle of its own (repair/edge_pairs.h). They move into
 /// their fan, by 1e-4 of its shortest edge, or what single precision can tell if that is more, at most by `bound`.
-/// What would cross other facets then stays as it is, and is said. Open fans stay together: what fills the openings
-/// joins them. Requires finite coordinates, facets with three different vertices, and orientation. O(#F log #F).
-FanSeparation separate_fans(Soup& soup, double bound);
+/// What would cross other facets then, or lies on others at the vertex, stays as it is, and is said. Open fans stay
+/// together: what fills the openings joins them. `at_openings`: only at vertices of edges of one facet. Requires finite
+/// coordinates, facets with three different vertices, and orientation. O(#F log #F).
+FanSeparation separate_fans(Soup& soup, double bound, bool at_openings = false);
 
 }  // namespace kerf
