@@ -273,7 +273,9 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
         repairs.filled_holes = filling.holes;
         repairs.added_facets = filling.facets;
     }
-    checked.ladder = repair(soup, repair_plan_of(options), poll);
+    RepairPlan plan = repair_plan_of(options);
+    plan.are_walls |= !files.walls.empty() || !soup.seeds.empty();
+    checked.ladder = repair(soup, plan, poll);
     repairs.unused_vertices = drop_unused_vertices(soup);
     if (options.wraps()) {
         checked.wrapped = wrap(soup, options.wrapping, poll);

@@ -27,9 +27,33 @@ bool is_too_much_to_try(const CheckedSoup& checked) {
     return checked.soup.facets.size() > most_tried || crossings >= most_crossings_tried;
 }
 
+// The least level that makes it fit. Kinds do not tell: facets along a crack cross each other, which is gone once it is
+// closed. `done`: what was asked for already.
+std::optional<Remedy> try_levels(const InputFiles& files, const InputOptions& options, const RepairPlan& done,
+                                 StageListener* listener) {
+    for (RepairLevel level = RepairLevel::exact; level <= RepairLevel::full;
+         level = static_cast<RepairLevel>(static_cast<int>(level) + 1)) {
+        if (has_all_steps(done, level)) continue;
+        InputOptions with = options;
+        with.repair = name(level);
+        try {
+            const CheckedSoup repaired = check_files(files, with, 0, poll_of(listener));
+            if (!repaired.diagnosis.clean()) continue;
+            Remedy remedy{.level = level, .was_tried = true, .largest_move = repaired.ladder.largest_move()};
+            for (const StepReport& step : repaired.ladder.steps)
+                for (const RepairAction& action : step.actions)
+                    if (action.is_loss) remedy.losses.push_back(to_text(action));
+            return remedy;
+        } catch (const Error& error) {  // what was repaired fits no region that is asked for
+            if (error.code() != ErrorCode::input) throw;
+        }
+    }
+    return std::nullopt;
+}
+
 Remedy wrap_remedy(const Soup& soup) {
     try {
-        return {RepairLevel::none, false, 0, estimated_wrap_distance(soup)};
+        return {.wrap_distance = estimated_wrap_distance(soup)};
     } catch (const Error&) {  // there is nothing to wrap
         return {};
     }
@@ -45,22 +69,18 @@ std::optional<Remedy> find_remedy(const std::string& path, const InputOptions& o
     const RepairPlan done = repair_plan_of(options);
     if (is_too_much_to_try(checked)) {
         const bool is_more = needed != RepairLevel::none && !has_all_steps(done, needed);
-        return is_more ? Remedy{needed, false, 0, 0} : wrap_remedy(checked.soup);
+        return is_more ? Remedy{.level = needed} : wrap_remedy(checked.soup);
     }
     const InputFiles files = read_input_files(path, options);
-    // Kinds do not tell: facets along a crack cross each other, which is gone once it is closed.
-    for (RepairLevel level = RepairLevel::exact; level <= RepairLevel::full;
-         level = static_cast<RepairLevel>(static_cast<int>(level) + 1)) {
-        if (has_all_steps(done, level)) continue;
+    if (options.voids == Voids::as_given && checked.diagnosis.count(DefectKind::ambiguous_shell) > 0) {
         InputOptions with = options;
-        with.repair = name(level);
-        try {
-            const CheckedSoup repaired = check_files(files, with, 0, poll_of(listener));
-            if (repaired.diagnosis.clean()) return Remedy{level, true, repaired.ladder.largest_move(), 0};
-        } catch (const Error& error) {  // what was repaired fits no region that is asked for
-            if (error.code() != ErrorCode::input) throw;
+        with.voids = Voids::parity;
+        if (std::optional<Remedy> found = try_levels(files, with, RepairPlan{}, listener)) {
+            found->takes_parity = true;
+            return found;
         }
     }
+    if (std::optional<Remedy> found = try_levels(files, options, done, listener)) return found;
     return wrap_remedy(checked.soup);
 }
 

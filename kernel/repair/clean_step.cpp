@@ -29,7 +29,7 @@ class Cleaning {
 
  private:
     void drop_copies() {
-        if (is_of_touching_bodies(soup_)) return;  // whose walls may be there twice
+        if (has_walls(soup_, request_)) return;  // which may be there twice
         SurplusCopies surplus = find_surplus_copies(soup_.facets, unites());
         if (surplus.copies.empty() && surplus.folds.empty()) return;
         const std::vector<std::int32_t> inside = take_out_closed(surplus);
@@ -60,7 +60,7 @@ class Cleaning {
         const auto middle = all.insert(all.end(), more.begin(), more.end());
         std::inplace_merge(all.begin(), middle, all.end());
     }
-    bool unites() const { return request_.bodies == BodyRepair::unite; }
+    bool unites() const { return request_.bodies != BodyRepair::regions; }
 
     // Says that all of them are removed; a facet without a finite corner has no place.
     void mark(const std::vector<std::int32_t>& facets, RepairAction action, std::vector<char>& drop) {

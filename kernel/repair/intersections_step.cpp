@@ -11,6 +11,7 @@
 #include "repair/divided_soup.h"
 #include "repair/hull.h"
 #include "repair/repair_step.h"
+#include "repair/rims.h"
 #include "repair/shell_turning.h"
 #include "surface/edge_corners.h"
 
@@ -35,6 +36,7 @@ class CrossingResolver {
             report_.actions.push_back(std::move(refused));
             return;
         }
+        if (keeps_all()) return divide_walls();
         turned_ = find_turned_facets(soup_.vertices, soup_.facets, request_.poll);
         Soup turned_soup = soup_;
         for (std::size_t f = 0; f < turned_.size(); ++f)
@@ -42,6 +44,7 @@ class CrossingResolver {
         pieces_ = arrange(turned_soup.vertices, turned_soup.facets, request_.poll);
         if (request_.bodies == BodyRepair::regions && become_regions(std::move(turned_soup))) return;
         fate_ = find_hull(pieces_.vertices, pieces_.facets, request_.poll);
+        if (request_.voids_are_parity) keep_shells();
         const bool is_clean =
             pieces_.rounds == 0 && pieces_.dropped_facets == 0 && std::all_of(fate_.begin(), fate_.end(), is_kept);
         if (is_clean || !is_mostly_bound()) return;
@@ -62,6 +65,23 @@ class CrossingResolver {
         std::sort(pieces.begin(), pieces.end());
         pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
         return soup_.file_facets(pieces);
+    }
+
+    // Whether the facets part regions that are not made of bodies here.
+    bool keeps_all() const {
+        if (request_.bodies == BodyRepair::unite) return false;
+        if (request_.bodies == BodyRepair::regions && !closed_patches(soup_).names.empty()) return false;
+        return request_.are_walls || (has_ordinary_facets(soup_) && is_of_touching_bodies(soup_));
+    }
+    // All pieces stay, copies too: which regions they part is told by their cells.
+    void divide_walls() {
+        pieces_ = arrange(soup_.vertices, soup_.facets, request_.poll);
+        if (pieces_.rounds == 0) return;
+        tell_crossings();
+        tell_unresolved();
+        const std::vector<char> all(pieces_.facets.size(), 1), none(pieces_.facets.size(), 0);
+        take_divided_facets(soup_, std::move(pieces_), all, none);
+        drop_unused_vertices(soup_);
     }
 
     // False: there is one body, or what there is bounds no regions.
@@ -122,7 +142,11 @@ class CrossingResolver {
     }
 
     // What goes, as far as it hangs together.
-    void tell_left_out() {
+    struct LeftOut {
+        std::vector<std::int32_t> facets;
+        bool is_apart;  // nothing at its edges stays
+    };
+    std::vector<LeftOut> find_left_out() const {
         UnionFind joined(fate_.size());
         std::vector<char> has_kept_neighbour(fate_.size(), 0);
         EdgeCorners(pieces_.facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> at) {
@@ -136,18 +160,32 @@ class CrossingResolver {
             }
         });
         const Components components = joined.take();
-        std::vector<std::vector<std::int32_t>> of(components.count);
-        for (std::size_t f = 0; f < fate_.size(); ++f)
-            if (!is_kept(fate_[f])) of[components.of[f]].push_back(static_cast<std::int32_t>(f));
+        std::vector<LeftOut> of(components.count, LeftOut{{}, true});
+        for (std::size_t f = 0; f < fate_.size(); ++f) {
+            if (is_kept(fate_[f])) continue;
+            LeftOut& own = of[components.of[f]];
+            own.facets.push_back(static_cast<std::int32_t>(f));
+            if (has_kept_neighbour[f]) own.is_apart = false;
+        }
+        std::erase_if(of, [](const LeftOut& own) { return own.facets.empty(); });
+        return of;
+    }
+
+    // Shells within others: parity tells what they are.
+    void keep_shells() {
+        for (const LeftOut& own : find_left_out())
+            if (own.is_apart && fate_[own.facets.front()] == HullFate::inside)
+                for (const std::int32_t f : own.facets) fate_[f] = HullFate::stays;
+    }
+
+    void tell_left_out() {
         RepairAction inner{"inner piece left out", "inner pieces left out", "area"};
         RepairAction shells{"shell inside of another left out", "shells inside of others left out", "area"};
         RepairAction loose{"piece that bounds nothing left out", "pieces that bound nothing left out", "area"};
         RepairAction copies{"piece that is there twice left out", "pieces that are there twice left out", "area"};
-        for (const std::vector<std::int32_t>& own : of) {
-            if (own.empty()) continue;
+        shells.is_loss = loose.is_loss = true;
+        for (const auto& [own, is_apart] : find_left_out()) {
             const HullFate fate = fate_[own.front()];
-            const bool is_apart =
-                std::none_of(own.begin(), own.end(), [&](std::int32_t f) { return has_kept_neighbour[f]; });
             RepairAction& action = fate == HullFate::copy      ? copies
                                    : fate == HullFate::outside ? loose
                                    : is_apart                  ? shells

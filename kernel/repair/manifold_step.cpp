@@ -21,7 +21,7 @@ class ManifoldOpening {
         : soup_(soup), request_(request), report_(report) {}
 
     void run() {
-        if (is_of_touching_bodies(soup_)) return;
+        if (has_walls(soup_, request_)) return;
         drop_loose();
         request_.poll();
         FanSeparation separation = separate_fans(soup_, request_.bound, request_.is_divided_later);
@@ -31,16 +31,17 @@ class ManifoldOpening {
 
  private:
     void drop_loose() {
-        const bool with_walls = request_.bodies == BodyRepair::unite;
+        const bool with_walls = request_.bodies != BodyRepair::regions;
         const LooseSheets loose = find_loose_sheets(soup_.vertices, soup_.facets, with_walls);
         if (loose.fins.empty() && loose.membranes.empty() && loose.walls.empty()) return;
         std::vector<char> drop(soup_.facets.size(), 0);
+        RepairAction membranes{"facet with the same material on both sides removed",
+                               "facets with the same material on both sides removed"},
+            walls{"facet of a wall between bodies removed", "facets of walls between bodies removed"};
+        membranes.is_loss = walls.is_loss = true;
         mark(loose.fins, {"facet of a fin removed", "facets of fins removed"}, drop);
-        mark(loose.membranes,
-             {"facet with the same material on both sides removed",
-              "facets with the same material on both sides removed"},
-             drop);
-        mark(loose.walls, {"facet of a wall between bodies removed", "facets of walls between bodies removed"}, drop);
+        mark(loose.membranes, std::move(membranes), drop);
+        mark(loose.walls, std::move(walls), drop);
         drop_facets(soup_, drop);
         drop_unused_vertices(soup_);
     }

@@ -21,21 +21,22 @@ constexpr double least_fullness = 0.03;  // of an open shell that has an inside;
 
 class Orienting {
  public:
-    Orienting(Soup& soup, StepReport& report) : soup_(soup), report_(report) {
+    Orienting(Soup& soup, const StepRequest& request, StepReport& report)
+        : soup_(soup), request_(request), report_(report) {
         for (std::size_t f = 0; f < soup.facets.size(); ++f)
             if (is_ordinary(soup.vertices, soup.facets[f])) number_.push_back(static_cast<std::int32_t>(f));
         for (const std::int32_t f : number_) facets_.push_back(soup.facets[f]);
     }
 
-    void run(const std::function<void()>& poll) {
-        if (facets_.empty() || (facets_.size() == soup_.facets.size() && is_of_touching_bodies(soup_))) return;
+    void run() {
+        if (facets_.empty() || (facets_.size() == soup_.facets.size() && has_walls(soup_, request_))) return;
         new_ = make_consistent(facets_);
         restore_one_sided();
-        poll();
+        request_.poll();
         rims_ = find_rims(facets_);
         is_hull_.assign(facets_.size(), 1);
         turn_by_cells();
-        poll();
+        request_.poll();
         turn_shells_outwards();
         say();
         for (std::size_t i = 0; i < number_.size(); ++i) soup_.facets[number_[i]] = new_.facets[i];
@@ -56,6 +57,7 @@ class Orienting {
     }
 
     Soup& soup_;
+    const StepRequest& request_;
     StepReport& report_;
     std::vector<std::int32_t> number_;  // of the facets that are looked at
     std::vector<Triangle> facets_;      // as they came
@@ -250,8 +252,6 @@ void Orienting::say() {
 
 }  // namespace
 
-void orient_step(Soup& soup, const StepRequest& request, StepReport& report) {
-    Orienting(soup, report).run(request.poll);
-}
+void orient_step(Soup& soup, const StepRequest& request, StepReport& report) { Orienting(soup, request, report).run(); }
 
 }  // namespace kerf

@@ -93,6 +93,7 @@ class SurfaceRenewal {
             loose.emplace_back(area, std::move(piece));
         }
         if (sum > largest_share_of_all_loose * area_of_all) return;
+        loose_.is_loss = true;
         for (const auto& [area, piece] : loose) {
             for (const std::int32_t f : piece) drop_[f] = 1;
             loose_.add({soup_.vertices[soup_.facets[piece.front()][0]], soup_.file_facets({piece.front()}), area});

@@ -7,6 +7,7 @@
 #include "geometry/triangle.h"
 #include "repair/remaining_defects.h"
 #include "repair/repair_step.h"
+#include "repair/rims.h"
 
 namespace kerf {
 
@@ -43,6 +44,8 @@ class Ladder {
         StepRequest request{.bound = report_.bound,
                             .diagonal = report_.diagonal,
                             .bodies = plan_.bodies,
+                            .are_walls = plan_.are_walls,
+                            .voids_are_parity = plan_.voids_are_parity,
                             .poll = poll_,
                             .plan = &plan_,
                             .round = round,
@@ -74,7 +77,7 @@ class Ladder {
     // time with more around it. What leaves no less defects than before, or less of the area, is undone.
     void renew() {
         const RepairStep* step = plan_.find(RepairKind::renew);
-        if (step == nullptr || !soup_.sides.empty()) return;
+        if (step == nullptr || !soup_.sides.empty() || has_regions()) return;
         is_renewing_ = true;
         const double most_edges = step->amount.value_or(repair_step_rows().back().usual).number();
         const double least_area = (1 - largest_loss) * surface_area(soup_);
@@ -99,6 +102,10 @@ class Ladder {
             }
             defects = left;
         }
+    }
+    // To whose walls find_remaining_defects() would object.
+    bool has_regions() const {
+        return has_ordinary_facets(soup_) && has_walls(soup_, {.bodies = plan_.bodies, .are_walls = plan_.are_walls});
     }
     // Whether anything was done.
     bool close_again() {

@@ -39,8 +39,9 @@ const char* name(RepairLevel level);
 
 /// What becomes of bodies that overlap, or that share walls.
 enum class BodyRepair {
-    unite,   ///< their hull
-    regions  ///< a region each, with common walls
+    as_found,  ///< what bounds regions by walls that they share stays so; of others their hull
+    unite,     ///< their hull, without walls
+    regions    ///< a region each, with common walls
 };
 
 struct RepairStep {
@@ -51,7 +52,9 @@ struct RepairStep {
 struct RepairPlan {
     std::vector<RepairStep> steps;        ///< ascending by kind, each once
     Length bound = Length::percent(0.1);  ///< farther from its place no vertex of the input is moved, > 0
-    BodyRepair bodies = BodyRepair::unite;
+    BodyRepair bodies = BodyRepair::as_found;
+    bool are_walls = false;         ///< facets part regions that are named elsewhere: none goes but for copies
+    bool voids_are_parity = false;  ///< shells within others that cross none stay, however they are turned
 
     bool empty() const { return steps.empty(); }
     const RepairStep* find(RepairKind kind) const;

@@ -26,6 +26,7 @@ struct RepairAction {
     std::vector<RepairPlace> places = {};  ///< of the first ones, at most most_places
     const char* refused_because = "";      ///< empty: it was done
     bool changes_surface = true;           ///< false for what is only said
+    bool is_loss = false;                  ///< what goes may be wanted: a body, a wall, a piece that bounds nothing
 
     /// Counts one more, whose place is kept while there is room.
     void add(RepairPlace place);

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "repair/rims.h"
+#include "surface/edge_corners.h"
+
 namespace kerf {
 
 namespace {
@@ -42,6 +45,11 @@ const RepairStepRow step_rows[] = {
 std::span<const RepairStepRow> repair_step_rows() { return step_rows; }
 
 const char* name(RepairKind kind) { return step_rows[static_cast<std::size_t>(kind)].name; }
+
+bool has_walls(const Soup& soup, const StepRequest& request) {
+    if (request.bodies == BodyRepair::unite || !has_edge_of_many(soup.facets)) return false;
+    return request.are_walls || is_of_touching_bodies(soup);
+}
 
 void refuse_odd_facets(StepReport& report) {
     RepairAction left{"surface", "surfaces"};

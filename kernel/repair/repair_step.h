@@ -16,7 +16,9 @@ struct StepRequest {
     double amount = 0;    ///< of the step, a length in units of the surface
     double bound = 0;     ///< farther no vertex of the input is moved, units of the surface
     double diagonal = 0;  ///< of the bounding box of the surface as it came
-    BodyRepair bodies = BodyRepair::unite;
+    BodyRepair bodies = BodyRepair::as_found;
+    bool are_walls = false;              ///< see RepairPlan
+    bool voids_are_parity = false;       ///< see RepairPlan
     std::function<void()> poll = [] {};  ///< to be called now and then; may throw
     const RepairPlan* plan = {};         ///< all that is asked for; none: this step alone
     int round = 0;                       ///< of renewing; 0: before facets are divided where they cross
@@ -45,6 +47,11 @@ struct RepairStepRow {
 /// In the order of RepairKind.
 std::span<const RepairStepRow> repair_step_rows();
 const char* name(RepairKind kind);
+
+/// Whether facets part regions, by walls that these share or are said to, which no step may take out or part; never
+/// where bodies are to be united. Requires ordinary facets. Cost as is_of_touching_bodies() where edges have more than
+/// two facets.
+bool has_walls(const Soup& soup, const StepRequest& request);
 
 /// Says that nothing is done to a surface that has facets with a repeated vertex, or without finite coordinates.
 void refuse_odd_facets(StepReport& report);

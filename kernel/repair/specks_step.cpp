@@ -64,6 +64,7 @@ void specks_step(Soup& soup, const StepRequest& request, StepReport& report) {
         return a.area != b.area ? a.area < b.area : a.diagonal() < b.diagonal();
     });
     RepairAction removed{"speck removed", "specks removed", "across"};
+    removed.is_loss = true;
     std::vector<char> is_speck(pieces.size(), 0);
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
         if (piece->first < 0 || piece == largest || !piece->is_speck(request.amount, request.diagonal)) continue;

@@ -62,6 +62,8 @@ nlohmann::ordered_json json_of_remedy(const Remedy& remedy, const std::string& p
             {"tried", remedy.was_tried},
             {"largest_move", remedy.largest_move},
             {"wrap_distance", remedy.wrap_distance},
+            {"voids", remedy.takes_parity ? Json("parity") : Json(nullptr)},
+            {"losses", remedy.losses},
             {"command", path_text(command_of(remedy, path))}};
 }
 

@@ -57,9 +57,10 @@ std::string remedy_line(const Remedy& remedy) {
                          remedy.wrap_distance)
                    : std::string("No repair makes it fit. A surface wrapped around it may:");
     if (!remedy.was_tried) return "Repairs that fit its defects may make it fit, which was not tried:";
-    return remedy.largest_move > 0
-               ? fmt::format("Repaired, it can be; no vertex moves by more than {:.3g}:", remedy.largest_move)
-               : std::string("Repaired, it can be; no vertex moves:");
+    std::string text = remedy.takes_parity ? "With shells inside of others as voids, it can be" : "Repaired, it can be";
+    if (!remedy.losses.empty()) text += fmt::format(", without what may be wanted: {}", fmt::join(remedy.losses, "; "));
+    return text + (remedy.largest_move > 0 ? fmt::format("; no vertex moves by more than {:.3g}:", remedy.largest_move)
+                                           : std::string("; no vertex moves:"));
 }
 
 }  // namespace
@@ -70,7 +71,8 @@ std::string command_of(const Remedy& remedy, const std::string& path) {
     const std::string output = input.stem().string() + (is_wrap ? "_wrapped.obj" : "_repaired.obj");
     const std::string level =
         is_wrap || remedy.level == RepairLevel::full ? "" : fmt::format(" --repair {}", name(remedy.level));
-    return fmt::format("kerf {} {} -o {}{}", is_wrap ? "wrap" : "repair", shell_word(path), shell_word(output), level);
+    return fmt::format("kerf {} {} -o {}{}{}", is_wrap ? "wrap" : "repair", shell_word(path), shell_word(output), level,
+                       remedy.takes_parity ? " --voids parity" : "");
 }
 
 std::string to_text(const Remedy& remedy, const std::string& path) {

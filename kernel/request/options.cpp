@@ -62,6 +62,8 @@ std::vector<std::string> files_of(const std::string& input, const InputOptions& 
 
 RepairPlan repair_plan_of(const InputOptions& options) {
     RepairPlan plan = parse_repair_plan("repair", options.repair);
+    plan.are_walls = !options.regions.empty();
+    plan.voids_are_parity = options.voids == Voids::parity;
     if (options.cap) plan.put({RepairKind::caps});
     if (options.thicken.number() > 0) plan.put({RepairKind::thicken, options.thicken});
     return plan;

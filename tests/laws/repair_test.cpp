@@ -13,6 +13,7 @@
 #include "repair/repair.h"
 #include "support/assets.h"
 #include "support/random_damage.h"
+#include "support/region_bodies.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "surface/mass_properties.h"
@@ -122,6 +123,39 @@ TEST(ShiftedBodies, BecomeTheirUnion) {
         const double common = (Vec3::Ones() - shift.cwiseAbs()).prod();
         EXPECT_NEAR(enclosed_volume(checked.soup.vertices, checked.soup.facets), 2 - common, 1e-9);
     }
+}
+
+// Walls of regions are facets within others: no level takes them out, whether bodies have them twice, walls are there
+// once, or points say what they part. Only who asks for one body gets it.
+TEST(Regions, KeepTheirWalls) {
+    const Soup hollow = test::join(test::nested_boxes(1, 2), test::box(Vec3::Constant(-2), Vec3::Constant(2), 3));
+    Soup once = test::fibres_in_block(1);
+    once.sides.clear();
+    once.region_names.clear();
+    InputOptions plain, seeded;
+    seeded.regions = {"core=0,0,0", "around=1.5,1.5,1.5"};
+    struct Case {
+        Soup soup;
+        InputOptions options;
+        std::size_t regions;
+    };
+    for (const auto& [soup, options, regions] : {Case{test::join(whole_asset("bone"), whole_asset("cement")), plain, 2},
+                                                 Case{once, plain, 5}, Case{hollow, seeded, 2}})
+        for (const char* level : {"exact", "near", "full"}) {
+            InputOptions with = options;
+            with.repair = level;
+            const CheckedSoup whole = check_soup(soup, options, 0), repaired = check_soup(soup, with, 0);
+            ASSERT_EQ(whole.soup.region_names.size(), regions);
+            ASSERT_TRUE(repaired.diagnosis.clean()) << repaired.diagnosis.summary(repaired.soup);
+            EXPECT_EQ(repaired.soup.region_names, whole.soup.region_names) << to_text(repaired.ladder);
+            EXPECT_EQ(repaired.soup.facets, whole.soup.facets) << to_text(repaired.ladder);
+            EXPECT_FALSE(repaired.ladder.changed()) << to_text(repaired.ladder);
+        }
+    plain.repair = "full,bodies=unite";
+    const CheckedSoup one = check_soup(once, plain, 0);
+    EXPECT_TRUE(one.diagnosis.clean());
+    EXPECT_TRUE(one.soup.sides.empty());
+    EXPECT_LT(one.soup.facets.size(), once.facets.size());
 }
 
 TEST(WholeBodies, AreNotTouched) {

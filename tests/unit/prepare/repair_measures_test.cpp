@@ -110,6 +110,22 @@ TEST_F(Remedies, WhatWasAskedForAlreadyIsNotTold) {
     EXPECT_EQ(remedy(test::cracked(test::box(), 1e-4, 1), options).level, RepairLevel::none);
 }
 
+// To unite it with what is around it deletes it: that it is a void comes first, and what would go is told.
+TEST_F(Remedies, AShellWithinAnotherIsAVoidBeforeItIsDeleted) {
+    const Soup nested = test::join(test::box(Vec3::Zero(), Vec3::Constant(3), 1), test::box(Vec3::Ones(), {2, 2, 2}));
+    const Remedy found = remedy(nested);
+    EXPECT_TRUE(found.takes_parity);
+    EXPECT_EQ(found.level, RepairLevel::exact);
+    EXPECT_TRUE(found.losses.empty());
+
+    // What crosses the outer one as well is united; then the other goes, which parity alone would keep.
+    InputOptions options;
+    options.repair = "exact";
+    const Soup crossed = test::join(nested, test::box(Vec3(2.5, 0.5, 0.5), Vec3(3.5, 0.9, 0.9)));
+    options.voids = Voids::parity;
+    EXPECT_TRUE(remedy(crossed, options).losses.empty());
+}
+
 TEST_F(Remedies, NothingIsToldOfNumbersThatAreTooLarge) {
     Soup soup = test::box();
     soup.vertices.front() *= 1e300;
