@@ -180,7 +180,9 @@ Soup read_tetgen(std::string_view bytes, const std::string& path) {
     for (std::int64_t i = read_length(scanner); i > 0; --i) builder.add_hole(read_hole(scanner));
     for (std::int64_t i = read_length(scanner); i > 0; --i) builder.add_seed(read_region(scanner));
     scanner.expect_end("its lists of nodes, facets, holes and regions");
-    return builder.finish();
+    Soup soup = builder.finish();
+    soup.may_end_inside = true;
+    return soup;
 }
 
 void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupBuilder& builder) {

@@ -66,11 +66,12 @@ class Ladder {
     bool has_changed(RepairKind kind) const {
         return !report_.steps.empty() && report_.steps.back().kind == kind && report_.steps.back().changed();
     }
-    // Behind intersections: what was divided may touch itself, and what touched before waits for it.
+    // Behind intersections: what was divided may touch itself and leave specks, and what touched before waits for it.
     void tidy(bool was_divided) {
         if (!soup_.sides.empty()) return;
         if (was_divided) apply(RepairKind::clean);
         apply(RepairKind::manifold);
+        if (was_divided) apply(RepairKind::specks);
     }
 
     // Goes up the rest of the ladder again: first with all that is left, then without what is still defective, each

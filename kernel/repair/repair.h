@@ -10,10 +10,10 @@
 namespace kerf {
 
 /// Does the steps of a plan, in the order of RepairKind; `manifold` once more behind `holes`, because fins are known
-/// once a body is closed, and `clean` and `manifold` behind `intersections`, where they are asked for: what touches is
-/// parted only there, so that bodies with other facets at a contact become one without a crack. `renew` goes up the
-/// ladder from `manifold` on again, in a few rounds, each of which is undone unless it leaves fewer defects. What no
-/// step finds anything to do in is not changed at all: no vertex, no facet, no order.
+/// once a body is closed, and `clean`, `manifold` and `specks` behind `intersections`, where they are asked for: what
+/// touches is parted only there, so that bodies with other facets at a contact become one without a crack. `renew` goes
+/// up the ladder from `manifold` on again, in a few rounds, each of which is undone unless it leaves fewer defects.
+/// What no step finds anything to do in is not changed at all: no vertex, no facet, no order.
 ///
 /// Facets of the file keep their order and numbers (Soup::polygon); pieces of a facet follow each other in its place,
 /// and new facets come last, in patches of their own ("filled", "cap_1", ...), with numbers behind those of the file. A

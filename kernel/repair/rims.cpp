@@ -50,6 +50,7 @@ bool has_ordinary_facets(const Soup& soup) {
 bool is_of_touching_bodies(const Soup& soup) {
     if (!has_edge_of_many(soup.facets)) return false;
     Soup found = soup;
+    found.may_end_inside = true;  // a wall with a hole is one none the less, and is not to be taken out for it
     return find_touching_bodies(found);
 }
 

@@ -41,7 +41,7 @@ bool has_ordinary_facets(const Soup& soup);
 bool is_ordinary(const std::vector<Vec3>& vertices, const Triangle& facet);
 
 /// Whether these are bodies that share walls, and are regions as they are (surface/region_finder.h): edges of many
-/// facets are no defect then. Requires ordinary facets.
+/// facets are no defect then; a hole in a wall is one, and does not count here. Requires ordinary facets.
 bool is_of_touching_bodies(const Soup& soup);
 
 /// The same facet seen from the other side.

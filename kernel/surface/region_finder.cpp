@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -54,6 +55,16 @@ std::optional<std::vector<Windings>> find_windings(const DividedSpace& space, co
             return std::nullopt;
     of.erase(of.begin());
     return of;
+}
+
+// Whether a facet ends within a cell, where none but those of some formats may: a wall with a hole parts no regions.
+bool has_open_wall(const Soup& soup, const DividedSpace& space) {
+    bool is_open = false;
+    if (!soup.may_end_inside)
+        EdgeCorners(space.single.facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
+            is_open |= corners.size() == 1;
+        });
+    return is_open;
 }
 
 bool has_wall(const DividedSpace& space) {
@@ -144,7 +155,7 @@ bool name_by_directions(DividedSpace& space) {
 // Whether every facet is there once, and a wall between different cells or in the midst of one. What is closed,
 // directions and all, is a body that touches itself.
 bool name_between_walls(Soup& soup, DividedSpace& space) {
-    if (space.single.facets.size() != soup.facets.size()) return false;
+    if (space.single.facets.size() != soup.facets.size() || has_open_wall(soup, space)) return false;
     const auto& sides = space.cells.sides;
     const auto is_outside = [](const FacetSides& s) { return s.front < 0 && s.back < 0; };
     if (std::any_of(sides.begin(), sides.end(), is_outside)) return false;
@@ -302,7 +313,7 @@ bool find_walled_regions(Soup& soup, const std::vector<NamedWall>& walls) {
 bool find_seeded_regions(Soup& soup) {
     if (!soup.sides.empty() || soup.seeds.empty()) return false;
     std::optional<DividedSpace> space = divide_space(soup);
-    if (!space) return false;
+    if (!space || has_open_wall(soup, *space)) return false;
     const CellLocator locator(soup.vertices, space->single.facets, space->cells);
     place_seeds(soup, locator, *space);
     name_other_cells(soup, locator, *space);

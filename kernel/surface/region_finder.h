@@ -18,7 +18,8 @@ struct NamedWall {
 // All of these set Soup::sides and Soup::region_names. Facets of different regions have the smaller number behind them;
 // a facet that is there several times is kept once, the first one; those with the same on both sides, and those with a
 // repeated vertex, are left out, and a note counts them. They return false, and leave the soup as it is, if it has
-// sides already, or facets that do not conform: see find_cells(). Whether facets intersect is not asked: what
+// sides already, facets that do not conform, see find_cells(), or a wall with a hole: an edge of one facet, unless
+// Soup::may_end_inside. Whether facets intersect is not asked: what
 // diagnose() finds in the result says that. Requires numbers in range and a welded soup. Cost as find_cells().
 
 /// By points: a cell with one of Soup::seeds is a region with its name, and cells with one name are one region. Cells

@@ -54,11 +54,13 @@ struct Soup {
     std::vector<FacetSides> sides = {};
     std::vector<std::string> region_names = {};  ///< of the numbers in `sides`; empty if these are
     std::vector<RegionSeed> seeds = {};          ///< which cells of the facets are regions, where the file tells that
+    /// Facets may end within a region, as those of .poly and .smesh may; else a wall that does so has a hole.
+    bool may_end_inside = false;
 
     template <class Archive>
     void archive(Archive& a) {
         a(vertices, facets, patch, patch_names, polygon, unfit_polygons, vertex_number, holes, notes, is_of_model,
-          model_edges, patch_colours, sides, region_names, seeds);
+          model_edges, patch_colours, sides, region_names, seeds, may_end_inside);
     }
 
     /// The numbers that the file gives to facets and vertices; facets of one face that follow each other count once.

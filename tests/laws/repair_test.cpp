@@ -14,6 +14,7 @@
 #include "support/assets.h"
 #include "support/random_damage.h"
 #include "support/region_bodies.h"
+#include "support/seeded_numbers.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "surface/mass_properties.h"
@@ -156,6 +157,50 @@ TEST(Regions, KeepTheirWalls) {
     EXPECT_TRUE(one.diagnosis.clean());
     EXPECT_TRUE(one.soup.sides.empty());
     EXPECT_LT(one.soup.facets.size(), once.facets.size());
+}
+
+// Without one facet a wall parts nothing: that is told where it is, and mended, instead of leaving all of the wall out.
+TEST(Regions, HaveADefectWhereAFacetOfAWallIsMissing) {
+    Soup hollow = test::join(test::nested_boxes(1, 2), test::box(Vec3::Constant(-2), Vec3::Constant(2), 3));
+    Soup once = test::fibres_in_block(1);
+    InputOptions plain, seeded;
+    seeded.regions = {"core=0,0,0", "around=1.5,1.5,1.5"};
+    test::SeededNumbers random(56);
+    const auto lacks = [](Soup soup, std::size_t f) {
+        soup.sides.clear();
+        soup.region_names.clear();
+        soup.facets.erase(soup.facets.begin() + static_cast<std::ptrdiff_t>(f));
+        soup.patch.erase(soup.patch.begin() + static_cast<std::ptrdiff_t>(f));
+        return soup;
+    };
+    const auto expect_told_and_mended = [](const Soup& whole, const Soup& lacking, std::size_t f, InputOptions options,
+                                           std::size_t regions) {
+        const CheckedSoup checked = check_soup(lacking, options, 0);
+        ASSERT_EQ(checked.diagnosis.count(DefectKind::open_edge), 1) << f;
+        const auto open = std::find_if(checked.diagnosis.defects.begin(), checked.diagnosis.defects.end(),
+                                       [](const Defect& defect) { return defect.kind == DefectKind::open_edge; });
+        ASSERT_NE(open, checked.diagnosis.defects.end());
+        EXPECT_EQ(open->vertices.size(), 3U);
+        EXPECT_FALSE(checked.diagnosis.clean());
+        options.repair = "full";
+        const CheckedSoup repaired = check_soup(lacking, options, 0);
+        const bool is_beside_others =
+            !repaired.diagnosis.clean();  // at an edge of many: left, in words, with all facets
+        if (is_beside_others) {
+            EXPECT_EQ(repaired.soup.facets, lacking.facets) << f << "\n" << to_text(repaired.ladder);
+            EXPECT_TRUE(options.regions.empty());
+            return;
+        }
+        EXPECT_EQ(repaired.soup.region_names.size(), regions) << f << "\n" << to_text(repaired.ladder);
+        EXPECT_EQ(repaired.soup.facets.size(), whole.facets.size()) << f;
+    };
+    for (int i = 0; i < 10; ++i) {
+        const auto f = static_cast<std::size_t>(random.integer(0, 47));  // of the core
+        expect_told_and_mended(hollow, lacks(hollow, f), f, seeded, 2);
+    }
+    for (std::size_t f = 0; f < once.facets.size(); ++f)
+        if (once.sides[f].is_wall() && random.with_chance(0.05))
+            expect_told_and_mended(once, lacks(once, f), f, plain, 5);
 }
 
 TEST(WholeBodies, AreNotTouched) {
