@@ -52,6 +52,37 @@ class Content {
     std::string block_, bytes_;
 };
 
+// A block that is in memory; `window`: of zlib, negative without its header.
+std::string inflate_whole(std::string_view block, std::size_t size, int window, const std::string& path) {
+    constexpr std::size_t most_growth = 1032, smallest_block = 16;  // of the method
+    const auto fail = [&]() {
+        throw Error(ErrorCode::input, path + ": a compressed block is damaged. Save or copy the file again.");
+    };
+    if (size > (block.size() + smallest_block) * most_growth) fail();
+    std::string content(size, '\0');
+    z_stream stream{};
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(block.data()));
+    stream.next_out = reinterpret_cast<Bytef*>(content.data());
+    if (inflateInit2(&stream, window) != Z_OK) throw std::bad_alloc();
+    std::size_t unread = block.size(), unwritten = size;
+    const auto give = [](std::size_t& left, uInt& available) {  // zlib counts with 32 bits
+        if (available > 0) return;
+        available = static_cast<uInt>(std::min<std::size_t>(left, std::numeric_limits<uInt>::max()));
+        left -= available;
+    };
+    int status = Z_OK;
+    while (status == Z_OK) {
+        give(unread, stream.avail_in);
+        give(unwritten, stream.avail_out);
+        status = inflate(&stream, Z_NO_FLUSH);
+    }
+    const bool is_whole = status == Z_STREAM_END && unwritten == 0 && stream.avail_out == 0;
+    inflateEnd(&stream);
+    if (status == Z_MEM_ERROR) throw std::bad_alloc();
+    if (!is_whole) fail();
+    return content;
+}
+
 class GzipStream {
  public:
     GzipStream() {
@@ -136,18 +167,11 @@ std::string decompress(std::string bytes, const std::string& path) {
 }
 
 std::string inflate_block(std::string_view block, std::size_t size, const std::string& path) {
-    constexpr std::size_t most_growth = 1032, smallest_block = 16;  // of the method
-    const auto fail = [&]() {
-        throw Error(ErrorCode::input, path + ": a compressed block is damaged. Save or copy the file again.");
-    };
-    if (size > (block.size() + smallest_block) * most_growth) fail();
-    std::string content(size, '\0');
-    auto written = static_cast<uLongf>(size);
-    const int status = uncompress(reinterpret_cast<Bytef*>(content.data()), &written,
-                                  reinterpret_cast<const Bytef*>(block.data()), static_cast<uLong>(block.size()));
-    if (status == Z_MEM_ERROR) throw std::bad_alloc();
-    if (status != Z_OK || written != size) fail();
-    return content;
+    return inflate_whole(block, size, MAX_WBITS, path);
+}
+
+std::string inflate_raw_block(std::string_view block, std::size_t size, const std::string& path) {
+    return inflate_whole(block, size, -MAX_WBITS, path);
 }
 
 std::string deflate_block(std::string_view content) {

@@ -27,6 +27,9 @@ std::string decompress(std::string bytes, const std::string& path);
 /// a size that no such block can have, before memory is taken for it.
 std::string inflate_block(std::string_view block, std::size_t size, const std::string& path);
 
+/// The same of a deflated block without the header and the sum of zlib's format, as ZIP archives have them.
+std::string inflate_raw_block(std::string_view block, std::size_t size, const std::string& path);
+
 /// One block of zlib's format, as small as it makes it; what inflate_block() takes.
 std::string deflate_block(std::string_view content);
 

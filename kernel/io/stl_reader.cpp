@@ -21,7 +21,7 @@
 #include "io/stl_format.h"
 #include "io/surface_reader.h"
 #include "io/text_scanner.h"
-#include "io/threemf_file.h"
+#include "io/zip_archive.h"
 
 namespace kerf {
 

@@ -18,6 +18,7 @@
 #include "io/stl_format.h"
 #include "io/text_scanner.h"
 #include "io/threemf_file.h"
+#include "io/zip_archive.h"
 
 namespace kerf {
 

@@ -12,13 +12,16 @@
 #include "core/error.h"
 #include "io/soup_builder.h"
 #include "io/threemf_file.h"
+#include "io/zip_archive.h"
+#include "threemf/placed_objects.h"
 
 namespace kerf {
 
 namespace {
 
 // Components may repeat objects of components: a few lines of a file are as many facets as one likes.
-constexpr std::int64_t most_placed_facets = 100'000'000, most_placed_objects = 100'000;
+constexpr std::int64_t most_placed_facets = 100'000'000;
+constexpr std::uint64_t most_placed_objects = 100'000;
 constexpr int most_levels = 100;
 
 /// What lib3mf has given away.
@@ -83,6 +86,7 @@ class ThreemfReader {
     }
 
     void open(std::string_view content) {
+        refuse_repetition_in(content);  // lib3mf follows components while it reads, and would not come back
         require(NMR::lib3mf_createmodel(model_.out()));
         Handle reader;
         require(NMR::lib3mf_model_queryreader(model_.get(), "3mf", reader.out()));
@@ -97,6 +101,14 @@ class ThreemfReader {
         DWORD warnings = 0;
         require(NMR::lib3mf_reader_getwarningcount(reader.get(), &warnings));
         builder_.note_ignored(warnings, "thing that lib3mf warns of", "things that lib3mf warns of");
+    }
+
+    void refuse_repetition_in(std::string_view content) const {
+        for (const ZipEntry& entry : zip_entries(content, path_)) {
+            if (!entry.name.ends_with(".model")) continue;
+            const PlacedObjects placed = count_placed_objects(content_of_entry(content, entry, path_));
+            if (placed.objects > most_placed_objects || placed.levels > most_levels) refuse_repetition();
+        }
     }
 
     void find_unit() {
@@ -237,7 +249,8 @@ class ThreemfReader {
     FileUnit unit_ = {};
     double scale_ = 1;  // from the unit of the file to the one that is wanted
     std::int32_t items_ = 0, supports_ = 0;
-    std::int64_t placed_objects_ = 0, placed_facets_ = 0;
+    std::uint64_t placed_objects_ = 0;
+    std::int64_t placed_facets_ = 0;
     std::map<std::string, int> placed_;  // how often each name was
 };
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "io/cad_body.h"
 #include "io/threemf_file.h"
+#include "io/zip_archive.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -89,6 +90,20 @@ TEST_F(Threemf, UnitsAreConverted) {
     EXPECT_EQ(in_mm.notes.front(), "3MF: unit inch -> mm, 1 build item, 1 object.");
 }
 
+// By whatever wrote to a stream: the table of contents counts.
+TEST_F(Threemf, SizesMayFollowTheFiles) {
+    const std::string resources = object(1, "", cube()), item = placed("item", 1);
+    for (const test::ZipSizes sizes : {test::ZipSizes::behind, test::ZipSizes::behind_by_64_bits}) {
+        SCOPED_TRACE(static_cast<int>(sizes));
+        EXPECT_EQ(volume_of(soup_of(test::threemf(resources, item, "millimeter", 0, sizes))), 1);
+        const CadAnswer bomb = answer_for(test::threemf(resources, item, "millimeter", 200'000'000, sizes));
+        EXPECT_NE(bomb.message.find("grows to more than 128 times its size"), std::string::npos) << bomb.message;
+        const std::string whole = test::threemf(resources, item, "millimeter", 0, sizes);
+        for (const std::size_t missing : {std::size_t{20}, std::size_t{40}, whole.size() / 2})
+            EXPECT_EQ(answer_for(whole.substr(0, whole.size() - missing)).error_code, 3) << missing;
+    }
+}
+
 TEST_F(Threemf, MirroredObjectsStayTurnedOutwards) {
     const std::string bytes = test::threemf(object(1, "", cube()), placed("item", 1, "-1 0 0 0 1 0 0 0 1 0 0 0"));
     EXPECT_NEAR(volume_of(soup_of(bytes)), 1, 1e-12);
@@ -121,16 +136,28 @@ TEST_F(Threemf, WhatCannotBeReadHasASentence) {
         EXPECT_EQ(answer_for(good, option).error_code, 2);
 }
 
-// Objects of which each is two of the one before: 2^18 cubes.
-TEST_F(Threemf, ObjectsThatAreRepeatedWithoutEndAreRefused) {
+// Objects of which each is `copies` of the one before: copies^levels cubes, which a library that follows them never
+// ends to count.
+std::string repeated(int levels, int copies) {
     std::string resources = object(1, "", cube());
-    for (int id = 2; id <= 19; ++id)
-        resources += object(id, "",
-                            "<components>" + placed("component", id - 1) +
-                                placed("component", id - 1, "1 0 0 0 1 0 0 0 1 2 0 0") + "</components>");
-    const CadAnswer answer = answer_for(test::threemf(resources, placed("item", 19)));
-    EXPECT_EQ(answer.error_code, 3);
-    EXPECT_NE(answer.message.find("components repeat objects to more than"), std::string::npos) << answer.message;
+    for (int id = 2; id <= levels + 1; ++id) {
+        std::string components;
+        for (int i = 0; i < copies; ++i)
+            components += placed("component", id - 1, "1 0 0 0 1 0 0 0 1 " + std::to_string(2 * i) + " 0 0");
+        resources += object(id, "", "<components>" + components + "</components>");
+    }
+    return test::threemf(resources, placed("item", levels + 1));
+}
+
+TEST_F(Threemf, ObjectsThatAreRepeatedWithoutEndAreRefused) {
+    for (const auto& [levels, copies] : {std::pair(18, 2), {40, 2}, {60, 9}, {120, 1}}) {
+        SCOPED_TRACE(levels);
+        const CadAnswer answer = answer_for(repeated(levels, copies));
+        EXPECT_EQ(answer.error_code, 3);
+        EXPECT_NE(answer.message.find("components repeat objects to more than"), std::string::npos) << answer.message;
+    }
+    EXPECT_EQ(soup_of(repeated(6, 2)).facets.size(), 12u * 64);
+    EXPECT_EQ(soup_of(repeated(90, 1)).facets.size(), 12u);
 }
 
 TEST_F(Threemf, KerfMeshesBodiesThatAreApartAndNamesThoseThatMeet) {
