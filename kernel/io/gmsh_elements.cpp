@@ -54,11 +54,9 @@ void Elements::finish() const {
 }
 
 void Elements::note_ignored() const {
-    const bool uses_tets = builder_.wants_tets() || !builder_.has_facets() || builder_.tets().volume_count() > 1;
-    for (const Shape shape :
-         {Shape::tetrahedron, Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::line, Shape::point}) {
+    for (const Shape shape : {Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::line, Shape::point}) {
         const auto i = static_cast<std::size_t>(shape);
-        if (shape == Shape::tetrahedron && uses_tets) continue;
+        if (shape != Shape::line && shape != Shape::point) builder_.count_other_cells(counts_[i]);
         builder_.note_ignored(counts_[i], shape_names[i][0], shape_names[i][1]);
     }
 }

@@ -72,7 +72,10 @@ void note_volume_elements(TextScanner& scanner, std::string_view keyword, SoupBu
     constexpr std::array<Kind, 3> kinds = {
         {{"Hexahedra", "hexahedron", "hexahedra"}, {"Prisms", "prism", "prisms"}, {"Pyramids", "pyramid", "pyramids"}}};
     const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.keyword == keyword; });
-    if (kind != kinds.end()) builder.note_ignored(scanner.next_count(), kind->one, kind->many);
+    if (kind == kinds.end()) return;
+    const std::int64_t count = scanner.next_count();
+    builder.count_other_cells(count);
+    builder.note_ignored(count, kind->one, kind->many);
 }
 
 void pass_over_section(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
@@ -119,7 +122,6 @@ void scan_medit(std::string_view bytes, const std::string& path, SoupBuilder& bu
 Soup read_medit(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
     scan_medit(bytes, path, builder);
-    builder.note_ignored_tets();
     return builder.finish();
 }
 

@@ -30,8 +30,8 @@ class SoupBuilder {
 
     bool wants_tets() const { return wanted_ == Wanted::tets || wants_scalars(); }
     bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
-    /// Where a surface is wanted, the tetrahedra of several volumes say what it separates, and the skin of those of one
-    /// is the surface if there is none.
+    /// Where a surface is wanted, the tetrahedra say what it separates, unless other cells fill a part of the space:
+    /// see count_other_cells().
     TetCollector& tets() { return tets_; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
@@ -135,22 +135,21 @@ class SoupBuilder {
         soup_.notes.push_back(std::to_string(count) + " " +
                               (count == 1 ? std::string(one) + " was" : std::string(many) + " were") + " ignored.");
     }
-    /// Says that tetrahedra of one volume are not used where there are facets.
-    void note_ignored_tets() {
-        if (has_facets() && tets_.volume_count() < 2) note_ignored(tets_.count(), "tetrahedron", "tetrahedra");
-    }
-    /// The soup. With tetrahedra of several volumes its facets are all faces at which a region ends; with those of one
-    /// their skin, if there are no others. Throws Error(input) if there is no facet in it.
+    /// Cells with a volume that are no tetrahedra. Beside them the tetrahedra of a single volume say only where a part
+    /// of it ends, and facets go before them.
+    void count_other_cells(std::int64_t count) { other_cells_ += count; }
+    /// The soup. With tetrahedra its facets are all faces at which a region ends. Throws Error(input) if there is no
+    /// facet in it.
     Soup finish() {
         note_ignored(facets_without_area_, "facet of edges or points alone", "facets of edges or points alone");
         note_ignored(edges_outside_, "edge or point outside of its facet", "edges or points outside of their facets");
         note_cells_by_corners();
-        if (tets_.volume_count() > 1)
+        const bool is_part = other_cells_ > 0 && has_facets() && tets_.volume_count() < 2;
+        if (!tets_.empty() && !is_part)
             take_regions();
-        else if (soup_.facets.empty() && !tets_.empty())
-            add_skin();
         else if (!sides_.empty())
             take_region_sides(soup_, std::move(sides_), region_names_);
+        if (is_part) note_ignored(tets_.count(), "tetrahedron", "tetrahedra");
         if (soup_.facets.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
         return std::move(soup_);
@@ -185,15 +184,11 @@ class SoupBuilder {
         if (vertex != last) soup_.vertices.pop_back();
         return vertex;
     }
-    void add_skin() {
-        set_patch("surface");  // whatever curves or volumes came last
-        for (const RegionFace& face : tets_.skin()) add_facet(face.corners);
-        note(tell_skin(static_cast<std::size_t>(tets_.count())));
-    }
     void take_regions() {
         const std::vector<RegionFace> faces = tets_.faces_of_regions();
         if (faces.size() > static_cast<std::size_t>(most_facets)) refuse_facets();
-        if (tets_.region_names().size() == 1)
+        if (!has_facets() && tets_.volume_count() < 2) note(tell_skin(static_cast<std::size_t>(tets_.count())));
+        if (tets_.region_names().size() == 1 && tets_.volume_count() > 1)
             note(tell_joined_volumes(tets_.volume_count(), tets_.region_names().front()));
         take_region_faces(soup_, faces, tets_.region_names(), {polygon_count_, unnamed_patch_}, path_);
     }
@@ -234,7 +229,7 @@ class SoupBuilder {
     TetCollector tets_;
     std::string patch_name_ = "surface";
     std::int32_t polygon_count_ = 0;
-    std::int64_t facets_without_area_ = 0, edges_outside_ = 0, cells_by_corners_ = 0;
+    std::int64_t facets_without_area_ = 0, edges_outside_ = 0, cells_by_corners_ = 0, other_cells_ = 0;
     bool has_fans_ = false;
     std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;

@@ -55,14 +55,15 @@ class TetCollector {
         return number_of_volume_.try_emplace(key, static_cast<std::int32_t>(number_of_volume_.size())).first->second;
     }
     std::size_t volume_count() const { return number_of_volume_.size(); }
-    /// Names the volumes, `name(key)`, and so the regions that they are.
+    /// Names the volumes, `name(key)`, and so the regions that they are. Without a volume() all are "body".
     template <class Name>
     void name_volumes(const Name& name) {
-        regions_ = regions_of(number_of_volume_, name);
+        if (!number_of_volume_.empty()) regions_ = regions_of(number_of_volume_, name);
     }
     const std::vector<std::string>& region_names() const { return regions_.names; }
-    /// Of volumes that have been named.
+    /// Of volumes that have been named; empty if all are of one region.
     std::vector<std::int32_t> regions_of_tets() const {
+        if (regions_.names.size() == 1) return {};
         std::vector<std::int32_t> regions = volume_of_tet_;
         for (std::int32_t& region : regions) region = regions_.region_of_volume[static_cast<std::size_t>(region)];
         return regions;
@@ -73,7 +74,6 @@ class TetCollector {
         if (found.overlap) refuse_overlap(soup_, *found.overlap, regions_.names, path_);
         return std::move(found.faces);
     }
-    std::vector<RegionFace> skin() const { return region_faces(soup_.vertices, tets_).faces; }
 
     /// The values of this name, one for each vertex so far.
     std::vector<double>& scalar(std::string_view name) {
@@ -102,7 +102,7 @@ class TetCollector {
     std::vector<Tetrahedron> tets_;
     std::vector<std::int32_t> volume_of_tet_;
     std::map<VolumeKey, std::int32_t> number_of_volume_;
-    VolumeRegions regions_;
+    VolumeRegions regions_{{}, {"body"}};
     std::vector<NodeScalar> scalars_;
 };
 

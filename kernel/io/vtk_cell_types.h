@@ -14,4 +14,10 @@ constexpr bool has_higher_order(std::int64_t vtk_type) {
     return (vtk_type >= 21 && vtk_type <= 37) || (vtk_type >= 60 && vtk_type <= 81);
 }
 
+/// Whether cells of this type have a volume and are no tetrahedra; of first order.
+constexpr bool is_other_volume(std::int64_t vtk_type) {
+    constexpr std::int64_t vtk_voxel = 11, vtk_hexagonal_prism = 16, vtk_polyhedron = 42;
+    return (vtk_type >= vtk_voxel && vtk_type <= vtk_hexagonal_prism) || vtk_type == vtk_polyhedron;
+}
+
 }  // namespace kerf

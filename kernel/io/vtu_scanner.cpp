@@ -227,6 +227,7 @@ bool add_cell(const Cells& cells, std::size_t cell, std::vector<std::int64_t>& c
     if (has_higher_order(type))
         fail_cell("it is of VTK's type " + std::to_string(type) +
                   ", which has nodes between its corners. Save the mesh with cells of first order.");
+    builder.count_other_cells(is_other_volume(type));
     if (type != vtk_tetra && type != vtk_triangle) return false;
     if (corners.size() != (type == vtk_tetra ? 4U : 3U))
         fail_cell("it has " + std::to_string(corners.size()) + " corners. Save the mesh again.");
@@ -317,7 +318,6 @@ void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& buil
 Soup read_vtu(std::string_view bytes, const std::string& path) {
     SoupBuilder builder(path);
     scan_vtu(bytes, path, builder);
-    builder.note_ignored_tets();
     return builder.finish();
 }
 

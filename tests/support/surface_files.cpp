@@ -183,7 +183,7 @@ void write_msh2(const Soup& soup, const std::vector<Tetrahedron>& tets, MshText&
     write_element_2(out, 1, 15, 0, {0});
     write_element_2(out, 2, 1, 0, {0, 1});
     for (std::size_t f = 0; f < std::max(soup.facets.size(), std::size_t{3}); ++f) {
-        if (f == 1) write_tet_2(out, tets.front());
+        if (f == 1 && !tets.empty()) write_tet_2(out, tets.front());
         if (f == 2)
             for (std::size_t t = 1; t < tets.size(); ++t) write_tet_2(out, tets[t]);
         if (f >= soup.facets.size()) continue;

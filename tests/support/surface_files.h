@@ -27,7 +27,7 @@ std::string to_off(const Soup& soup);
 std::string to_ascii_ply(const Soup& soup);
 std::string to_binary_ply(const Soup& soup, bool big_endian);
 /// Patch p has the reference 10 - p; there are a corner and tetrahedra, too.
-std::string to_medit(const Soup& soup, const std::vector<Tetrahedron>& tets = {{0, 1, 2, 3}});
+std::string to_medit(const Soup& soup, const std::vector<Tetrahedron>& tets = {});
 /// Patch p has the marker 10 - p. Nodes count from `first`; a point in a hole and a region follow.
 std::string to_tetgen(const Soup& soup, int first, bool is_poly);
 std::string to_node_list(const Soup& soup, int first);
@@ -38,8 +38,7 @@ struct MshStyle {
 };
 /// Patch p is the surface 5 + p and the physical group 10 - p with the patch's name. Node tags are sparse and fall;
 /// a point, a line and the tetrahedra lie between the triangles or before them.
-std::string to_msh(const Soup& soup, const MshStyle& style,
-                   const std::vector<Tetrahedron>& tets = {{0, 1, 2, 3}, {0, 1, 2, 3}});
+std::string to_msh(const Soup& soup, const MshStyle& style, const std::vector<Tetrahedron>& tets = {});
 
 /// TetGen's list of tetrahedra, over nodes that count from `first`.
 std::string to_element_list(const std::vector<Tetrahedron>& tets, int first);
