@@ -10,9 +10,9 @@
 // tetrahedron, in each of which they are 01 02 03 12 13 23 (DSTable of Mesh::GetVertexToVertexTable(),
 // Tetrahedron::edges).
 //
-// Walls between regions are shared faces and no boundary: what holds on all of the boundary, as the conditions of
-// MFEM's examples do, would hold on them, too, and integrals over it would have one of their two sides. Regions tell
-// where walls are: between cells of two attributes.
+// Walls between regions are shared faces and, once, boundary of the rank with the smaller part: inner boundary, as MFEM
+// has it where a serial mesh with such triangles is shared out. Their patches have attributes of their own, by which
+// conditions that are meant for the outside leave them out.
 #include <algorithm>
 #include <map>
 
@@ -81,11 +81,11 @@ class MfemFile {
         }
         file_.write("\n");
         write_names();
-        std::int64_t outer = 0;
-        for (std::size_t f = 0; f < part_.facets.size(); ++f) outer += part_.is_on_outer_boundary(f);
-        file_.write(fmt::format("boundary\n{}\n", outer));
+        std::int64_t listed = 0;
+        for (std::size_t f = 0; f < part_.facets.size(); ++f) listed += part_.is_listed(f);
+        file_.write(fmt::format("boundary\n{}\n", listed));
         for (std::size_t f = 0; f < part_.facets.size(); ++f) {
-            if (!part_.is_on_outer_boundary(f)) continue;
+            if (!part_.is_listed(f)) continue;
             file_.write(fmt::format("{} {} ", part_.patch[f] + 1, mfem_triangle));
             write_numbers(part_.facets[f]);
         }

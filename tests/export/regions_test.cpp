@@ -251,7 +251,7 @@ TEST(Regions, AreCellZonesOfOpenFoam) {
     });
 }
 
-TEST(Regions, AreAttributesOfMfemAndWallsAreInside) {
+TEST(Regions, AreAttributesOfMfemAndWallsAreBoundaryOnce) {
     test::for_each_regions_source([](const PartSource& parts) {
         const Expected expected(parts);
         const test::TemporaryFolder folder;
@@ -272,7 +272,7 @@ TEST(Regions, AreAttributesOfMfemAndWallsAreInside) {
             }
         }
         EXPECT_EQ(sizes_of(attributes), expected.tets);
-        EXPECT_EQ(sizes_of(patches), Sizes{expected.outer});
+        EXPECT_EQ(sizes_of(patches), expected.triangles());
     });
 }
 
