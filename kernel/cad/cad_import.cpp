@@ -5,6 +5,7 @@
 #include "cad/cad_import.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -25,6 +26,7 @@
 #include "cad/projection.h"
 #include "core/error.h"
 #include "surface/intersections.h"
+#include "surface/region_finder.h"
 
 namespace kerf {
 
@@ -153,7 +155,8 @@ struct Bodies {
     Soup soup;
     std::vector<std::int32_t> first_facet;  // of each
     double volume = 0, exact_volume = 0;
-    std::vector<Body> shapes;  // whose faces have these facets
+    std::vector<std::array<double, 2>> volumes;  // of each: of the facets, and exact; empty if they are regions
+    std::vector<Body> shapes;                    // whose faces have these facets
 };
 
 Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::string& path, bool may_balance) {
@@ -164,6 +167,7 @@ Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::str
         append(all.soup, meshed.facets);
         all.volume += meshed.facets.volume;
         all.exact_volume += meshed.exact_volume;
+        all.volumes.push_back({meshed.facets.volume, meshed.exact_volume});
         all.shapes.push_back(body);
     }
     return all;
@@ -226,6 +230,33 @@ std::optional<cad::Contact> contact_of(const Bodies& all) {
     return cad::Contact{{body_of(f), body_of(g)}, all.soup.vertices[all.soup.facets[f][0]]};
 }
 
+// A solid inside of another one, which it does not touch, is cut out of it: both are regions.
+void take_nested(Bodies& all, Model& model) {
+    if (all.volumes.size() < 2) return;
+    std::vector<std::int32_t> body_of_facet(all.soup.facets.size());
+    for (std::size_t b = 0; b < all.first_facet.size(); ++b)
+        std::fill(body_of_facet.begin() + all.first_facet[b], body_of_facet.end(), static_cast<std::int32_t>(b));
+    std::vector<std::string> names;
+    for (const Body& body : model.bodies) names.push_back(body.name);
+    Soup bodies = all.soup;
+    bodies.patch = body_of_facet;
+    bodies.patch_names = names;
+    if (!find_nested_bodies(bodies, body_of_facet, names)) return;
+    all.soup.facets = std::move(bodies.facets);
+    all.soup.sides = std::move(bodies.sides);
+    all.soup.region_names = std::move(bodies.region_names);
+    std::size_t nested = 0;
+    for (std::size_t b = 0; b < all.volumes.size(); ++b) {
+        if (!all.soup.sides[all.first_facet[b]].is_wall()) continue;
+        ++nested;
+        all.volume -= all.volumes[b][0];
+        all.exact_volume -= all.volumes[b][1];
+    }
+    model.notes.push_back(
+        nested == 1 ? std::string("1 solid lies inside of another one and is cut out of it: they are regions.")
+                    : fmt::format("{} solids lie inside of others and are cut out of them: all are regions.", nested));
+}
+
 Bodies tessellate_all(Model& model, const CadOptions& options, const std::string& path) {
     const auto touching = [&](const cad::Contact& contact) {
         if (!options.no_imprint) return tessellate_touching(model, contact, options, path);
@@ -238,7 +269,9 @@ Bodies tessellate_all(Model& model, const CadOptions& options, const std::string
         all = tessellate_bodies(model, options, path, false);
         contact = contact_of(all);
     }
-    return contact ? touching(*contact) : all;
+    if (contact) return touching(*contact);
+    take_nested(all, model);
+    return all;
 }
 
 // Patches without facets are left out, and those of one name are one.

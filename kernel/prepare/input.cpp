@@ -85,13 +85,14 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
     soup.vertices = std::move(moved);
 }
 
-// Of points with one name the smallest bound counts.
+// Of points with one name the smallest bound counts; of the points of a body without regions that of all.
 std::vector<double> largest_cells_of(const Soup& soup) {
-    std::vector<double> largest(soup.region_names.size(), 0);
+    const bool is_single = soup.region_names.empty();
+    std::vector<double> largest(is_single ? 1 : soup.region_names.size(), 0);
     bool is_any = false;
     for (const RegionSeed& seed : soup.seeds) {
         const auto found = std::find(soup.region_names.begin(), soup.region_names.end(), seed.name);
-        if (found == soup.region_names.end() || !(seed.largest_cell > 0)) continue;
+        if ((!is_single && found == soup.region_names.end()) || !(seed.largest_cell > 0)) continue;
         double& own = largest[static_cast<std::size_t>(found - soup.region_names.begin())];
         own = own > 0 ? std::min(own, seed.largest_cell) : seed.largest_cell;
         is_any = true;

@@ -107,6 +107,28 @@ void tell_mismatches(CheckedSoup& checked, const GivenBodies& bodies, const Diag
     defects.insert(defects.begin(), between.begin(), between.end());
 }
 
+// Shells inside of others that are turned like them are no voids where they are bodies of their own: patches with a
+// name.
+bool take_nested_bodies(CheckedSoup& checked, const GivenBodies& bodies, const DiagnosisOptions& options) {
+    const std::vector<Defect>& defects = checked.diagnosis.defects;
+    const auto is_other_error = [](const Defect& defect) {
+        return defect.severity == Severity::error && defect.kind != DefectKind::ambiguous_shell;
+    };
+    if (checked.diagnosis.count(DefectKind::ambiguous_shell) == 0) return false;
+    if (std::any_of(defects.begin(), defects.end(), is_other_error)) return false;
+    Soup divided = checked.soup;
+    if (!find_nested_bodies(divided, bodies.of_facet, bodies.names)) return false;
+    Diagnosis diagnosis = diagnose(divided, options);
+    if (!diagnosis.clean()) return false;
+    divided.notes.push_back(
+        fmt::format("Bodies lie inside of others: they are {} regions by their names, and each is cut out of what is "
+                    "around it.",
+                    divided.region_names.size()));
+    checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    take_regions(checked, std::move(divided), std::move(diagnosis));
+    return true;
+}
+
 // A surface of one body costs nothing more than its diagnosis. `files`: without the soup.
 void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
     if (!files.walls.empty()) return diagnose_named_walls(checked, files, options);
@@ -114,7 +136,7 @@ void diagnose_with_regions(CheckedSoup& checked, const InputFiles& files, const 
     checked.diagnosis = diagnose(checked.soup, options);
     if (!checked.soup.sides.empty() || take_found_regions(checked, files, options) || checked.diagnosis.clean()) return;
     const GivenBodies bodies = known_bodies(checked.soup, files);
-    if (bodies.names.empty()) return;
+    if (bodies.names.empty() || take_nested_bodies(checked, bodies, options)) return;
     Diagnosis by_body = diagnose_bodies(checked.soup, bodies, options);
     if (files.names.empty())
         tell_mismatches(checked, bodies, by_body);
@@ -161,6 +183,11 @@ void look_for_gaps(CheckedSoup& checked) {
 
 void diagnose_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options,
                       bool voids_are_regions) {
+    for (const Vec3& hole : holes_outside(checked.soup))
+        checked.soup.notes.push_back(fmt::format(
+            "The point {} of a hole lies outside: no facets close around it, and it makes no void. Move it, or leave "
+            "it out.",
+            place_text(hole)));
     diagnose_with_regions(checked, files, options);
     if (voids_are_regions) diagnose_filled(checked, options);
     look_for_gaps(checked);

@@ -44,8 +44,8 @@ constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
     {"one-sided shell", "model the surface again, it bounds no body"},
     {"inverted shell", "nothing needs to be done, it is turned"},
     {"ambiguous shell",
-     "make it a void with --voids parity, turn it, unite it with the other by --repair intersections, or leave all out "
-     "but the largest with --keep-largest",
+     "make it a void with --voids parity, a region with --fill-voids, or one with a name by --region NAME=x,y,z with a "
+     "point in it and one for what is around it; a copy that is not wanted goes with --keep-largest",
      "nothing needs to be done, it is made a void"},
     {"touching shell",
      "unite the bodies, as --repair intersections does, move them apart, or leave all out but the largest with "

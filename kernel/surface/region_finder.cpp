@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -82,6 +83,19 @@ bool patches_have_wall(const Soup& soup, const SingleFacets& single) {
     return false;
 }
 
+// Whether the normals of all patches point out, or all of them in.
+bool are_turned_alike(const Soup& soup) {
+    std::vector<std::vector<Triangle>> facets(soup.patch_names.size());
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) facets[soup.patch[f]].push_back(soup.facets[f]);
+    bool is_any_out = false, is_any_in = false;
+    for (const auto& own : facets) {
+        const double volume = own.empty() ? 0 : enclosed_volume(soup.vertices, own);
+        is_any_out |= volume > 0;
+        is_any_in |= volume < 0;
+    }
+    return !is_any_out || !is_any_in;
+}
+
 // Whether each body is there, closed, and everywhere the right way round or everywhere inside out; two or more.
 bool name_by_bodies(const Soup& soup, const std::vector<std::int32_t>& body_of_patch,
                     const std::vector<std::string>& names, DividedSpace& space) {
@@ -103,10 +117,11 @@ bool name_by_bodies(const Soup& soup, const std::vector<std::int32_t>& body_of_p
             std::int32_t& region = space.region_of_cell[c];
             if (region < 0 || std::abs(volume[b]) < std::abs(volume[region])) region = b;
         }
+    std::vector<char> is_seen(facets.size(), 0);
+    for (const std::int32_t region : space.region_of_cell)
+        if (region >= 0) is_seen[region] = 1;
     for (std::size_t b = 0; b < facets.size(); ++b)  // one that others hide is a mistake
-        if (!facets[b].empty() && std::find(space.region_of_cell.begin(), space.region_of_cell.end(),
-                                            static_cast<std::int32_t>(b)) == space.region_of_cell.end())
-            return false;
+        if (!facets[b].empty() && is_seen[b] == 0) return false;
     space.names = names;
     const auto& sides = space.cells.sides;
     return std::none_of(sides.begin(), sides.end(), [&](const FacetSides& s) {
@@ -208,15 +223,13 @@ void name_other_cells(Soup& soup, const CellLocator& locator, DividedSpace& spac
                                     "point of the region. Leave one of them out, or close the wall.",
                                     place_text(hole), space.names[region]));
     }
-    const auto is_taken = [&](const std::string& name) {
-        return std::find(space.names.begin(), space.names.end(), name) != space.names.end();
-    };
+    const std::set<std::string> taken(space.names.begin(), space.names.end());
     std::vector<std::string> added;
     int number = 0;
     for (std::int32_t c = 0; c < space.cells.count; ++c) {
         if (is_hole[c] || space.region_of_cell[c] >= 0) continue;
         do ++number;
-        while (is_taken(fmt::format("cell_{}", number)));
+        while (taken.contains(fmt::format("cell_{}", number)));
         added.push_back(fmt::format("cell_{}", number));
         space.region_of_cell[c] = static_cast<std::int32_t>(space.names.size());
         space.names.push_back(added.back());
@@ -344,6 +357,29 @@ bool find_given_bodies(Soup& soup, const std::vector<std::int32_t>& body_of_patc
     if (!name_by_patches(soup, *space) && !name_by_bodies(soup, body_of_patch, names, *space)) return false;
     give_sides(soup, std::move(*space));
     return true;
+}
+
+bool find_nested_bodies(Soup& soup, const std::vector<std::int32_t>& body_of_facet,
+                        const std::vector<std::string>& names) {
+    if (!soup.sides.empty()) return false;
+    Soup bodies = soup;
+    bodies.patch = body_of_facet;
+    bodies.patch_names = names;
+    std::optional<DividedSpace> space = divide_space(bodies);
+    if (!space || !name_by_patches(bodies, *space) || !has_wall(*space) || !are_turned_alike(bodies)) return false;
+    give_sides(soup, std::move(*space));
+    return true;
+}
+
+std::vector<Vec3> holes_outside(const Soup& soup) {
+    if (soup.holes.empty()) return {};
+    const std::optional<DividedSpace> space = divide_space(soup);
+    if (!space) return {};
+    const CellLocator locator(soup.vertices, space->single.facets, space->cells);
+    std::vector<Vec3> outside;
+    for (const Vec3& hole : soup.holes)
+        if (locator.find(hole).value_or(0) < 0) outside.push_back(hole);
+    return outside;
 }
 
 bool fill_voids(Soup& soup) {

@@ -50,6 +50,14 @@ bool find_touching_bodies(Soup& soup);
 bool find_given_bodies(Soup& soup, const std::vector<std::int32_t>& body_of_patch,
                        const std::vector<std::string>& names);
 
+/// Bodies that are turned alike, as GivenBodies has them, one inside of another: the inner one is cut out of the outer
+/// one. False, too, if none lies in another one.
+bool find_nested_bodies(Soup& soup, const std::vector<std::int32_t>& body_of_facet,
+                        const std::vector<std::string>& names);
+
+/// Those of Soup::holes around which no facets close, so that they make no void. Empty where facets do not conform.
+std::vector<Vec3> holes_outside(const Soup& soup);
+
 /// Makes bounded cells that are no region regions, called "void_1", "void_2", ... A soup without sides must be closed;
 /// what is inside of an odd number of its shells becomes the region "body" then, or "body_1", ...
 bool fill_voids(Soup& soup);

@@ -1,5 +1,6 @@
 // What becomes of facets that do not say what they bound.
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +70,57 @@ TEST(RegionInput, BodiesApartAreOneAsEver) {
     const Input input = input_with(soup);
     EXPECT_TRUE(input.regions.empty());
     EXPECT_EQ(input.components, 2);
+}
+
+// Bodies of one name each, one inside of the other, turned alike: neither is a void, and none is lost.
+TEST(RegionInput, NamedBodiesInsideOfOthersAreRegions) {
+    for (const bool is_turned : {false, true}) {
+        SCOPED_TRACE(is_turned);
+        Soup soup = test::join(test::box(Vec3(0, 0, 0), Vec3(5, 5, 5)), test::box(Vec3(1, 1, 1), Vec3(4, 4, 4)));
+        soup = test::join(soup, test::box(Vec3(2, 2, 2), Vec3(3, 3, 3)));
+        for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+            soup.patch[f] = static_cast<std::int32_t>(f / 12);
+            if (is_turned) std::swap(soup.facets[f][1], soup.facets[f][2]);
+        }
+        soup.patch_names = {"skull", "brain", "core"};
+        const Input input = input_with(soup);
+        EXPECT_EQ(names_of(input), (std::vector<std::string>{"skull", "brain", "core"}));
+        ASSERT_EQ(input.regions.size(), 3U);
+        EXPECT_EQ(input.regions[0].volume, 125 - 27);
+        EXPECT_EQ(input.regions[1].volume, 27 - 1);
+        EXPECT_EQ(input.regions[2].volume, 1);
+        EXPECT_EQ(input.facets, 36);
+        // One name for two shells, or one of three that is turned against the others, leaves the choice to the user.
+        Soup unnamed = soup;
+        unnamed.patch.assign(36, 0);
+        unnamed.patch_names = {"all"};
+        EXPECT_GT(check_soup(unnamed, {}).diagnosis.count(DefectKind::ambiguous_shell), 0);
+        Soup mixed = soup;
+        for (std::size_t f = 24; f < 36; ++f) std::swap(mixed.facets[f][1], mixed.facets[f][2]);
+        EXPECT_EQ(check_soup(mixed, {}).diagnosis.count(DefectKind::ambiguous_shell), 1);
+    }
+}
+
+// A point around which no facets close makes no void, which is said.
+TEST(RegionInput, HolePointsOutsideAreNamed) {
+    Soup soup = test::join(test::box(Vec3(0, 0, 0), Vec3(3, 3, 3)), test::box(Vec3(1, 1, 1), Vec3(2, 2, 2)));
+    soup.holes = {Vec3(9, 9, 9), Vec3(1.5, 1.5, 1.5)};
+    const CheckedSoup checked = check_soup(soup, {});
+    EXPECT_TRUE(checked.diagnosis.clean());
+    ASSERT_EQ(checked.soup.notes.size(), 1U);
+    EXPECT_NE(checked.soup.notes[0].find("(9, 9, 9) of a hole lies outside"), std::string::npos);
+}
+
+// TetGen's bound of the cells of a region counts where it is the only one, too.
+TEST(RegionInput, BoundsOfPointsCountInOneBody) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("one.poly");
+    std::ofstream(path) << "8 3\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n6 0\n"
+                           "1\n4 1 4 3 2\n1\n4 5 6 7 8\n1\n4 1 2 6 5\n1\n4 2 3 7 6\n1\n4 3 4 8 7\n1\n4 4 1 5 8\n"
+                           "0\n1\n1 0.5 0.5 0.5 1 0.001\n";
+    const Input input = read_input(path, {});
+    EXPECT_EQ(input.complex.region_count(), 1);
+    EXPECT_EQ(max_volumes_of_regions({}, input), std::vector<double>{0.001});
 }
 
 TEST(RegionInput, PointsNameRegionsInUnitsAfterScaling) {
