@@ -8,7 +8,6 @@
 
 #include "core/check.h"
 #include "geometry/union_find.h"
-#include "surface/edge_corners.h"
 #include "surface/wall_mismatch.h"
 
 namespace kerf {
@@ -23,19 +22,44 @@ struct OwnSoup {
     std::vector<std::int32_t> facet_number, vertex_number;
 };
 
-OwnSoup soup_of_body(const Soup& all, const GivenBodies& bodies, std::int32_t body) {
-    OwnSoup own;
-    own.soup.patch_names = all.patch_names;
-    own.soup.unfit_polygons = all.unfit_polygons;
+std::vector<std::vector<std::int32_t>> facets_of_bodies(const GivenBodies& bodies) {
+    std::vector<std::vector<std::int32_t>> facets(bodies.names.size());
+    for (std::size_t f = 0; f < bodies.of_facet.size(); ++f)
+        facets[bodies.of_facet[f]].push_back(static_cast<std::int32_t>(f));
+    return facets;
+}
+
+// Those of its own, by ascending numbers: there may be as many bodies as patches.
+void take_own_patches(const Soup& all, Soup& own) {
+    std::vector<std::int32_t> used = own.patch;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::int32_t patch : used) own.patch_names.push_back(all.patch_names[patch]);
+    for (std::int32_t& patch : own.patch)
+        patch = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), patch) - used.begin());
+}
+
+void take_own_unfit_polygons(const Soup& all, Soup& own) {
+    if (all.unfit_polygons.empty()) return;
+    for (const std::int32_t polygon : own.polygon)
+        if (std::binary_search(all.unfit_polygons.begin(), all.unfit_polygons.end(), polygon))
+            own.unfit_polygons.push_back(polygon);
+    std::sort(own.unfit_polygons.begin(), own.unfit_polygons.end());
+    own.unfit_polygons.erase(std::unique(own.unfit_polygons.begin(), own.unfit_polygons.end()),
+                             own.unfit_polygons.end());
+}
+
+OwnSoup soup_of_body(const Soup& all, std::vector<std::int32_t> facets) {
+    OwnSoup own{{}, std::move(facets), {}};
     own.soup.holes = all.holes;
-    for (std::size_t f = 0; f < all.facets.size(); ++f) {
-        if (bodies.of_facet[f] != body) continue;
-        own.facet_number.push_back(static_cast<std::int32_t>(f));
+    for (const std::int32_t f : own.facet_number) {
         own.soup.facets.push_back(all.facets[f]);
         own.soup.patch.push_back(all.patch[f]);
         if (!all.polygon.empty()) own.soup.polygon.push_back(all.polygon[f]);
         own.vertex_number.insert(own.vertex_number.end(), all.facets[f].begin(), all.facets[f].end());
     }
+    take_own_patches(all, own.soup);
+    take_own_unfit_polygons(all, own.soup);
     std::vector<std::int32_t>& used = own.vertex_number;
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -88,16 +112,21 @@ void add_mismatch(Diagnosis& diagnosis, const WallMismatch& mismatch, Severity s
 }  // namespace
 
 GivenBodies closed_patches(const Soup& soup) {
-    const std::size_t count = soup.patch_names.size();
-    std::vector<std::vector<Triangle>> facets(count);
-    for (std::size_t f = 0; f < soup.facets.size(); ++f)
-        if (const auto& [a, b, c] = soup.facets[f]; a != b && b != c && c != a)
-            facets[soup.patch[f]].push_back(soup.facets[f]);
-    if (std::count_if(facets.begin(), facets.end(), [](const auto& own) { return !own.empty(); }) < 2) return {};
-    bool is_closed = true;
-    for (std::size_t p = 0; p < count && is_closed; ++p)
-        EdgeCorners(facets[p]).for_each_edge([&](std::int32_t, auto corners) { is_closed &= corners.size() % 2 == 0; });
-    return is_closed ? GivenBodies{soup.patch, soup.patch_names} : GivenBodies{};
+    std::vector<std::pair<std::int32_t, UndirectedEdge>> edges;  // with their patches, once for each facet
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const auto& [a, b, c] = soup.facets[f];
+        if (a == b || b == c || c == a) continue;
+        for (const UndirectedEdge& edge : {undirected(a, b), undirected(b, c), undirected(c, a)})
+            edges.emplace_back(soup.patch[f], edge);
+    }
+    std::sort(edges.begin(), edges.end());
+    if (edges.empty() || edges.front().first == edges.back().first) return {};
+    for (auto edge = edges.begin(); edge != edges.end();) {
+        const auto next = std::find_if(edge, edges.end(), [&](const auto& other) { return other != *edge; });
+        if ((next - edge) % 2 != 0) return {};
+        edge = next;
+    }
+    return {soup.patch, soup.patch_names};
 }
 
 GivenBodies separate_patches(const Soup& soup) {
@@ -117,9 +146,10 @@ GivenBodies separate_patches(const Soup& soup) {
 Diagnosis diagnose_bodies(const Soup& soup, const GivenBodies& bodies, const DiagnosisOptions& options) {
     KERF_CHECK(bodies.of_facet.size() == soup.facets.size());
     Diagnosis all;
+    std::vector<std::vector<std::int32_t>> facets_of = facets_of_bodies(bodies);
     for (std::size_t b = 0; b < bodies.names.size(); ++b) {
-        const OwnSoup own = soup_of_body(soup, bodies, static_cast<std::int32_t>(b));
-        if (own.soup.facets.empty()) continue;
+        if (facets_of[b].empty()) continue;
+        const OwnSoup own = soup_of_body(soup, std::move(facets_of[b]));
         append_diagnosis(all, diagnose(own.soup, options), own, bodies.names[b], soup.facets.size());
     }
     if (all.clean()) {
