@@ -103,8 +103,39 @@ std::string_view body_of(std::string_view bytes, Reader read) {
     return may_be_binary ? bytes : without_padding(bytes);
 }
 
+// Whether a line begins so.
+bool has_line(std::string_view bytes, std::string_view begin) {
+    for (std::size_t at = bytes.find(begin); at != bytes.npos; at = bytes.find(begin, at + 1))
+        if (at == 0 || bytes[at - 1] == '\n' || bytes[at - 1] == '\r') return true;
+    return false;
+}
+
+// Input of NASTRAN, whose comments begin as the sections of Gmsh's files do.
+bool is_nastran(std::string_view bytes) {
+    constexpr std::size_t longest_head = 65536;
+    const std::string_view head = bytes.substr(0, longest_head);
+    if (has_line(head, "$MeshFormat") || has_line(head, "$NOD")) return false;
+    return has_line(head, "BEGIN BULK") || has_line(head, "GRID") || has_line(head, "CTRIA3") || has_line(head, "CEND");
+}
+
+// Formats of meshes that are known, but not read. Others would be refused for what their bytes look like.
+void refuse_foreign(std::string_view bytes, const std::string& path) {
+    const auto refuse = [&](const char* format) {
+        throw Error(ErrorCode::input, path + ": this is " + format +
+                                          ", which cannot be read here. Convert it to VTK's .vtu or Gmsh's .msh, for "
+                                          "example with meshio convert, or export the surface as STL, OBJ or PLY.");
+    };
+    if (bytes.starts_with("\x89HDF\r\n"))
+        refuse(name_in_archive(path).ends_with(".med") ? "a MED file of Salome (HDF5)" : "an HDF5 file");
+    if (bytes.starts_with("# vtk DataFile")) refuse("a file of VTK's older format (.vtk)");
+    if (is_nastran(bytes)) refuse("input of NASTRAN");
+    for (const char* keyword : {"*HEADING", "*Heading", "*heading", "*NODE", "*Node", "*node"})
+        if (bytes.starts_with(keyword)) refuse("input of Abaqus");
+}
+
 Reader recognise(std::string_view bytes, const std::string& path) {
     if (is_binary_stl(bytes)) return read_stl;
+    refuse_foreign(bytes, path);
     if (is_utf16(bytes)) throw Error(ErrorCode::input, path + ": the text is UTF-16. Save it as ASCII or UTF-8.");
     const std::string_view word = first_word(bytes, path);
     if (word == "ply") return read_ply;

@@ -654,6 +654,24 @@ TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
     EXPECT_EQ(soup.notes, (std::vector<std::string>{"1 pyramid was ignored.", "2 tetrahedra were ignored."}));
 }
 
+TEST(SurfaceReader, NamesFormatsThatItDoesNotRead) {
+    const std::string hdf5("\x89HDF\r\n\x1a\n\0\0\0\0\0\0\0\0", 16), vtk = "# vtk DataFile Version 3.0\na cube\n";
+    const std::vector<std::array<std::string, 3>> cases = {
+        {hdf5, ".h5", "this is an HDF5 file"},
+        {hdf5, ".med", "this is a MED file"},
+        {vtk + "ASCII\nDATASET POLYDATA\n", ".vtk", "VTK's older format"},
+        {vtk + "BINARY\nDATASET POLYDATA\nPOINTS 1 float\n" + std::string(12, '\0'), ".vtk", "VTK's older format"},
+        {"$ a comment\nSOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", ".bdf", "input of NASTRAN"},
+        {"GRID           1              0.      0.      0.\n", ".nas", "input of NASTRAN"},
+        {"*HEADING\n*NODE\n1, 0, 0, 0\n", ".inp", "input of Abaqus"}};
+    for (const auto& [bytes, ending, sentence] : cases) {
+        const std::string message = message_of(bytes, ending);
+        EXPECT_NE(message.find(sentence), std::string::npos) << message;
+        EXPECT_NE(message.find("Convert it to"), std::string::npos) << message;
+    }
+    EXPECT_EQ(read_bytes("$Comments\nGRID\n$EndComments\n" + to_msh(box(), {})).facets.size(), 12u);
+}
+
 TEST(SurfaceReader, NotesPolygonsThatNoFanCovers) {
     const std::string triangle = "f 1 2 3\n";
     const std::vector<std::string> unfit = {
