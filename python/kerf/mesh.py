@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +17,7 @@ from .options import refuse_in_memory, split
 from .progress import Progress, caller
 from .quality import Quality
 from .sizes import Size, split_size
-from .surface import Path, Surface, read
+from .surface import Path, Surface, read, with_others
 
 if TYPE_CHECKING:
     import meshio
@@ -175,26 +175,26 @@ class Mesh:
 
 
 @overload
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, output: None = None, comm: None = None, **options: object) -> Mesh: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, *, output: Path, comm: None = None, **options: object) -> Run: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, output: Optional[Path] = None, *, comm: Comm, **options: object) -> DistributedMesh: ...
 
 
-def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
          workers: int = 0, output: Optional[Path] = None, comm: Optional[Comm] = None,
          **options: object) -> Union[Mesh, Run, DistributedMesh]:
     """The mesh of a surface, or of a file.
 
-    surface    a Surface, or the path of a file; `with_` names others, whose bodies are meshed with its own
+    surface    a Surface, or the path of a file, or a list of several, a region each, as on the command line
     parts      into which the surface is cut; 0: as many as are of use here
     size       wanted edge length, in units of the surface; a text with a share of the diagonal, as "2%"; a function
                of points (n, 3) that returns lengths (n,), see sample_sizes(); a SizeField; 0: none
@@ -210,6 +210,8 @@ def mesh(surface: Union[Surface, Path], /, parts: int = 0, size: Size = 0, progr
     The result depends on the surface and the options alone. Raises UsageError, InputError, MeshingError, OutOfMemory,
     FileError, Cancelled; KeyboardInterrupt ends the workers.
     """
+    if not isinstance(surface, Surface):
+        surface, options = with_others(surface, options)
     if comm is not None:
         from .distributed import mesh_on_ranks
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,17 @@ def encoded(path: Path) -> bytes:
     if b"\0" in name:
         raise ValueError("The path has a character NUL in it.")
     return name
+
+
+def with_others(path: Union[Path, Sequence[Path]], options: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
+    """The first of several files, and the options with the others in `with_`, as the command line has them."""
+    if not isinstance(path, (list, tuple)):
+        return path, options
+    if not path:
+        raise ValueError("The list of files is empty.")
+    others = [os.fspath(other) for other in path[1:]]
+    given = options.get("with_", [])
+    return path[0], {**options, "with_": others + ([given] if isinstance(given, (str, os.PathLike)) else list(given))}
 
 
 def encoded_names(what: str, names: Optional[Sequence[str]]) -> Optional[list[bytes]]:
@@ -224,15 +235,17 @@ class Surface:
         return html_of(self, "kerf.Surface", rows, len(self.triangles))
 
 
-def read(path: Path, **options: object) -> Surface:
+def read(path: Union[Path, Sequence[Path]], **options: object) -> Surface:
     """The surface of a file of any format that `kerf mesh` reads: STL, OBJ, PLY, OFF, MSH, MEDIT, VTU, .poly, 3MF, CAD.
 
+    path       of the file; of several, as a list, each is a region
     options    those of the surface: scale, weld, fill_holes, keep_largest, voids, unit, ...: kerf.options() lists them;
-               with_=["other.stl"] reads other files, too: a region each
+               with_=["other.stl"] reads other files, too
 
     Raises FileError if it cannot be opened, UsageError for options, and InputError as Surface() does.
     """
-    return Surface._of(_kerf.read(encoded(path), **options))
+    first, options = with_others(path, options)
+    return Surface._of(_kerf.read(encoded(first), **options))
 
 
 def repair(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLike] = None,

@@ -32,6 +32,19 @@ def cube_in_cube(turned):
     return np.vstack([P, inner]), np.vstack([T, triangles + 8])
 
 
+def test_of_a_list_of_files_each_is_a_region(tmp_path):
+    paths = [tmp_path / "steel.stl", str(tmp_path / "copper.stl"), tmp_path / "tin.stl"]
+    for i, path in enumerate(paths):
+        kerf.Surface(P + [2 * i, 0, 0], T).save(path)
+    assert list(kerf.read(paths).regions) == ["steel", "copper", "tin"]
+    assert list(kerf.read(tuple(paths[:2]), with_=[str(paths[2])]).regions) == ["steel", "copper", "tin"]
+    assert kerf.read(paths[:1]).regions == kerf.read(paths[0]).regions
+    mesh = kerf.mesh(paths[:2], parts=2, workers=1)
+    assert list(mesh.region_names) == ["steel", "copper"]
+    with pytest.raises(ValueError):
+        kerf.mesh([])
+
+
 # --- what it measures
 
 def moments_of_cells(mesh):
