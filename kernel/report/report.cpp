@@ -11,6 +11,7 @@
 #include "core/number_text.h"
 #include "core/words.h"
 #include "repair/repair_step.h"
+#include "report/exceeded_bounds.h"
 
 namespace kerf {
 
@@ -123,6 +124,17 @@ std::string forced_text(const ForcedDistributions& angles, bool always) {
                                          forced.count() == 1 ? "" : "s", forced.min());
     if (others.count() == 0) return text;
     return text + fmt::format("; others min {:.1f}, 1 % {:.1f}", others.min(), others.percentile(0.01));
+}
+
+// Bounds that were missed: that of volumes, which nobody has who does not ask for it, and a ratio that is not the usual
+// one, which cells at sharp places exceed in every mesh.
+std::vector<ExceededBound> told_bounds(const RunReport& report, bool all) {
+    std::vector<ExceededBound> bounds = exceeded_bounds(report);
+    if (!all)
+        std::erase_if(bounds, [](const ExceededBound& each) {
+            return std::string_view(each.option) == "radius-edge" && each.bound == MesherOptions{}.radius_edge;
+        });
+    return bounds;
 }
 
 // Where the seconds went.
@@ -300,6 +312,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                      dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
     lines.add("forced", forced_text(report.quality.angles, all));
+    lines.add("bounds", exceeded_text(told_bounds(report, all)));
     if (report.curve) lines.add("curved", curve_text(*report.curve));
 }
 

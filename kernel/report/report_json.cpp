@@ -11,6 +11,7 @@
 #include "io/path_text.h"
 #include "quality/quality_json.h"
 #include "report/cut_json.h"
+#include "report/exceeded_bounds.h"
 #include "report/recovery_json.h"
 #include "report/repair_json.h"
 #include "report/report.h"
@@ -254,6 +255,14 @@ Json sizes_json(const RunReport& report) {
             {"patches", patches}};
 }
 
+Json bounds_json(const RunReport& report) {
+    Json json = Json::array();
+    for (const ExceededBound& each : exceeded_bounds(report))
+        json.push_back(
+            {{"option", each.option}, {"bound", each.bound}, {"tets", each.cells}, {"largest", each.largest}});
+    return json;
+}
+
 Json cells_json(const RunReport& report) {
     if (!report.found_size) return nullptr;
     const FoundSize& found = *report.found_size;
@@ -315,6 +324,7 @@ std::string to_json(const RunReport& report) {
                  {"totals", totals_json(report)},
                  {"quality", quality_json(report.quality)},
                  {"forced", forced_json(report.quality.angles)},
+                 {"bounds", bounds_json(report)},
                  {"improvement",
                   improvement_json(report.improvement, {report.improvement, report.quality}, report.improve_seconds)},
                  {"cells", cells_json(report)},
