@@ -14,6 +14,7 @@
 
 #include "core/host_name.h"
 #include "core/stopwatch.h"
+#include "core/thread_limit.h"
 #include "io/output_file.h"
 #include "io/stl_writer.h"
 #include "io/text_file.h"
@@ -345,6 +346,7 @@ RunReport empty_report(const RunContext& run) {
 
 RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input, RunListener* listener) {
     const Stopwatch whole;
+    const ThreadLimitGuard limit;  // the plan sets one
     const RunPlan plan = plan_run(request, cores_of_rank, ranks, input, listener);
     const RunOptions& options = plan.options;
     const RunContext run{options, ranks, input, listener, plan.found_size, plan.surface_nodes};

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/out_of_memory.h"
+#include "core/thread_limit.h"
 
 namespace kerf {
 namespace {
@@ -87,6 +88,26 @@ TEST(OutOfMemory, ComesInThreeShapes) {
     EXPECT_TRUE(is_out_of_memory(error(std::errc::not_enough_memory)));
     EXPECT_FALSE(is_out_of_memory(error(std::errc::no_such_file_or_directory)));
     EXPECT_FALSE(is_out_of_memory(std::runtime_error("memory")));
+}
+
+TEST(Threads, ALimitOfACallEndsWithIt) {
+    const int before = detail::spare_threads();
+    for (const int threads : {1, 2, 7}) {
+        const ThreadLimitGuard guard;
+        set_thread_limit(threads);
+        EXPECT_EQ(detail::spare_threads(), threads - 1);
+        const ThreadLimitGuard inner;
+        set_thread_limit(threads + 1);
+    }
+    EXPECT_EQ(detail::spare_threads(), before);
+    EXPECT_THROW(
+        {
+            const ThreadLimitGuard guard;
+            set_thread_limit(3);
+            throw 1;
+        },
+        int);
+    EXPECT_EQ(detail::spare_threads(), before);
 }
 
 }  // namespace
