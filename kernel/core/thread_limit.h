@@ -5,8 +5,8 @@
 
 namespace kerf {
 
-/// Gives back, when it ends, the limit that was there before: what set_thread_limit() says meanwhile counts for one call
-/// in a process that makes others. Not while a loop runs, neither its beginning nor its end.
+/// Gives back, when it ends, the limit that was there before: what set_thread_limit() says meanwhile counts for one
+/// call in a process that makes others. Not while a loop runs, neither its beginning nor its end.
 class ThreadLimitGuard {
  public:
     ThreadLimitGuard() = default;
