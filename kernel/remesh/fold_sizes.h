@@ -11,9 +11,6 @@
 
 namespace kerf {
 
-/// What walls may ask for, by what the surface may deviate.
-constexpr double shortest_on_walls(double deviation) { return 0.75 * deviation; }
-
 struct FoldSizeOptions {
     double longest = 0;                                       ///< anywhere, > 0
     double shortest = 0;                                      ///< that folds may ask for

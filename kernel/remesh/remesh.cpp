@@ -29,12 +29,10 @@ constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the resul
 constexpr double same_volume = 5e-5;        // of a region, before and after: nothing is to be restored
 constexpr int most_restorations = 6;
 constexpr double needle_sine = 0.3, needle_share = 0.7;  // of a facet after a move, and of what it was before
-constexpr int most_rounds_for_volume = 2;  // with smaller tolerances, because volumes were not restored
+constexpr int most_rounds_for_volume = 2;                // with smaller tolerances, because volumes were not restored
 constexpr double smaller_for_volume = 0.5;
-constexpr double area_per_squared_length = 0.342;  // of a facet, and of the length wanted there; measured
 
-// Walls ask for this many facets, about, or for so many edges across them.
-constexpr double most_facets_on_walls = 2e6, least_edges_per_thickness = 0.1;
+constexpr double most_facets_on_walls = 1.5e6;
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
     std::vector<InputPlace> places;
@@ -85,16 +83,12 @@ Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const Toler
     return {with_seams_joined(edited.arrays()), {}, report};
 }
 
-// Facets of a very thin body that are as small as it is thick would be too many.
-double affordable_edges_per_thickness(const SurfaceArrays& surface, const TriangleTree& tree,
-                                      const RemeshOptions& options) {
-    const double wanted = options.edges_per_thickness;
-    if (wanted == 0) return 0;
-    const double facets = sum_of_squares_on_walls(surface, Thickness(surface, tree, options.walls),
-                                                  {wanted, shortest_on_walls(options.deviation), options.longest}) /
-                          area_per_squared_length;
-    return std::clamp(wanted * std::sqrt(most_facets_on_walls / facets), std::min(wanted, least_edges_per_thickness),
-                      wanted);
+void afford_walls(const SurfaceArrays& surface, const TriangleTree& tree, RemeshOptions& options) {
+    const WallEdges wanted = {options.edges_per_thickness, shortest_on_walls(options), options.longest};
+    const WallEdges edges =
+        affordable_edges(surface, Thickness(surface, tree, options.walls), wanted, most_facets_on_walls);
+    options.edges_per_thickness = edges.per_thickness;
+    options.shortest_on_walls = edges.shortest;
 }
 
 void check_remesh_options(const RemeshOptions& options, std::size_t facets) {
@@ -181,6 +175,10 @@ void restore_volumes_within_bound(const SurfaceArrays& surface, const TriangleTr
 
 }  // namespace
 
+double shortest_on_walls(const RemeshOptions& options) {
+    return options.shortest_on_walls > 0 ? options.shortest_on_walls : 0.75 * options.deviation;
+}
+
 double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& options) {
     check_remesh_options(options, surface.facets.size());
     double facets = 0;
@@ -200,7 +198,7 @@ double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& option
             ++samples;
         });
         const double area = triangle_area(p, t);
-        facets += area / area_per_squared_length * density / samples;
+        facets += area / facet_area_per_squared_length * density / samples;
     }
     return facets;
 }
@@ -213,7 +211,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
         find_tolerances(surface, tree, {used_share * options.deviation, used_share * options.share_of_thickness},
                         options.walls, CancellationCheck(options.poll));
     RemeshOptions own = options;
-    own.edges_per_thickness = affordable_edges_per_thickness(surface, tree, options);
+    afford_walls(surface, tree, own);
     int rounds_for_volume = 0;
     for (int round = 1;; ++round) {
         Remeshed result = remesh_once(sheets, tree, tolerances, own);

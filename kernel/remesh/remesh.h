@@ -19,12 +19,19 @@ struct RemeshOptions {
     std::vector<UndirectedEdge> creases = {};  ///< edges of the surface that stay edges, flat as they may be
     std::vector<char> kept = {};               ///< facets of the surface that stay as they are; empty: none
     double edges_per_thickness = 0.5;          ///< across thin walls; 0: they ask for nothing
+    double shortest_on_walls = 0;              ///< that these ask for; 0: three quarters of the deviation
     std::function<double(const Vec3&, std::int32_t)> wanted =
         {};                              ///< edge length at a point of a patch, if given: besides `longest`
     std::function<void()> poll = {};     ///< called every few milliseconds, if given; ends the work by what it throws
     std::vector<char> walls = {};        ///< facets of the surface that have a body on both sides; empty: none
     std::vector<FacetSides> sides = {};  ///< of patches: the regions beside them; empty: one, behind all facets
 };
+
+/// Of a facet, as a share of the square of the length that is wanted there; measured.
+inline constexpr double facet_area_per_squared_length = 0.342;
+
+/// The shortest edges that walls ask for.
+double shortest_on_walls(const RemeshOptions& options);
 
 /// Of the area of a surface, where its shape asks for smaller edges than `wanted` and `longest`, by what does.
 struct FinerShares {

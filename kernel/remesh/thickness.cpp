@@ -8,13 +8,16 @@
 #include <Eigen/Geometry>
 
 #include "geometry/triangle.h"
+#include "remesh/remesh.h"
 
 namespace kerf {
 
 namespace {
 
-constexpr double opposite_cosine = -0.1;       // of the normals of two sheets with a body or a gap between them
-constexpr int most_pieces_of_side = 64;        // of a side of a facet, for samples
+constexpr double opposite_cosine = -0.1;     // of the normals of two sheets with a body or a gap between them
+constexpr int most_pieces_of_side = 64;      // of a side of a facet, for samples
+constexpr double least_per_thickness = 0.1;  // before edges become longer than some walls ask for
+constexpr int most_steps_to_afford = 8;
 constexpr double samples_of_surface = 20'000;  // besides those that each facet has
 
 // The centres of the n^2 pieces that dividing the sides by n makes.
@@ -76,14 +79,33 @@ double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, 
     return std::numeric_limits<double>::infinity();
 }
 
-double sum_of_squares_on_walls(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& edges) {
+namespace {
+
+double facets_on_walls(const std::vector<ThicknessSample>& samples, const WallEdges& edges) {
     double sum = 0;
-    for (const ThicknessSample& s : sample_thickness(surface, thickness, edges.longest * edges.per_thickness)) {
-        const double edge =
-            std::clamp(s.thickness / edges.per_thickness, std::min(edges.shortest, edges.longest), edges.longest);
+    for (const ThicknessSample& s : samples) {
+        const double edge = std::min(std::max(s.thickness / edges.per_thickness, edges.shortest), edges.longest);
         sum += s.area / (edge * edge);
     }
-    return sum;
+    return sum / facet_area_per_squared_length;
+}
+
+}  // namespace
+
+WallEdges affordable_edges(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& wanted,
+                           double most) {
+    WallEdges edges = wanted;
+    if (edges.per_thickness == 0) return edges;
+    const auto samples = sample_thickness(surface, thickness, edges.longest * edges.per_thickness);
+    for (int step = 0; step < most_steps_to_afford; ++step) {
+        const double share = most / facets_on_walls(samples, edges);
+        if (share >= 1) break;
+        if (edges.per_thickness > least_per_thickness)
+            edges.per_thickness = std::max(edges.per_thickness * std::sqrt(share), least_per_thickness);
+        else
+            edges.shortest = std::min(edges.shortest / std::sqrt(share), edges.longest);
+    }
+    return edges;
 }
 
 }  // namespace kerf

@@ -33,8 +33,9 @@ class Thickness {
     std::vector<Vec3> normal_;
 };
 
+/// What thin walls ask for of the edges of a surface.
 struct WallEdges {
-    double per_thickness = 0;          ///< edges across the body, > 0
+    double per_thickness = 0;          ///< edges across the body; 0: nothing is asked for
     double shortest = 0, longest = 0;  ///< > 0
 };
 
@@ -50,7 +51,9 @@ std::vector<ThicknessSample> sample_thickness(const SurfaceArrays& surface, cons
 double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls,
                         double limit);
 
-/// The sum over the surface of area / edge^2, with edges as walls ask for them. O(#F log #F).
-double sum_of_squares_on_walls(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& edges);
+/// `wanted`, or fewer edges across walls, and longer ones, where the walls of a very thin body would ask for more than
+/// about `most` facets. O(#F log #F).
+WallEdges affordable_edges(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& wanted,
+                           double most);
 
 }  // namespace kerf

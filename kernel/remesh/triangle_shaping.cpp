@@ -57,7 +57,7 @@ class Shaping {
         sizes_.emplace(surface_, FoldSizeOptions{.longest = options_.longest,
                                                  .shortest = std::max(shortest_over_deviation * options_.deviation,
                                                                       shortest_over_longest * options_.longest),
-                                                 .thinnest = shortest_on_walls(options_.deviation),
+                                                 .thinnest = shortest_on_walls(options_),
                                                  .growth = options_.growth,
                                                  .edges_per_thickness = options_.edges_per_thickness,
                                                  .wanted = options_.wanted,
