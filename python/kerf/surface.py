@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,7 +34,7 @@ def encoded(path: Path) -> bytes:
 def with_others(path: Union[Path, Sequence[Path]], options: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
     """The first of several files, and the options with the others in `with_`, as the command line has them."""
     if not isinstance(path, (list, tuple)):
-        return path, options
+        return cast(Path, path), options
     if not path:
         raise ValueError("The list of files is empty.")
     others = [os.fspath(other) for other in path[1:]]

@@ -258,7 +258,9 @@ Damaged second_body_inside(Soup soup, std::mt19937& random) {
     const double edge = std::min({(p[a] - p[b]).norm(), (p[b] - p[c]).norm(), (p[c] - p[a]).norm()});
     const Vec3 centre = (p[a] + p[b] + p[c]) / 3 - small * edge * unit_normal(soup, facet);
     const auto first = static_cast<std::int32_t>(soup.facets.size());
+    const std::int32_t patch = soup.patch[facet];  // a name of its own would make it a region
     soup = join(std::move(soup), icosphere(0, 0.3 * small * edge, centre));
+    std::fill(soup.patch.begin() + first, soup.patch.end(), patch);
     const Triangle& t = soup.facets[first];
     return {soup, {{DefectKind::ambiguous_shell, Severity::error, {first}, {t.begin(), t.end()}}}};
 }
