@@ -257,8 +257,8 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      [](RunOptions& o) -> OptionField::Value { return surface_choice(o); }},
     {"deviation", "", option_group::input, "D",
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "
-     "twentieth of the shortest edge that is wanted, 0.05% if none is, a twentieth of the thickness if that is less; of "
-     "a wrap, a tenth of the gap if that is more. Volumes are held unless it is given.",
+     "twentieth of the shortest edge that is wanted, or 0.05% if none is; less where the body is thin; of a wrap, a "
+     "tenth of the gap if that is more. Volumes are held unless it is given.",
      place<&RunOptions::deviation>, true, deviation_range},
     {"order",
      "",
