@@ -154,6 +154,7 @@ void restore_volumes_within_bound(const SurfaceArrays& surface, const TriangleTr
         const std::vector<char> refused = inspect(surface, tree, options, moved, report);
         if (std::find(refused.begin(), refused.end(), char{1}) == refused.end()) {
             result.surface = std::move(moved);
+            result.places = places_on(tree, result.surface.vertices);
             result.report = report;
             result.report.volume_difference = volume_difference(surface, result.surface, options.sides);
             return;

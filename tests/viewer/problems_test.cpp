@@ -41,7 +41,8 @@ TEST(Problems, EveryOptionThatARemedyNamesIsAdvised) {
             EXPECT_EQ(advised, named) << text;
             all.merge(named);
         }
-    EXPECT_EQ(all, (std::set<std::string>{"fill-holes", "keep-largest", "repair", "surface", "voids", "weld"}));
+    EXPECT_EQ(all, (std::set<std::string>{"fill-holes", "fill-voids", "keep-largest", "region", "repair", "surface",
+                                          "voids", "weld"}));
 }
 
 TEST(Problems, BodiesThatNearlyTouchAreWeldedByALittleMoreThanTheirDistance) {
