@@ -45,7 +45,8 @@ constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
     {"inverted shell", "nothing needs to be done, it is turned"},
     {"ambiguous shell",
      "make it a void with --voids parity, a region with --fill-voids, or one with a name by --region NAME=x,y,z with a "
-     "point in it and one for what is around it; a copy that is not wanted goes with --keep-largest",
+     "point in it and one for what is around it; unite it with the other by --repair intersections, or keep the "
+     "largest alone with --keep-largest",
      "nothing needs to be done, it is made a void"},
     {"touching shell",
      "unite the bodies, as --repair intersections does, move them apart, or leave all out but the largest with "
