@@ -33,7 +33,7 @@ void for_each_piece(const Vec3& a, const Vec3& b, const Vec3& c, int n, Visit vi
 }  // namespace
 
 Thickness::Thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls)
-    : surface_(surface), tree_(tree), walls_(walls) {
+    : tree_(tree), walls_(walls) {
     for (const Triangle& t : surface.facets) normal_.push_back(doubled_area_vector(surface.vertices, t).normalized());
 }
 

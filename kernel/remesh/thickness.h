@@ -13,7 +13,7 @@ namespace kerf {
 /// counts whichever way it faces.
 class Thickness {
  public:
-    /// Keeps the references; `tree` is of the facets of `surface`. `walls` (#F): the facets that have a body on both
+    /// Keeps `tree`, of the facets of `surface`, and `walls`. `walls` (#F): the facets that have a body on both
     /// sides; empty: none. O(#F).
     Thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls);
 
@@ -27,7 +27,6 @@ class Thickness {
     bool are_opposite(std::int32_t f, std::int32_t g) const;
 
  private:
-    const SurfaceArrays& surface_;
     const TriangleTree& tree_;
     const std::vector<char>& walls_;
     std::vector<Vec3> normal_;
