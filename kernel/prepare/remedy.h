@@ -25,7 +25,7 @@ struct Remedy {
 /// much already, and checks it; with shells inside of others as voids, first, where it is not clear what these are.
 /// None: coordinates are too large to compute with. Of surfaces of more facets than `most_tried`, or of so many
 /// crossings as `most_crossings_tried`, only the kinds of defects decide. `checked`: of the file with `options`, not
-/// clean. Costs up to three times check_input() with repairs.
+/// clean. Costs up to six times check_input() with repairs.
 std::optional<Remedy> find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
                                   StageListener* listener = nullptr);
 

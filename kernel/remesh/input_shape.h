@@ -35,8 +35,8 @@ class InputShape {
     std::int32_t patch(std::int32_t facet) const { return sheets_.surface.patch[facet]; }
     bool is_wall(std::int32_t facet) const { return !walls_.empty() && walls_[facet] != 0; }
     double tolerance(std::int32_t facet) const { return tolerances_.of_facet[facet]; }
-    /// What the thickness there allows, of largest_tolerance(): 1 where the body is thick. Sizes and flat regions,
-    /// which follow from the largest tolerance elsewhere, are smaller by that.
+    /// What the thickness there allows, of largest_tolerance(): 1 where the body is thick. Flat regions, which follow
+    /// from the largest tolerance elsewhere, are flatter by that.
     double share_by_thickness(std::int32_t facet) const {
         return std::min(1.0, tolerances_.by_thickness[facet] / largest_tolerance_);
     }

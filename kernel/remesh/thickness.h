@@ -13,8 +13,8 @@ namespace kerf {
 /// counts whichever way it faces.
 class Thickness {
  public:
-    /// Keeps `tree`, of the facets of `surface`, and `walls`. `walls` (#F): the facets that have a body on both
-    /// sides; empty: none. O(#F).
+    /// Keeps `tree`, of the facets of `surface`, and `walls` (#F): the facets that have a body on both sides; empty:
+    /// none. O(#F).
     Thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls);
 
     /// Of the body behind facet `f` at its point `p`; of a wall, of the thinner of both bodies. Infinity where it is
@@ -51,7 +51,8 @@ double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, 
                         double limit);
 
 /// `wanted`, or fewer edges across walls, and longer ones, where the walls of a very thin body would ask for more than
-/// about `most` facets. O(#F log #F).
+/// about `most` facets. Once edges are ten times as long as a wall is thick, only the shortest become longer, a few
+/// times, so that there may be more than that. O(#F log #F).
 WallEdges affordable_edges(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& wanted,
                            double most);
 
