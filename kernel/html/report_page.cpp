@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -17,35 +16,17 @@
 #include "html/page_files.h"
 #include "html/page_surface.h"
 #include "io/compressed.h"
-#include "io/file_bytes.h"
 #include "io/json.h"
+#include "io/listed_files.h"
 #include "io/run_folder.h"
-#include "io/run_manifest.h"
+#include "part/part_ranges.h"
 #include "part/vtu_reader.h"
 
 namespace kerf {
 
 namespace {
 
-namespace fs = std::filesystem;
 using PageJson = nlohmann::ordered_json;
-
-PageJson read_sealed_report(const std::string& folder) {
-    const std::string path = folder + "/report.json";
-    std::error_code ignored;
-    if (!fs::exists(path, ignored))
-        throw Error(ErrorCode::io,
-                    fmt::format("{} is not a finished run: it holds no report.json. Name the folder that kerf mesh -o "
-                                "was given; a run that has not ended goes on by kerf mesh --resume {}.",
-                                folder, folder));
-    const std::string text = read_file(path);
-    if (!is_sealed(text))
-        throw Error(ErrorCode::io,
-                    fmt::format("{} is not as Kerf has written it, so that nobody knows what of it is true. Copy the "
-                                "run again, or run kerf mesh again.",
-                                path));
-    return parse_ordered_json(text);
-}
 
 template <std::size_t count>
 PageJson chosen(const PageJson& from, const std::array<const char*, count>& names) {
@@ -87,12 +68,17 @@ std::string title_of(const PageJson& report) {
     return fmt::format("{} and {} more", first, others.size());
 }
 
-Box box_of_run(const PageJson& report, const std::string& folder) {
+// Of a part.
+Part verified_surface(const PageJson& of_report, const ListedFiles& files) {
+    const std::string path = files.verified("parts/" + part_surface_file_name(of_report.at("id")));
+    Part surface = read_part(path, PartContent::surface);
+    require_ranges(surface, path);
+    return surface;
+}
+
+Box box_of_run(const PageJson& report, const ListedFiles& files) {
     Box box;
-    for (const PageJson& part : report.at("parts"))
-        box.extend(
-            box_around(read_part(folder + "/parts/" + part_surface_file_name(part.at("id")), PartContent::vertices)
-                           .mesh.vertices));
+    for (const PageJson& part : report.at("parts")) box.extend(box_around(verified_surface(part, files).mesh.vertices));
     return box;
 }
 
@@ -101,10 +87,10 @@ struct ReadSurface {
     std::vector<std::string> patch_names, region_names;
 };
 
-ReadSurface read_surfaces(const PageJson& report, const std::string& folder, std::int64_t limit) {
-    ReadSurface read{PageSurface(box_of_run(report, folder), limit), {}, {}};
+ReadSurface read_surfaces(const PageJson& report, const ListedFiles& files, std::int64_t limit) {
+    ReadSurface read{PageSurface(box_of_run(report, files), limit), {}, {}};
     for (const PageJson& of_part : report.at("parts")) {
-        Part part = read_part(folder + "/parts/" + part_surface_file_name(of_part.at("id")), PartContent::surface);
+        Part part = verified_surface(of_part, files);
         read.surface.add(part);
         read.patch_names = std::move(part.patch_names);
         read.region_names = std::move(part.region_names);
@@ -178,8 +164,8 @@ std::string filled(std::string_view page, const Blanks& blanks) {
 
 ReportPage report_page(const std::string& folder, std::int64_t limit) {
     try {
-        PageJson report = read_sealed_report(folder);
-        const ReadSurface read = read_surfaces(report, folder, limit);
+        PageJson report = parse_ordered_json(read_sealed_report(folder));
+        const ReadSurface read = read_surfaces(report, ListedFiles(folder, files_of_report(report)), limit);
         report = shortened(std::move(report));
         const std::string title = title_of(report);
         const PageJson data = {{"report", std::move(report)}, {"surface", json_of(read)}};

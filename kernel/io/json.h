@@ -10,12 +10,17 @@
 
 namespace kerf {
 
-/// The value that a text says. Throws nlohmann::json::parse_error, with the place in it, for what is no JSON.
+/// Of arrays and objects within each other that parse_json() and its kin take.
+inline constexpr int deepest_json = 200;
+
+/// The value that a text says. Throws nlohmann::json::exception for what is no JSON, with the place in it, and for more
+/// arrays and objects within each other than deepest_json: values of any depth are destroyed and written by functions
+/// that call themselves.
 nlohmann::json parse_json(std::string_view text);
 /// The same, with the members of objects in the order of the text.
 nlohmann::ordered_json parse_ordered_json(std::string_view text);
 
-/// The value that a text says, null for what is no JSON.
+/// The value that a text says, null for what those throw at.
 nlohmann::json parse_json_or_null(std::string_view text);
 
 /// A value as text, with so many spaces of indentation a level; on one line without blanks if there are fewer than 0.

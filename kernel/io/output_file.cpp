@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "io/checked_file.h"
+#include "io/durable_file.h"
 
 namespace kerf {
 
@@ -152,10 +153,12 @@ void write_output_file(const std::string& path, std::span<const char> bytes) {
     CheckedFile file(fd < 0 ? nullptr : ::fdopen(fd, "wb"), beside);
     try {
         file.write(bytes.data(), bytes.size());
+        file.sync();  // before the name is that of the older one: a power cut must not leave neither
         file.close();
         fs::rename(beside, target, error);
         if (error)
             throw Error(ErrorCode::io, fmt::format("Cannot rename {} to {}: {}.", beside, target, error.message()));
+        sync_folder(folder_of(target));
     } catch (...) {
         fs::remove(beside, error);
         throw;

@@ -12,6 +12,7 @@
 #include "io/obj_writer.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
+#include "io/run_manifest.h"
 #include "io/text_file.h"
 #include "kerf/array_edge_nodes.h"
 #include "kerf/parts_of_arrays.h"
@@ -167,16 +168,27 @@ void write_surface_to_view(const ClosedSurface& surface, const std::string& path
 void write_mesh_to_view(const MeshArrays& mesh, const std::string& folder) {
     if (mesh.tets.empty()) throw Error(ErrorCode::usage, "The mesh has no tetrahedra: there is nothing to be seen.");
     std::map<NodeId, ViewedCounts> parts;
+    Json files = Json::array();
+    const auto list = [&](const std::string& path) {
+        const RunFile file = describe_file(folder, path);
+        files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}});
+    };
     for_each_part_of(mesh, [&](const Part& part) {
         parts[part.id] = counts_of(part);
-        const std::string file = folder + "/parts/" + part_file_name(part.id);
+        const std::string of_part = "parts/" + part_file_name(part.id);
+        const std::string of_surface = "parts/" + part_surface_file_name(part.id);
+        const std::string file = folder + "/" + of_part;
         std::error_code error;
         std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
         if (error) throw Error(ErrorCode::io, folder + ": the folder cannot be made: " + error.message() + ".");
         write_part(file, part, {.has_regions = !mesh.region_names.empty()});
-        write_part_surface(folder + "/parts/" + part_surface_file_name(part.id), part);
+        write_part_surface(folder + "/" + of_surface, part);
+        list(of_part);
+        list(of_surface);
     });
-    write_text_file(folder + "/report.json", json_text(report_to_view(mesh, parts)));
+    Json report = report_to_view(mesh, parts);
+    report["files"] = std::move(files);
+    write_text_file(folder + "/report.json", sealed(json_text(report, 2) + "\n"));
 }
 
 }  // namespace kerf

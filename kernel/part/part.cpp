@@ -62,13 +62,18 @@ std::int64_t sum_before(PartIndex index, const Array<PartIndex, PartExtent>& par
 
 }  // namespace
 
-PartIndex MeshOutline::index_of(NodeId id) const {
+std::optional<PartIndex> MeshOutline::find(NodeId id) const {
     const auto found = std::lower_bound(
         parts.begin(), parts.end(), way_from_root(id),
         [](const PartExtent& extent, std::uint32_t wanted) { return way_from_root(extent.id) < wanted; });
-    if (found == parts.end() || found->id != id)
-        throw Error(ErrorCode::internal, fmt::format("The mesh has no part {}.", id));
+    if (found == parts.end() || found->id != id) return std::nullopt;
     return PartIndex(found - parts.begin());
+}
+
+PartIndex MeshOutline::index_of(NodeId id) const {
+    const std::optional<PartIndex> found = find(id);
+    if (!found) throw Error(ErrorCode::internal, fmt::format("The mesh has no part {}.", id));
+    return *found;
 }
 
 std::int64_t MeshOutline::first_tet(PartIndex index) const { return sum_before(index, parts, &PartExtent::tets); }

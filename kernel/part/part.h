@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -169,6 +170,8 @@ struct MeshOutline {
     std::int64_t edge_nodes = 0;          ///< distinct ones
 
     std::int64_t nodes() const { return vertices + edge_nodes; }
+    /// Nothing for a part that is none. O(log K).
+    std::optional<PartIndex> find(NodeId id) const;
     /// Throws Error(internal) for a part that is none. O(log K).
     PartIndex index_of(NodeId id) const;
     std::int64_t tets() const;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include "io/file_bytes.h"
 #include "io/json.h"
 #include "io/run_folder.h"
+#include "io/run_manifest.h"
 #include "mesh/verification.h"
 #include "part/curved_nodes_file.h"
 #include "part/edge_node_reader.h"
@@ -21,22 +24,59 @@ namespace kerf {
 
 namespace {
 
+[[noreturn]] void fail_damaged_report(const std::string& folder, const std::string& what) {
+    throw Error(ErrorCode::verification, fmt::format("{}/report.json is damaged: {}. Copy the run again, or run kerf "
+                                                     "mesh again.",
+                                                     folder, what));
+}
+
+// Of a text that carries its own hash; somebody may have computed that again.
 nlohmann::json read_report(const std::string& folder) {
-    const std::string path = folder + "/report.json";
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored))
-        throw Error(ErrorCode::io,
-                    fmt::format("{} is not a finished run: it holds no report.json. Name the folder that "
-                                "kerf mesh -o was given.",
-                                folder));
-    return parse_json(read_file(path));
+    try {
+        return parse_json(read_sealed_report(folder));
+    } catch (const nlohmann::json::exception& e) {
+        fail_damaged_report(folder, e.what());
+    }
+}
+
+ListedFiles listed_files(const std::string& folder, const nlohmann::json& report) {
+    try {
+        return {folder, files_of_report(report)};
+    } catch (const nlohmann::json::exception& e) {
+        fail_damaged_report(folder, e.what());
+    }
+}
+
+// In the order of the tree, with numbers that can be.
+void require_parts(const std::string& folder, const MeshOutline& outline) {
+    if (outline.parts.empty()) fail_damaged_report(folder, "it names no parts");
+    if (outline.order != 1 && outline.order != 2) fail_damaged_report(folder, "its order is neither 1 nor 2");
+    std::int64_t held = 0;  // of all parts: each vertex once or more
+    for (const PartExtent& part : outline.parts)
+        if (part.id < 1) fail_damaged_report(folder, fmt::format("there is no part {}", part.id));
+    for (const PartIndex index : outline.parts.ids()) {
+        const PartExtent& part = outline.parts[index];
+        if (outline.find(part.id) != index)
+            fail_damaged_report(folder, fmt::format("part {} does not stand in the order of the tree", part.id));
+        if (std::min({part.vertices, part.tets, part.edge_nodes}) < 0 ||
+            std::max({part.vertices, part.tets, part.edge_nodes}) > std::numeric_limits<std::int32_t>::max())
+            fail_damaged_report(folder, fmt::format("it has numbers of part {} that cannot be", part.id));
+        held += part.vertices;
+    }
+    if (outline.vertices < 0 || outline.vertices > held)
+        fail_damaged_report(folder, fmt::format("it has {} vertices, and its parts {}", outline.vertices, held));
+    for (const PartExtent& part : outline.parts)
+        if (part.tets == 0)
+            throw Error(ErrorCode::io,
+                        fmt::format("Part {} of {} has no tetrahedra: kerf decompose makes none, and a run of kerf "
+                                    "mesh that has not ended goes on by kerf mesh --resume {}.",
+                                    part.id, folder, folder));
 }
 
 // What the report says of the whole; triangles are not counted in it.
-MeshOutline read_outline(const std::string& folder) {
+MeshOutline outline_of(const std::string& folder, const nlohmann::json& report) {
     MeshOutline outline;
     try {
-        const nlohmann::json report = read_report(folder);
         outline.vertices = report.at("totals").at("vertices");
         outline.order = report.at("totals").value("order", 1);
         for (const auto& of_part : report.at("parts")) {
@@ -45,15 +85,9 @@ MeshOutline read_outline(const std::string& folder) {
             extent.edge_nodes = of_part.value("nodes", extent.vertices) - extent.vertices;
         }
     } catch (const nlohmann::json::exception& e) {
-        throw Error(ErrorCode::io,
-                    fmt::format("{}/report.json is damaged: {}. Run kerf mesh again.", folder, e.what()));
+        fail_damaged_report(folder, e.what());
     }
-    for (const PartExtent& part : outline.parts)
-        if (part.tets == 0)
-            throw Error(ErrorCode::io,
-                        fmt::format("Part {} of {} has no tetrahedra: kerf decompose makes none, and a run of kerf "
-                                    "mesh that has not ended goes on by kerf mesh --resume {}.",
-                                    part.id, folder, folder));
+    require_parts(folder, outline);
     return outline;
 }
 
@@ -73,19 +107,24 @@ void require_edges(const EdgeTable& edges, const PartExtent& told, const Part& p
 }  // namespace
 
 RunParts::RunParts(std::string folder, std::string solution)
-    : folder_(std::move(folder)), solution_(std::move(solution)), outline_(read_outline(folder_)) {
-    if (!solution_.empty()) {
-        outline_.values = read_value_names(path_of_part(solution_, outline_.parts.front().id));
-        outline_.order = read_point_counts(path_of_part(solution_, outline_.parts.front().id)).order;
+    : RunParts(folder, std::move(solution), read_report(folder)) {}
+
+RunParts::RunParts(std::string folder, std::string solution, const nlohmann::json& report)
+    : files_(listed_files(folder, report)), outline_(outline_of(folder, report)) {
+    if (!solution.empty()) {
+        solution_files_.emplace(listed_files(solution, read_report(solution)));
+        outline_.values = read_value_names(part_file(PartIndex()));
+        outline_.order = read_point_counts(part_file(PartIndex())).order;
     }
     std::vector<SharedVertices::Incidence> held;
     std::vector<SharedEdges::Incidence> told;
     std::vector<NodeId> ids;
     std::int64_t interior = 0;
+    boundary_vertices_ = outline_.vertices;  // until it is known how many there are
     for (PartExtent& extent : outline_.parts) {
         const PartIndex index(ids.size());
         ids.push_back(extent.id);
-        Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(extent.id));
+        Part surface = this->surface(index);
         for (std::size_t f = 0; f < surface.facets.size(); ++f) {
             ++(surface.is_listed(f) ? extent.patch_facets : extent.interface_facets);
             if (!surface.is_interface(f)) continue;
@@ -99,7 +138,9 @@ RunParts::RunParts(std::string folder, std::string solution)
         first_interior_ids_.push_back(interior);
         interior += extent.vertices - surface.mesh.boundary_vertex_count;
     }
-    for (std::int64_t& first : first_interior_ids_) first += outline_.vertices - interior;
+    boundary_vertices_ = outline_.vertices - interior;
+    if (boundary_vertices_ < 0) fail_damaged_report(files_.folder(), "it has fewer vertices than its parts");
+    for (std::int64_t& first : first_interior_ids_) first += boundary_vertices_;
     shared_edges_ = SharedEdges(std::move(told), ids);
     shared_ = SharedVertices(std::move(held), ids);
     if (outline_.order == 2) number_edges();
@@ -107,27 +148,50 @@ RunParts::RunParts(std::string folder, std::string solution)
 
 // Of a part it has to be known how many edges it has, and which of them it shares.
 void RunParts::number_edges() {
-    if (is_stored(PartIndex())) curved_nodes_ = read_curved_nodes(curved_nodes_file(folder_));
+    if (is_stored(PartIndex())) curved_nodes_ = read_curved_nodes(files_.verified(curved_nodes_name));
     std::vector<EdgeNumbers::OfPart> told;
     for (const PartIndex index : outline_.parts.ids()) {
         PartExtent& extent = outline_.parts[index];
         if (!is_stored(index)) extent.edge_nodes = read_point_counts(part_file(index)).on_edges;
-        const Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(extent.id));
-        told.push_back(EdgeNumbers::told_by(extent.id, shared_edges_.groups_of(surface), extent.edge_nodes, outline_));
+        told.push_back(
+            EdgeNumbers::told_by(extent.id, shared_edges_.groups_of(surface(index)), extent.edge_nodes, outline_));
     }
     edge_numbers_ = EdgeNumbers(outline_, told);
     outline_.edge_nodes = edge_numbers_.total();
 }
 
+PartStanding RunParts::standing(PartIndex index) const {
+    const bool is_known = std::cmp_less(index.value(), first_interior_ids_.size());  // else surfaces are being read
+    return {outline_, index, boundary_vertices_, is_known ? first_interior_ids_[index] : 0};
+}
+
+bool RunParts::is_stored(PartIndex index) const {
+    return path_of_part(files_of_parts().folder(), outline_.parts[index].id).ends_with(".part");
+}
+
 std::string RunParts::part_file(PartIndex index) const {
-    return path_of_part(parts_folder(), outline_.parts[index].id);
+    const ListedFiles& files = files_of_parts();
+    return files.verified(path_of_part_in(files.folder(), outline_.parts[index].id));
+}
+
+std::string RunParts::surface_file(PartIndex index) const {
+    return files_.verified("parts/" + part_surface_file_name(outline_.parts[index].id));
+}
+
+Part RunParts::surface(PartIndex index, PartContent content) const {
+    const std::string path = surface_file(index);
+    Part surface = read_part(path, content);
+    require_ranges(surface, PartContent::surface, standing(index), path);
+    return surface;
 }
 
 Part RunParts::load(PartIndex index) const {
-    Part part = load_part(parts_folder(), outline_.parts[index].id, first_interior_ids_[index]);
+    const std::string path = part_file(index);
+    Part part = load_part_file(path, first_interior_ids_[index]);
+    require_ranges(part, PartContent::all, standing(index), path);
     part.shared = shared_.groups_of(index, std::span(part.global_id).first(part.mesh.boundary_vertex_count));
     part.shared_edges = shared_edges_.groups_of(part);
-    if (!solution_.empty()) part.values = read_values(part_file(index));
+    if (solution_files_) part.values = read_values(path);
     if (outline_.order == 2 && is_stored(index)) {
         require_edges(EdgeTable(part.mesh.tets, part.mesh.vertices.size()), outline_.parts[index], part);
         add_edge_nodes(edge_numbers_, curved_nodes_, part);
@@ -138,22 +202,31 @@ Part RunParts::load(PartIndex index) const {
 Part RunParts::load_only(PartIndex index, PartContent content) const {
     const bool needs_all = outline_.order == 2 && is_stored(index);  // nodes follow from cells and vertices
     if (content == PartContent::all || needs_all) return load(index);
-    const NodeId id = outline_.parts[index].id;
-    if (content != PartContent::surface) return load_part(parts_folder(), id, first_interior_ids_[index], content);
-    Part surface = read_part(folder_ + "/parts/" + part_surface_file_name(id), content);
+    if (content != PartContent::surface) {
+        const std::string path = part_file(index);
+        Part part = load_part_file(path, first_interior_ids_[index], content);
+        require_ranges(part, content, standing(index), path);
+        return part;
+    }
+    Part surface = this->surface(index, content);
     if (outline_.order == 2) add_edge_nodes_of_surface(part_file(index), surface);
     return surface;
 }
 
-std::string path_of_part(const std::string& folder, NodeId id) {
-    const std::string vtu = folder + "/parts/" + part_file_name(id);
-    const std::string stored = folder + "/parts/" + stored_part_file_name(id);
+std::string path_of_part_in(const std::string& folder, NodeId id) {
+    std::string vtu = "parts/" + part_file_name(id), stored = "parts/" + stored_part_file_name(id);
     std::error_code ignored;
-    return std::filesystem::exists(vtu, ignored) || !std::filesystem::exists(stored, ignored) ? vtu : stored;
+    const bool has_vtu = std::filesystem::exists(folder + "/" + vtu, ignored);
+    return has_vtu || !std::filesystem::exists(folder + "/" + stored, ignored) ? vtu : stored;
 }
 
+std::string path_of_part(const std::string& folder, NodeId id) { return folder + "/" + path_of_part_in(folder, id); }
+
 Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id, PartContent content) {
-    const std::string path = path_of_part(folder, id);
+    return load_part_file(path_of_part(folder, id), first_interior_id, content);
+}
+
+Part load_part_file(const std::string& path, std::int64_t first_interior_id, PartContent content) {
     if (path.ends_with(".part")) return read_stored_part(path, first_interior_id, content);
     Part part = read_part(path, content);
     if (content == PartContent::all || content == PartContent::cells)

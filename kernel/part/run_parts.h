@@ -1,10 +1,15 @@
 // The parts of a finished run.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "io/listed_files.h"
 #include "part/edge_numbers.h"
 #include "part/part.h"
+#include "part/part_ranges.h"
 #include "part/shared_edges.h"
 #include "part/shared_vertices.h"
 
@@ -16,8 +21,10 @@ namespace kerf {
 class RunParts : public PartSource {
  public:
     /// Reads report.json and the surfaces of the parts. Throws Error(io) for what is no finished run, or one with parts
-    /// that were not meshed, naming it and the way out. `solution`: the folder of one on this run
-    /// (part/solution_parts.h), whose values parts have that are loaded with everything.
+    /// that were not meshed, naming it and the way out. Each file is compared with its hash before it is read, and its
+    /// numbers with each other: what the run has not left throws Error(verification), from here or from a load.
+    /// `solution`: the folder of one on this run (part/solution_parts.h), whose values parts have that are loaded with
+    /// everything.
     explicit RunParts(std::string folder, std::string solution = "");
 
     const MeshOutline& outline() const override { return outline_; }
@@ -25,14 +32,21 @@ class RunParts : public PartSource {
     Part load_only(PartIndex index, PartContent content) const override;
 
  private:
+    RunParts(std::string folder, std::string solution, const nlohmann::json& report);
     void number_edges();
     /// The files of a solution hold its parts, too, of the order that it was found with.
-    const std::string& parts_folder() const { return solution_.empty() ? folder_ : solution_; }
+    const ListedFiles& files_of_parts() const { return solution_files_ ? *solution_files_ : files_; }
+    /// Verified, as all that is read.
     std::string part_file(PartIndex index) const;
-    bool is_stored(PartIndex index) const { return part_file(index).ends_with(".part"); }
+    std::string surface_file(PartIndex index) const;
+    Part surface(PartIndex index, PartContent content = PartContent::all) const;
+    bool is_stored(PartIndex index) const;
+    PartStanding standing(PartIndex index) const;
 
-    std::string folder_, solution_;
+    ListedFiles files_;
+    std::optional<ListedFiles> solution_files_;
     MeshOutline outline_;
+    std::int64_t boundary_vertices_ = 0;
     Array<PartIndex, std::int64_t> first_interior_ids_;
     SharedVertices shared_;
     SharedEdges shared_edges_;
@@ -42,11 +56,15 @@ class RunParts : public PartSource {
 
 /// Where a finished run has a part: FOLDER/parts/part_0008.vtu, or part_0008.part of a run without that format.
 std::string path_of_part(const std::string& folder, NodeId id);
+/// The same as a path in the folder.
+std::string path_of_part_in(const std::string& folder, NodeId id);
 
 /// What is asked for of the part in that file, with the tetrahedra behind its facets, but without its shared vertices.
 /// `first_interior_id`: global number of the first interior vertex, which a VTU file says itself, and so it does for
 /// the nodes on edges, which stored parts do not have. Throws Error(io).
 Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id,
                PartContent content = PartContent::all);
+/// The same of a file at this path.
+Part load_part_file(const std::string& path, std::int64_t first_interior_id, PartContent content = PartContent::all);
 
 }  // namespace kerf

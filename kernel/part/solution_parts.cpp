@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
 #include "io/json.h"
+#include "io/listed_files.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "part/run_parts.h"
@@ -20,12 +20,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Null if there is none.
+// Null if there is none. Throws Error(verification) for one that is not as it was written.
 Json report_of(const fs::path& folder) {
     std::error_code ignored;
     const fs::path path = folder / "report.json";
     if (!fs::exists(path, ignored)) return nullptr;
-    return parse_json_or_null(read_file(path.string()));
+    return parse_json(read_sealed_report(folder.string()));
 }
 
 std::string path_beside(const fs::path& folder, const Json& name) {

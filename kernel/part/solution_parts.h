@@ -10,7 +10,8 @@
 namespace kerf {
 
 /// The folder of the solution under a path: itself, or that of kerf solve on a surface, whose last step counts. Nothing
-/// if there is none. Throws Error(io) for a report that is damaged.
+/// if there is none. Throws Error(io) for a report that is damaged, and
+/// Error(verification) for one that is not as it was written.
 std::optional<std::string> find_solution_folder(const std::string& path);
 
 /// The run that a solution stands on. Throws Error(io) if it is not where it was, or is another one now.

@@ -1,9 +1,9 @@
 #include "run/edge_node_check.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "part/curved_part.h"
+#include "run/number_distance.h"
 
 namespace kerf {
 
@@ -47,7 +47,7 @@ void EdgeNodeCheck::add(const EdgeNodeCheck& of_others) {
 void EdgeNodeCheck::add_own(std::int64_t id, bool is_curved) {
     ++count_;
     curved_ += is_curved;
-    add_own(Range{id, id + 1});
+    add_own(Range{id, static_cast<std::int64_t>(static_cast<std::uint64_t>(id) + 1)});  // it may be any
 }
 
 void EdgeNodeCheck::add_own(const Range& ids) {
@@ -83,7 +83,7 @@ void EdgeNodeCheck::finish(std::int64_t vertices, RunVerification& laws) {
     std::sort(own_.begin(), own_.end());
     std::int64_t next = vertices;
     for (const auto& [first, end] : own_) {
-        laws.misnumbered += std::abs(first - next);
+        laws.misnumbered += number_distance(first, next);
         next = end;
     }
     laws.invalid_curved_cells += invalid_cells_;

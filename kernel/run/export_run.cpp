@@ -69,6 +69,7 @@ class Target {
         std::set<std::string> written;
         for (const RunFile& file : files) written.insert(file.path);
         std::error_code ignored;
+        for (const RunFile& file : files) require_no_link(file.path);
         for (const RunFile& file : files)
             if (!listed.contains(file.path) && fs::exists(fs::path(folder_) / file.path, ignored))
                 throw Error(ErrorCode::io, fmt::format("{}/{} is in the way of the export, which has not written it. "
@@ -87,6 +88,15 @@ class Target {
     [[noreturn]] static void fail(const std::string& action, const std::string& path, const std::error_code& reason) {
         throw Error(ErrorCode::io, fmt::format("Cannot {} {}: {}. Check its permissions, or choose another folder.",
                                                action, path, reason.message()));
+    }
+    // A folder below the target that is a link would lead out of it.
+    void require_no_link(const std::string& file) const {
+        std::error_code ignored;
+        for (fs::path above = fs::path(file).parent_path(); !above.empty(); above = above.parent_path())
+            if (fs::is_symlink(fs::path(folder_) / above, ignored))
+                throw Error(ErrorCode::io, fmt::format("{} is a link, behind which nothing is written. Put a folder in "
+                                                       "its place, or choose another one by --output.",
+                                                       (fs::path(folder_) / above).string()));
     }
     void read_list() {
         std::error_code ignored;
@@ -122,6 +132,7 @@ class Target {
     }
     void remove(const std::string& file) const {
         std::error_code ignored;
+        require_no_link(file);
         fs::remove(fs::path(folder_) / file, ignored);
         for (fs::path above = fs::path(file).parent_path(); !above.empty(); above = above.parent_path())
             fs::remove(fs::path(folder_) / above, ignored);  // only if it is empty

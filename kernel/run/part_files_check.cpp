@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -65,8 +66,10 @@ void keep_interior(const Part& part, PartFindings& found) {
     if (!is_vtu(found.file)) found.unnumbered_interior = count;
     if (!is_vtu(found.file) || count == 0) return;
     const std::int64_t first = part.global_id[boundary];
-    for (std::int64_t i = 0; i < count; ++i) found.laws.misnumbered += part.global_id[boundary + i] != first + i;
-    found.interior.push_back({first, first + count});
+    for (std::int64_t i = 1; i < count; ++i)
+        found.laws.misnumbered += part.global_id[boundary + i - 1] == std::numeric_limits<std::int64_t>::max() ||
+                                  part.global_id[boundary + i] != part.global_id[boundary + i - 1] + 1;
+    found.interior.push_back({first, count});
 }
 
 void add_laws(const MeshLaws& of_mesh, RunVerification& laws) {

@@ -42,7 +42,7 @@ struct PartFindings {
     std::vector<PlacedVertex> boundary = {};
     std::vector<InputPiece> pieces = {};
     std::vector<InterfaceFacet> interfaces = {};
-    std::vector<std::array<std::int64_t, 2>> interior = {};  ///< first and last + 1 number, if files have numbers
+    std::vector<std::array<std::int64_t, 2>> interior = {};  ///< first number and how many, if files have numbers
     std::int64_t unnumbered_interior = 0;                    ///< vertices of files that leave that to who reads them
     EdgeNodeCheck edge_nodes = {};                           ///< of order 2
 };

@@ -21,6 +21,7 @@
 #include "io/file_bytes.h"
 #include "io/folder_files.h"
 #include "io/json.h"
+#include "io/listed_files.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
@@ -31,6 +32,7 @@
 #include "prepare/surface_nodes.h"
 #include "run/edge_node_check.h"
 #include "run/input_pieces.h"
+#include "run/number_distance.h"
 #include "run/part_files_check.h"
 #include "run/reported_options.h"
 #include "work/mesh_hash.h"
@@ -95,7 +97,7 @@ class FolderVerifier {
     FolderVerification result_;
     double volume_ = 0;
     std::vector<PlacedVertex> boundary_;                  // of all parts; after check_shared_vertices() each once
-    std::vector<std::array<std::int64_t, 2>> interiors_;  // first and last + 1 number of every part
+    std::vector<std::array<std::int64_t, 2>> interiors_;  // first number and how many, of every part
     std::int64_t unnumbered_interior_ = 0;                // vertices of files that leave the numbers to who reads them
     std::vector<InputPiece> pieces_;
     std::vector<InterfaceFacet> interfaces_;
@@ -109,8 +111,7 @@ class FolderVerifier {
 void FolderVerifier::check_files() {
     if (!is_sealed(report_text_)) differs("report.json is not as the run has written it");
     const std::vector<std::string> present = list_files(folder_);
-    std::vector<RunFile> listed;
-    for (const auto& file : report_.at("files")) listed.push_back({file.at("path"), file.at("bytes"), file.at("hash")});
+    const std::vector<RunFile> listed = files_of_report(report_);
     std::vector<std::optional<RunFile>> found(listed.size());
     for_each_on_threads(listed.size(), [&](std::size_t i) {
         if (std::binary_search(present.begin(), present.end(), listed[i].path))
@@ -238,11 +239,13 @@ void FolderVerifier::check_interfaces() {
 // Boundary numbers fill [0, n), interior ranges follow without a gap.
 void FolderVerifier::check_numbering() {
     auto next = static_cast<std::int64_t>(boundary_.size());
-    if (!boundary_.empty()) result_.laws.misnumbered += boundary_.back().id + 1 - next;
+    if (!boundary_.empty())
+        result_.laws.misnumbered +=
+            number_distance(boundary_.front().id, 0) + number_distance(boundary_.back().id, next - 1);
     std::sort(interiors_.begin(), interiors_.end());
-    for (const auto& [first, last] : interiors_) {
-        result_.laws.misnumbered += std::abs(first - next);
-        next = last;
+    for (const auto& [first, count] : interiors_) {
+        result_.laws.misnumbered += number_distance(first, next);
+        next += count;
     }
     result_.vertices = next + unnumbered_interior_;
 }
@@ -303,7 +306,7 @@ void FolderVerifier::check_input() {
         differs("the parts have other names of regions than the input");
     result_.laws.extra_boundary_faces += pieces_.end() - next;
     for (const PlacedVertex& v : boundary_)
-        if (v.id < input.vertices)
+        if (v.id >= 0 && v.id < input.vertices)
             result_.laws.moved_vertices += input.complex.point(static_cast<std::int32_t>(v.id)) != v.point;
 }
 

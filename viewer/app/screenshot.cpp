@@ -162,7 +162,8 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
             deadline.check();
             app.frame(size, command.panels);
         } while (!app.settled());
-        if (!app.session().failures().empty()) throw Error(ErrorCode::io, app.session().failures().front());
+        if (!app.session().failures().empty())
+            throw Error(app.session().failure_code(), app.session().failures().front());
         write_png(files[i], averaged(app.picture(), command.antialias));
     }
 }

@@ -12,11 +12,20 @@ void Background::Group::reset() {
 
 void Background::post(Group& group, Loader::Work work, Failed failed) {
     ++group.jobs;
-    const auto counted = [&group, work = std::move(work)]() -> Loader::Completion {
-        return [&group, completion = work()] {
-            --group.jobs;
-            if (completion) completion();
-        };
+    const bool is_noted = !failed;
+    const auto counted = [this, &group, is_noted, work = std::move(work)]() -> Loader::Completion {
+        try {
+            return [&group, completion = work()] {
+                --group.jobs;
+                if (completion) completion();
+            };
+        } catch (const Error& error) {
+            if (!is_noted) throw;
+            return [this, &group, code = error.code(), message = std::string(error.what())] {
+                --group.jobs;
+                note_failure(message, code);
+            };
+        }
     };
     if (!failed) failed = [this](const std::string& message) { note_failure(message); };
     loader_->post({group.scope, counted, [&group, failed = std::move(failed)](const std::string& message) {
@@ -40,9 +49,10 @@ void Background::end() {
     loader_.reset();
 }
 
-void Background::note_failure(const std::string& message) {
+void Background::note_failure(const std::string& message, ErrorCode code) {
     constexpr std::size_t limit = 100;
     if (message.empty()) return;
+    if (failures_.empty()) failure_code_ = code;
     failures_.push_back(message);
     if (failures_.size() > limit) failures_.erase(failures_.begin());
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "viewer/model/loader.h"
 
 namespace kerf::view {
@@ -46,12 +47,15 @@ class Background {
 
     /// The last hundred, newest last.
     const std::vector<std::string>& failures() const { return failures_; }
+    /// Of the first one; Error(io) where that was no Error.
+    ErrorCode failure_code() const { return failure_code_; }
     /// An empty message is none.
-    void note_failure(const std::string& message);
+    void note_failure(const std::string& message, ErrorCode code = ErrorCode::io);
     void forget_failures() { failures_.clear(); }
 
  private:
     std::vector<std::string> failures_;
+    ErrorCode failure_code_ = ErrorCode::io;
     std::size_t in_vain_ = 0;
     std::optional<Loader> loader_{std::in_place};
 };

@@ -12,8 +12,10 @@
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "mesh/verification.h"
+#include "part/part_ranges.h"
 #include "part/run_parts.h"
 #include "part/vtu_reader.h"
+#include "viewer/model/checked_files.h"
 #include "viewer/model/part_edges.h"
 
 namespace kerf::view {
@@ -76,6 +78,24 @@ std::vector<float> origins_of_tets(std::size_t count, std::int64_t core_tets) {
 // Of the measures; the files of parts that are not finished, or of runs in other formats, have none.
 bool has_arrays(const std::string& path) { return path.ends_with(".vtu"); }
 
+std::string checked_part(const std::string& folder, NodeId part) {
+    return checked_file(folder, path_of_part_in(folder, part));
+}
+
+Part read_checked_part(const std::string& folder, NodeId part) {
+    const std::string path = checked_part(folder, part);
+    Part file = load_part_file(path, 0);
+    require_ranges(file, path);
+    return file;
+}
+
+Part read_checked_surface(const std::string& folder, NodeId part) {
+    const std::string path = checked_file(folder, "parts/" + part_surface_file_name(part));
+    Part file = read_part(path);
+    require_ranges(file, path);
+    return file;
+}
+
 }  // namespace
 
 std::string part_file_of(const std::string& folder, NodeId part) { return path_of_part(folder, part); }
@@ -89,7 +109,7 @@ NodeId common_ancestor(NodeId a, NodeId b) {
 }
 
 NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vector<std::string>* patch_names) {
-    Part file = read_part(part_surface_file_of(folder, part));
+    Part file = read_checked_surface(folder, part);
     if (patch_names) *patch_names = std::move(file.patch_names);
     NodeSurface surface;
     surface.interface_of.reserve(file.facets.size());
@@ -106,7 +126,7 @@ NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vecto
 }
 
 void add_edge_nodes(const std::string& folder, NodeId part, NodeSurface& surface) {
-    const Part file = load_part(folder, part, 0);
+    const Part file = read_checked_part(folder, part);
     if (file.facets.size() != surface.facets.size())
         throw Error(ErrorCode::io, fmt::format("{} has {} triangles, but its surface {}.", part_file_of(folder, part),
                                                file.facets.size(), surface.facets.size()));
@@ -142,7 +162,7 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
 }
 
 PartCells read_part_cells(const PartSource& source) {
-    Part file = load_part(source.nodes.empty() ? source.folder : source.nodes, source.part, 0);
+    Part file = read_checked_part(source.nodes.empty() ? source.folder : source.nodes, source.part);
     connect_tets(file.mesh);
     PartCells cells;
     add_edges(file, cells);
@@ -185,11 +205,11 @@ std::vector<float> values_of_cells(const PartCells& cells, ColorBy color) {
 }
 
 std::vector<float> read_values_of_cells(const PartSource& source, ColorBy color, const PartCells* cells) {
-    const std::string path = part_file_of(source.folder, source.part);
+    const std::string path = checked_part(source.folder, source.part);
     if (const char* array = stored_array(color); array && has_arrays(path) && has_cell_values(path, array))
         return read_cell_values(path, array, 0, read_cell_counts(path).tets);
     if (cells) return values_of_cells(*cells, color);
-    const Part file = load_part(source.folder, source.part, 0);
+    const Part file = read_checked_part(source.folder, source.part);
     if (color == ColorBy::origin) return origins_of_tets(file.mesh.tets.size(), source.core_tets);
     if (color != ColorBy::kind) return values_of_tets(file.mesh, color);
     const std::vector<char> at_interface = tets_at_interfaces(file);
@@ -197,7 +217,7 @@ std::vector<float> read_values_of_cells(const PartSource& source, ColorBy color,
 }
 
 std::vector<float> read_values_at_facets(const PartSource& source, ColorBy color, const PartCells* cells) {
-    const std::string path = part_file_of(source.folder, source.part);
+    const std::string path = checked_part(source.folder, source.part);
     if (const char* array = stored_array(color); array && has_arrays(path) && has_cell_values(path, array)) {
         const PartCellCounts counts = read_cell_counts(path);
         return read_cell_values(path, array, counts.tets, counts.facets);
@@ -240,7 +260,7 @@ std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::ve
         const auto is_in_part = [part](const WorstCell& cell) { return cell.part == part; };
         if (std::none_of(worst.begin(), worst.end(), is_in_part)) continue;
         if (is_stale()) return {};
-        const Part file = load_part(folder, part, 0);
+        const Part file = read_checked_part(folder, part);
         for (WorstCell& cell : worst) {
             if (!is_in_part(cell)) continue;
             for (const std::int32_t v : file.mesh.tets.at(static_cast<std::size_t>(cell.cell)))
@@ -253,7 +273,7 @@ std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::ve
 Eigen::AlignedBox3d box_of_parts(const std::string& folder, const std::vector<NodeId>& parts) {
     Eigen::AlignedBox3d box;
     for (const NodeId part : parts)
-        for (const Vec3& p : read_part(part_surface_file_of(folder, part)).mesh.vertices) box.extend(p);
+        for (const Vec3& p : read_checked_surface(folder, part).mesh.vertices) box.extend(p);
     return box;
 }
 

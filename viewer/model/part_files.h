@@ -1,4 +1,5 @@
-// What the files of a run's parts hold, as the viewer has it. All functions read; nothing is kept.
+// What the files of a run's parts hold, as the viewer has it. All functions read; nothing is kept. Those that
+// throw Error(io) throw Error(verification) for a file that is not as its finished run has left it (checked_files.h).
 #pragma once
 
 #include <functional>

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
 #include "io/json.h"
+#include "io/listed_files.h"
 #include "io/path_text.h"
 #include "mesh/quality.h"
 #include "report/cut_json.h"
@@ -158,7 +158,7 @@ std::string damage_of(const std::string& folder, const Json& files) {
 
 RunReportFile read_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
-    const std::string text = read_file(path);
+    const std::string text = read_sealed_report(folder);
     try {
         const Json json = parse_json(text);
         RunReportFile report = report_from_json(json);

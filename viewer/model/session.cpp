@@ -98,5 +98,6 @@ Repairs& Session::repairs() { return parts_->repairs; }
 RunPair& Session::pair() { return parts_->runs; }
 const RunPair& Session::pair() const { return parts_->runs; }
 const std::vector<std::string>& Session::failures() const { return parts_->background.failures(); }
+ErrorCode Session::failure_code() const { return parts_->background.failure_code(); }
 
 }  // namespace kerf::view

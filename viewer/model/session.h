@@ -65,6 +65,8 @@ class Session {
     bool pending() const;
     /// What failed to be fetched or made, newest last, since a run or a cut was last started or shown.
     const std::vector<std::string>& failures() const;
+    /// Of the first of them.
+    ErrorCode failure_code() const;
 
  private:
     struct Parts;

@@ -8,12 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
 #include "io/json.h"
+#include "io/listed_files.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "part/solution_parts.h"
 #include "part/vtu_reader.h"
+#include "viewer/model/checked_files.h"
 
 namespace kerf::view {
 
@@ -65,7 +66,7 @@ class PointArrays {
 }  // namespace
 
 PartSolution read_part_solution(const Solution& solution, std::size_t number, NodeId part) {
-    const std::string path = solution.folder + "/parts/" + part_file_name(part);
+    const std::string path = checked_file(solution.folder, "parts/" + part_file_name(part));
     const Solution::Case& one = solution.cases[number];
     const PointArrays arrays(path);
     const PartCellCounts counts = read_cell_counts(path);
@@ -112,7 +113,8 @@ void measure_modes(Solution& solution) {
     if (unknown.empty()) return;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(solution.folder + "/parts")) {
         if (entry.path().extension() != ".vtu") continue;
-        const PointArrays arrays(entry.path().string());
+        const PointArrays arrays(
+            checked_file(solution.folder, entry.path().lexically_relative(solution.folder).generic_string()));
         for (Solution::Case* mode : unknown)
             for (const Vec3& v : arrays.vectors(mode->name))
                 mode->largest_displacement = std::max(mode->largest_displacement, v.norm());
@@ -128,7 +130,7 @@ std::optional<Solution> find_solution(const std::string& path) {
     solution.folder = *folder;
     solution.mesh = mesh_of_solution(*folder);
     try {
-        const Json report = parse_json(read_file(*folder + "/report.json"));
+        const Json report = parse_json(read_sealed_report(*folder));
         const Json& solve = report.at("solve");
         solution.order = solve.value("order", 1);
         for (const Json& of_case : solve.value("cases", Json::array()))

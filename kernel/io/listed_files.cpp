@@ -1,0 +1,59 @@
+#include "io/listed_files.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+
+namespace kerf {
+
+std::string read_sealed_report(const std::string& folder) {
+    const std::string path = folder + "/report.json";
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored))
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is not a finished run: it holds no report.json. Name the folder that kerf mesh -o "
+                                "was given; a run that has not ended goes on by kerf mesh --resume {}.",
+                                folder, folder));
+    std::string text = read_file(path);
+    if (!is_sealed(text))
+        throw Error(ErrorCode::verification,
+                    fmt::format("{} is not as Kerf has written it, so that nobody knows what of it is true. Copy the "
+                                "run again, or run kerf mesh again.",
+                                path));
+    return text;
+}
+
+ListedFiles::ListedFiles(std::string folder, const std::vector<RunFile>& files) : folder_(std::move(folder)) {
+    for (const RunFile& file : files) listed_[file.path] = file;
+}
+
+ListedFiles::ListedFiles(ListedFiles&& other) noexcept
+    : folder_(std::move(other.folder_)), listed_(std::move(other.listed_)), verified_(std::move(other.verified_)) {}
+
+std::string ListedFiles::verified(const std::string& path) const {
+    {
+        const std::lock_guard lock(mutex_);
+        if (verified_.contains(path)) return folder_ + "/" + path;
+    }
+    const auto fail = [&](const char* what) {
+        throw Error(ErrorCode::verification,
+                    fmt::format("{}/{} {}. Copy the run again, or run kerf mesh again; kerf verify {} tells all that "
+                                "differs.",
+                                folder_, path, what, folder_));
+    };
+    const RunFile found = describe_file(folder_, path);
+    const auto listed = listed_.find(path);
+    if (listed == listed_.end()) fail("is no file of the run");
+    if (found.bytes != listed->second.bytes || found.hash != listed->second.hash)
+        fail("is not as the run has written it");
+    const std::lock_guard lock(mutex_);
+    verified_.insert(path);
+    return folder_ + "/" + path;
+}
+
+}  // namespace kerf
