@@ -73,11 +73,22 @@ void require_ranges(const Part& part, const std::string& path) {
     }
 }
 
+void require_edge_numbers(const Part& part, const MeshOutline& outline, const std::string& path) {
+    std::vector<std::int64_t> ids = part.edge_nodes.global_id;
+    std::sort(ids.begin(), ids.end());
+    if (!ids.empty() && (ids.front() < outline.vertices || ids.back() >= outline.nodes()))
+        fail(path, fmt::format("a node on an edge has the global number {}",
+                               ids.front() < outline.vertices ? ids.front() : ids.back()));
+    if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
+        fail(path, fmt::format("two of its nodes have the global number {}", *twice));
+}
+
 void require_ranges(const Part& part, PartContent content, const PartStanding& standing, const std::string& path) {
     require_ranges(part, path);
     require_counts(part, standing.outline.parts[standing.index], content, path);
     require_neighbours(part, standing.outline, path);
     require_numbers(part, standing, path);
+    require_edge_numbers(part, standing.outline, path);
 }
 
 }  // namespace kerf

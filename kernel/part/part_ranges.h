@@ -24,4 +24,7 @@ struct PartStanding {
 /// boundary and of the inside have those that are for them. O(n log n) in the boundary.
 void require_ranges(const Part& part, PartContent content, const PartStanding& standing, const std::string& path);
 
+/// Of order 2, a part of that: the nodes on its edges have numbers behind those of all vertices, each once.
+void require_edge_numbers(const Part& part, const MeshOutline& outline, const std::string& path);
+
 }  // namespace kerf

@@ -209,7 +209,11 @@ Part RunParts::load_only(PartIndex index, PartContent content) const {
         return part;
     }
     Part surface = this->surface(index, content);
-    if (outline_.order == 2) add_edge_nodes_of_surface(part_file(index), surface);
+    if (outline_.order == 2) {
+        const std::string path = part_file(index);
+        add_edge_nodes_of_surface(path, surface);
+        require_edge_numbers(surface, outline_, path);
+    }
     return surface;
 }
 
