@@ -35,7 +35,8 @@ class Run:
     """
 
     def __init__(self, folder: Path) -> None:
-        """Raises FileError for what is no finished run, naming the way out."""
+        """Raises FileError for what is no finished run, VerificationError for one that is not as it was left; both name
+        the way out."""
         self._folder = os.path.abspath(os.fspath(folder))
         self._native = _kerf.Run(self._folder)
 

@@ -2,15 +2,17 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
 #include "io/run_folder.h"
+#include "io/text_file.h"
 #include "part/run_parts.h"
 #include "part/vtu_writer.h"
+#include "support/sealed_run.h"
 
 namespace kerf::test {
 
@@ -54,8 +56,12 @@ inline void write_solution(const std::string& run, const std::string& folder, co
             {{"name", cases[c]}, {"max_displacement", {{"value", largest * static_cast<double>(c + 1)}}}});
     nlohmann::json solve = {{"mesh", mesh}, {"cases", of_cases}};
     for (const double frequency : frequencies) solve["modes"].push_back({{"frequency", frequency}});
-    std::ofstream(folder + "/report.json") << nlohmann::json{
-        {"solve", solve}, {"totals", {{"tets", parts.outline().tets()}, {"vertices", parts.outline().vertices}}}};
+    const nlohmann::json report = {
+        {"solve", solve},
+        {"exit_code", 0},
+        {"totals", {{"tets", parts.outline().tets()}, {"vertices", parts.outline().vertices}}}};
+    write_text_file(folder + "/report.json", json_text(report));
+    seal_run(folder);
 }
 
 }  // namespace kerf::test

@@ -9,6 +9,7 @@
 #include "support/file_contents.h"
 #include "support/places.h"
 #include "support/program.h"
+#include "support/sealed_run.h"
 #include "support/shapes.h"
 #include "support/stamped_part.h"
 #include "support/surface_files.h"
@@ -192,7 +193,8 @@ void expect_golden_window(const std::string& name, Driver& driver) {
 }
 
 // The ranks in a report, as if so many had made it: the rank of each part in turn.
-void write_ranks(const std::string& report, int ranks) {
+void write_ranks(const std::string& folder, int ranks) {
+    const std::string report = folder + "/report.json";
     std::string text = bytes_of_file(report);
     const std::string key = "\"rank\":";
     int rank = 0;
@@ -201,14 +203,15 @@ void write_ranks(const std::string& report, int ranks) {
         text.replace(digit, 1, std::to_string(rank++ % ranks));
     }
     ASSERT_GE(rank, ranks);
-    std::ofstream(report) << text;
+    write_text_file(report, text);
+    seal_run(folder);
 }
 
 TEST(Colourings, OfSeveralRanksLevelsAndPatches) {
     const TemporaryFolder folder;
     std::ofstream(folder.file("box.stl")) << to_ascii_stl(box({0, 0, 0}, {3, 2, 1}, {12, 8, 4}));
     ASSERT_EQ(run_kerf({"mesh", folder.file("box.stl"), "-o", folder.file("run"), "-n", "3", "-q"}).exit_code, 0);
-    write_ranks(folder.file("run/report.json"), 3);
+    write_ranks(folder.file("run"), 3);
     Driver driver(small_pictures());
     driver.show_panels(false);
     driver.open(folder.file("run"));
@@ -230,7 +233,7 @@ TEST(Colourings, OfCoreShellAndOtherMesher) {
         run_kerf({"mesh", folder.file("box.stl"), "-o", folder.file("run"), "-n", "2", "-q", "--mesher", "tetgen"})
             .exit_code,
         0);
-    stamp_first_part(folder.file("run/report.json"), 300);
+    stamp_first_part(folder.file("run"), 300);
     Driver driver(small_pictures());
     driver.show_panels(false);
     driver.open(folder.file("run"));

@@ -562,7 +562,7 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
 TEST_F(SessionTest, CellsAreOfTheCoreTheShellOrAnotherMesher) {
     constexpr std::int64_t core_tets = 100;
     run("hollow_box", {"-n", "2", "--mesher", "tetgen"});
-    test::stamp_first_part(folder_.file("run/report.json"), core_tets);
+    test::stamp_first_part(folder_.file("run"), core_tets);
     open(folder_.file("run"));
     const auto check = [&](NodeId part, const std::vector<float>& origins, const PartCells& cells) {
         for (std::size_t i = 0; i < origins.size(); ++i) {
@@ -904,7 +904,7 @@ TEST(LoaderTest, DropsWhatNobodyWants) {
     std::string message;
     loader.post({unwanted, [&]() -> Loader::Completion { return [&] { done += 100; }; }, {}});
     loader.post({wanted, [&]() -> Loader::Completion { throw Error(ErrorCode::io, "no such file"); },
-                 [&](const std::string& m) { ++failed, message = m; }});
+                 [&](const Error& error) { ++failed, message = error.what(); }});
     for (int i = 0; i < 10; ++i) loader.post({wanted, [&]() -> Loader::Completion { return [&] { ++done; }; }, {}});
     loader.post_idle({wanted, [] { return Loader::Completion(); }, {}});
     unwanted->end();

@@ -12,25 +12,16 @@ void Background::Group::reset() {
 
 void Background::post(Group& group, Loader::Work work, Failed failed) {
     ++group.jobs;
-    const bool is_noted = !failed;
-    const auto counted = [this, &group, is_noted, work = std::move(work)]() -> Loader::Completion {
-        try {
-            return [&group, completion = work()] {
-                --group.jobs;
-                if (completion) completion();
-            };
-        } catch (const Error& error) {
-            if (!is_noted) throw;
-            return [this, &group, code = error.code(), message = std::string(error.what())] {
-                --group.jobs;
-                note_failure(message, code);
-            };
-        }
+    const auto counted = [&group, work = std::move(work)]() -> Loader::Completion {
+        return [&group, completion = work()] {
+            --group.jobs;
+            if (completion) completion();
+        };
     };
-    if (!failed) failed = [this](const std::string& message) { note_failure(message); };
-    loader_->post({group.scope, counted, [&group, failed = std::move(failed)](const std::string& message) {
+    if (!failed) failed = [this](const Error& error) { note_failure(error); };
+    loader_->post({group.scope, counted, [&group, failed = std::move(failed)](const Error& error) {
                        --group.jobs;
-                       failed(message);
+                       failed(error);
                    }});
 }
 

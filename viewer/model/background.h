@@ -30,7 +30,7 @@ class Background {
     Group repair;  ///< a surface is repaired
     Group watch;   ///< the run that is followed is looked at now and then: nobody waits for it
 
-    using Failed = std::function<void(const std::string& message)>;
+    using Failed = std::function<void(const Error&)>;
     /// `failed` runs instead of the completion; a failure is noted if there is none.
     void post(Group& group, Loader::Work work, Failed failed = {});
     /// Done when nothing else is to be done, and not counted; failures are passed over.
@@ -47,8 +47,9 @@ class Background {
 
     /// The last hundred, newest last.
     const std::vector<std::string>& failures() const { return failures_; }
-    /// Of the first one; Error(io) where that was no Error.
+    /// Of the first one; Error(io) where that was none that was thrown.
     ErrorCode failure_code() const { return failure_code_; }
+    void note_failure(const Error& error) { note_failure(error.what(), error.code()); }
     /// An empty message is none.
     void note_failure(const std::string& message, ErrorCode code = ErrorCode::io);
     void forget_failures() { failures_.clear(); }

@@ -30,15 +30,8 @@ void DocumentLoader::open(const std::string& path, const RunOptions& options) {
     document.path = path;
     document.options = options;
     document.title = title_of(path, options.input_options.more_files);
-    const auto work = [this, path, input = options.input_options]() -> Loader::Completion {
-        try {
-            return read(path, input);
-        } catch (const Error& error) {
-            return [this, code = error.code(), message = std::string(error.what())] { show_error(code, message); };
-        }
-    };
-    background_.post(background_.open, work,
-                     [this](const std::string& message) { show_error(ErrorCode::internal, message); });
+    const auto work = [this, path, input = options.input_options]() -> Loader::Completion { return read(path, input); };
+    background_.post(background_.open, work, [this](const Error& error) { show_error(error.code(), error.what()); });
 }
 
 Loader::Completion DocumentLoader::read(const std::string& path, const InputOptions& input) {
@@ -137,7 +130,7 @@ void DocumentLoader::find_trace_of_run(const std::string& path) {
         if (!is_trace_of(*trace, tree)) return {};
         return [this, trace] { fetched_.use_trace(trace); };
     };
-    background_.post(background_.open, work, [](const std::string&) {});  // the run can be shown without it
+    background_.post(background_.open, work, [](const Error&) {});  // the run can be shown without it
 }
 
 }  // namespace kerf::view

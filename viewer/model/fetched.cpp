@@ -96,11 +96,11 @@ std::shared_ptr<const T> Fetched::fetch(const Store::Key& key, Make make) {
             if (also) also();
         };
     };
-    const auto failed = [this, key, folder = shown_.document.folder](const std::string& message) {
+    const auto failed = [this, key, folder = shown_.document.folder](const Error& error) {
         fetching_.erase(key);
         if (!folder.empty() && !exists(folder)) return;  // the run has just moved it
         failed_.insert(key);
-        background_.note_failure(message);
+        background_.note_failure(error);
     };
     background_.post(background_.data, work, failed);
     return nullptr;

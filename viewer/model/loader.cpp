@@ -46,15 +46,19 @@ bool Loader::next(Task& task) {
 }
 
 Loader::Result Loader::perform(Task task) {
-    std::string message;
+    const auto failure = [&task](const Error& error) -> Result {
+        return {task.scope, [fail = std::move(task.on_failure), error] {
+                    if (fail) fail(error);
+                }};
+    };
     try {
         return {task.scope, task.work()};
+    } catch (const Error& error) {
+        return failure(error);
     } catch (const std::exception& error) {
-        message = is_out_of_memory(error) ? "There is not enough memory." : error.what();
+        return failure(is_out_of_memory(error) ? Error(ErrorCode::memory, "There is not enough memory.")
+                                               : Error(ErrorCode::internal, error.what()));
     }
-    return {task.scope, [fail = std::move(task.on_failure), message] {
-                if (fail) fail(message);
-            }};
 }
 
 void Loader::run() {

@@ -7,9 +7,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
 #include <vector>
+
+#include "core/error.h"
 
 namespace kerf::view {
 
@@ -34,7 +35,7 @@ class Loader {
     struct Task {
         std::shared_ptr<const Scope> scope;
         Work work;
-        std::function<void(const std::string& message)> on_failure;  ///< instead of the completion, if `work` throws
+        std::function<void(const Error&)> on_failure;  ///< instead of the completion, if `work` throws
     };
 
     Loader();

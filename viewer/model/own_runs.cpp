@@ -77,7 +77,7 @@ void OwnRuns::launch_on_surface_of_trace(const RunOptions& options, const std::s
         };
     };
     background_.post(background_.open, write,
-                     [this](const std::string& message) { follower_.end_without_result(message); });
+                     [this](const Error& error) { follower_.end_without_result(error.what()); });
 }
 
 void OwnRuns::cancel() {

@@ -133,9 +133,9 @@ void Repairs::repair(const InputOptions& options) {
     document_.progress = {};
     document_.progress.running = document_.progress.ours = true;
     document_.progress.stage = "repair";
-    background_.post(background_.repair, work, [this](const std::string& message) {
+    background_.post(background_.repair, work, [this](const Error& error) {
         document_.progress = {};
-        background_.note_failure(message);
+        background_.note_failure(error);
     });
 }
 

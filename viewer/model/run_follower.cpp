@@ -137,7 +137,7 @@ void RunFollower::show_input() {
             document_.tree.at(1);
         };
     };
-    background_.post(background_.open, read, [](const std::string&) {});  // the run itself says what is wrong with it
+    background_.post(background_.open, read, [](const Error&) {});  // the run itself says what is wrong with it
 }
 
 void RunFollower::load_trace() {
@@ -152,8 +152,8 @@ void RunFollower::load_trace() {
         return [show, trace = std::make_shared<const Trace>(read_trace(path))] { show(trace); };
     };
     // Reading belongs to the run: another one that is started makes it void.
-    background_.post(background_.watch, read, [this, show](const std::string& message) {
-        background_.note_failure(message);
+    background_.post(background_.watch, read, [this, show](const Error& error) {
+        background_.note_failure(error);
         show(nullptr);
     });
 }
@@ -215,7 +215,7 @@ void RunFollower::look_at_folder() {
             apply_state(state);
         };
     };
-    background_.post(background_.watch, look, [looked](const std::string&) { looked(); });
+    background_.post(background_.watch, look, [looked](const Error&) { looked(); });
 }
 
 void RunFollower::mark_taken(const std::set<NodeId>& taken) {
@@ -291,8 +291,8 @@ void RunFollower::read_result() {
             if (is_following(own)) show_result(std::move(run));
         };
     };
-    background_.post(background_.open, read, [this, own = run_->scratch](const std::string& message) {
-        if (is_following(own)) end_without_result(message);
+    background_.post(background_.open, read, [this, own = run_->scratch](const Error& error) {
+        if (is_following(own)) end_without_result(error.what());
     });
 }
 

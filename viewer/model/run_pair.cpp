@@ -62,8 +62,8 @@ void RunPair::start_redo() {
             take_redone(node, redone);
         };
     };
-    background_.post(background_.redo, work, [this](const std::string& message) {
-        background_.note_failure(message);
+    background_.post(background_.redo, work, [this](const Error& error) {
+        background_.note_failure(error);
         start_redo();
     });
 }
