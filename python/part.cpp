@@ -112,8 +112,8 @@ void register_part(py::module_& module) {
                                [](const py::object& self) { return values_of(self, PartValues::Of::points); })
         .def_property_readonly("cell_data",
                                [](const py::object& self) { return values_of(self, PartValues::Of::tets); })
-        .def_readonly("patch_names", &Part::patch_names)
-        .def_readonly("region_names", &Part::region_names);
+        .def_property_readonly("patch_names", [](const Part& self) { return self.patch_names.names(); })
+        .def_property_readonly("region_names", [](const Part& self) { return self.region_names.names(); });
 }
 
 }  // namespace kerf::python

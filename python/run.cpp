@@ -47,7 +47,10 @@ py::array_t<Count> of_parts(const RunObject& run, Count PartExtent::*count) {
 
 std::shared_ptr<Part> load_part_of(const RunObject& run, std::size_t index) {
     const py::gil_scoped_release released;
-    return std::make_shared<Part>(run.parts->load(PartIndex(index)));
+    auto part = std::make_shared<Part>(run.parts->load(PartIndex(index)));
+    part->patch_names = run.parts->outline().patch_names;  // rows of them are the numbers of arrays
+    part->region_names = run.parts->outline().region_names;
+    return part;
 }
 
 py::dict verify(const std::string& folder, const py::object& input, bool without_input) {

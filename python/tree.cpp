@@ -126,7 +126,7 @@ void register_parts(py::module_& module) {
         .def_property_readonly("facet_keys", array([](const PartJob& p) -> auto& { return p.surface.facet_key; }))
         .def_property_readonly("neighbours", array([](const PartJob& p) -> auto& { return p.neighbour; }))
         .def_property_readonly("global_ids", array([](const PartJob& p) -> auto& { return p.boundary_id; }))
-        .def_readonly("names", &PartJob::patch_names);
+        .def_property_readonly("names", [](const PartJob& self) { return self.patch_names.filled(); });
 }
 
 std::shared_ptr<CutTree> decompose(const SurfaceObject& surface, const py::object& sizes, const py::object& progress,

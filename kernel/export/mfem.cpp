@@ -92,12 +92,12 @@ class MfemFile {
     }
 
     void write_names() {
-        const auto write_all = [&](const char* kind, const std::vector<std::string>& names) {
+        const auto write_all = [&](const char* kind, const NameTable& names) {
             for (std::size_t i = 0; i < names.size(); ++i) {
-                std::string name = names[i];
+                std::string name = names.names()[i];
                 std::replace_if(
                     name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-                file_.write(fmt::format("# {} {}: {}\n", kind, i + 1, name));
+                file_.write(fmt::format("# {} {}: {}\n", kind, names.number(i) + 1, name));
             }
         };
         write_all("attribute", part_.region_names);

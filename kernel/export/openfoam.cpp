@@ -56,16 +56,16 @@ void leave_out_walls(const std::vector<std::int64_t>& sizes, std::vector<Patch>&
 }
 
 // As text, so that labels of any size are read.
-void write_zones(const Part& part, const std::vector<std::int32_t>& of_tets, const MeshPlace& place,
-                 ExportFiles& files) {
-    const std::vector<std::string> words = word_names(part.region_names, word_rules("region"));
+void write_zones(const std::vector<std::string>& names, const std::vector<std::int32_t>& of_tets,
+                 const MeshPlace& place, ExportFiles& files) {
+    const std::vector<std::string> words = word_names(names, word_rules("region"));
     std::vector<std::vector<Label>> cells(words.size());
     for (std::size_t t = 0; t < of_tets.size(); ++t) cells[of_tets[t]].push_back(static_cast<Label>(t));
     ExportFile file = files.create(place.folder + "cellZones");
     file.write(header("regIOobject", "cellZones", place.location, false));
     file.write(fmt::format("{}\n(\n", words.size()));
     for (std::size_t zone = 0; zone < words.size(); ++zone) {
-        file.write(name_comment(part.region_names[zone], words[zone]));
+        file.write(name_comment(names[zone], words[zone]));
         file.write(fmt::format("    {}\n    {{\n        type            cellZone;\n", words[zone]));
         file.write(fmt::format("        cellLabels      List<label>\n{}\n(\n", cells[zone].size()));
         for (const Label cell : cells[zone]) write_row(file, {cell});
@@ -93,10 +93,10 @@ void write_part(const PartSource& parts, PartIndex index, const Part& part, Expo
     const MeshPlace place = mesh_place(outline, index);
     const Materials materials(parts);
     Boundary boundary = boundary_of_mesh(part, outline, index.value(),
-                                         patches_of_surface(part.patch_names, files.options().patch_types));
+                                         patches_of_surface(outline.patch_names, files.options().patch_types));
     if (materials.are_regions()) {
         leave_out_walls(parts.bodies().boundary_sizes(), boundary.patches);
-        write_zones(part, materials.of_tets(index, part), place, files);
+        write_zones(materials.names(), materials.of_tets(index, part), place, files);
     }
     write_mesh(part, boundary, place, files);
 }

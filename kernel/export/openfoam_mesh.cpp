@@ -46,18 +46,17 @@ namespace mesh_files {
 using Labels = std::vector<Label>;
 
 // The number of the patch that each triangle belongs to; those of processors are numbered after those of the surface.
-Labels patches_of_facets(const Part& part, const MeshOutline& outline) {
+Labels patches_of_facets(const Part& part, const MeshOutline& outline, Label of_surface) {
     std::vector<NodeId> others = part.neighbour;
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     Labels processors;
     for (const NodeId other : others) processors.push_back(other < 0 ? -1 : outline.index_of(other).value());
-    const std::int32_t first = std::ssize(part.patch_names);
     Labels patches = part.patch;
     for (std::size_t f = 0; f < patches.size(); ++f) {
         if (!part.is_interface(f)) continue;
         const auto found = std::lower_bound(others.begin(), others.end(), part.neighbour[f]);
-        patches[f] = first + processors[found - others.begin()];
+        patches[f] = of_surface + processors[found - others.begin()];
     }
     return patches;
 }
@@ -70,8 +69,8 @@ struct PlacedFacet {
 };
 
 // The boundary triangles in the order of their patches.
-std::vector<PlacedFacet> place_facets(const Part& part, const MeshOutline& outline) {
-    const Labels patches = patches_of_facets(part, outline);
+std::vector<PlacedFacet> place_facets(const Part& part, const MeshOutline& outline, Label of_surface) {
+    const Labels patches = patches_of_facets(part, outline, of_surface);
     std::vector<PlacedFacet> placed(part.facets.size());
     for (std::size_t f = 0; f < placed.size(); ++f) {
         placed[f] = {patches[f], {}, static_cast<std::int32_t>(f)};
@@ -206,9 +205,9 @@ std::int64_t face_count(std::int64_t tets, std::int64_t boundary_faces) { return
 
 Boundary boundary_of_mesh(const Part& part, const MeshOutline& outline, std::int32_t processor,
                           std::vector<Patch> patches) {
+    const auto of_surface = static_cast<std::int32_t>(patches.size());
     Boundary boundary{std::move(patches), {}, {}};
-    const std::int32_t of_surface = std::ssize(part.patch_names);
-    for (const mesh_files::PlacedFacet& placed : mesh_files::place_facets(part, outline)) {
+    for (const mesh_files::PlacedFacet& placed : mesh_files::place_facets(part, outline, of_surface)) {
         const std::int32_t f = placed.facet;
         const bool is_of_surface = placed.patch < of_surface;
         const std::int32_t other = placed.patch - of_surface;

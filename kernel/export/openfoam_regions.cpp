@@ -131,7 +131,6 @@ Part RegionMeshes::part_of(const Part& part, RegionIndex region) const {
     KERF_CHECK(part.mesh.neighbours.size() == part.mesh.tets.size());
     Part piece;
     piece.id = part.id;
-    for (const Patch& patch : patches(region)) piece.patch_names.push_back(patch.name);
     regions::Extract extract(part, region, piece);
     const std::vector<std::int32_t>& outer = walls_.outer_patches(region);
     for (std::size_t f = 0; f < part.facets.size(); ++f) {

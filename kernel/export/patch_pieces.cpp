@@ -10,7 +10,7 @@ namespace {
 
 // `is_wanted`: of each node.
 PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
-    std::vector<PatchPiece> all(part.patch_names.size());
+    std::vector<PatchPiece> all(part.patch_names.end());
     std::vector<std::vector<std::int32_t>> on_patch(all.size());  // triangles, also those that others list
     std::int32_t place = 0;
     for (std::size_t f = 0; f < part.facets.size(); ++f) {

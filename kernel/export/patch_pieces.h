@@ -30,7 +30,7 @@ struct PatchPieces {
 /// How many pieces have no triangles.
 std::int64_t pieces_without_facets(const PatchPieces& pieces);
 
-/// O(#V + #E + #F + patches).
+/// O(#V + #E + #F + the largest number of a patch).
 PatchPieces patch_pieces(const Part& part);
 /// The pieces with those nodes alone that the part owns: those of all parts list every node of the whole once.
 PatchPieces owned_patch_pieces(const Part& part);

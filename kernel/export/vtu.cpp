@@ -66,14 +66,6 @@ void write_regions(const PartSource& parts, ExportFile& file) {
 }
 
 // The bytes of each name and a zero byte.
-GridArray names_array(const char* array, const std::vector<std::string>& names) {
-    std::int64_t bytes = 0;
-    for (const std::string& name : names) bytes += name.size() + 1;
-    return GridArray::of<std::uint8_t>("FieldData", array, 1, bytes, [&names](ExportFile& file) {
-        for (const std::string& name : names) file.write(name.c_str(), name.size() + 1);
-    });
-}
-
 template <class Id>
 GridArray connectivity(const PartSource& parts) {
     const MeshOutline& outline = parts.outline();
@@ -136,7 +128,7 @@ Grid grid_of(const PartSource& parts) {
         });
     };
     grid.arrays = {
-        names_array("PatchNames", outline.patch_names),
+        names_array<ExportFile>("PatchNames", outline.patch_names),
         GridArray::of<std::int64_t>(
             "PointData", "GlobalVertexId", 1, nodes,
             [=](ExportFile& file) { write_computed<std::int64_t>(file, nodes, [](std::int64_t n) { return n; }); }),
@@ -162,7 +154,7 @@ Grid grid_of(const PartSource& parts) {
                                          [=](std::int64_t c) { return c < tets ? tet_type : facet_type; });
         })};
     if (!outline.region_names.empty()) {
-        grid.add(names_array("RegionNames", outline.region_names));
+        grid.add(names_array<ExportFile>("RegionNames", outline.region_names));
         grid.add(GridArray::of<std::int32_t>("CellData", "Region", 1, grid.cells,
                                              [&parts](ExportFile& file) { write_regions(parts, file); }));
     }

@@ -84,16 +84,19 @@ Box box_of_run(const PageJson& report, const ListedFiles& files) {
 
 struct ReadSurface {
     PageSurface surface;
-    std::vector<std::string> patch_names, region_names;
+    PageJson patch_names;
+    PageJson region_names = PageJson::array();
 };
 
 ReadSurface read_surfaces(const PageJson& report, const ListedFiles& files, std::int64_t limit) {
-    ReadSurface read{PageSurface(box_of_run(report, files), limit), {}, {}};
+    const PageJson& input = report.at("input");
+    ReadSurface read{PageSurface(box_of_run(report, files), limit), input.value("patches", PageJson())};
+    for (const PageJson& region : input.value("regions", PageJson::array()))
+        read.region_names.push_back(region.at("name"));
     for (const PageJson& of_part : report.at("parts")) {
-        Part part = verified_surface(of_part, files);
+        const Part part = verified_surface(of_part, files);
         read.surface.add(part);
-        read.patch_names = std::move(part.patch_names);
-        read.region_names = std::move(part.region_names);
+        if (read.patch_names.is_null()) read.patch_names = part.patch_names.names();  // of an older version
     }
     return read;
 }

@@ -21,7 +21,8 @@ void scan_tetgen_cells(std::string_view elements, const std::string& path, SoupB
 /// ignored, those of other orders and other compressions refused. The patch of a triangle is "interface" in parts of
 /// Kerf where another part is on the other side, else "surface". Where a surface is wanted, whole numbers of the cells
 /// named Region, else gmsh:physical, medit:ref or attribute as meshio names them, are the volumes of tetrahedra; the
-/// names of these are the bytes of the field data RegionNames, a zero byte behind each, else "region_N".
+/// names of these are the bytes of the field data RegionNames, a zero byte behind each, of numbers from 0 or those of
+/// RegionNumbers, else "region_N".
 void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& builder);
 inline constexpr const char* interface_patch = "interface";
 

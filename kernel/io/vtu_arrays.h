@@ -50,8 +50,8 @@ inline constexpr const char *front_array = "front", *back_array = "back";
 struct File {
     bool has_long_headers = false, is_compressed = false, is_appended_base64 = false;
     std::endian order = std::endian::little;
-    std::string_view appended;          // behind the underscore
-    std::optional<Array> region_names;  // of FieldData
+    std::string_view appended;                          // behind the underscore
+    std::optional<Array> region_names, region_numbers;  // of FieldData
     std::vector<Piece> pieces;
 };
 

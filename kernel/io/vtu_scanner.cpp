@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -109,6 +110,7 @@ void read_data_array(std::string_view text, const Tag& tag, std::string_view sec
     const std::size_t end = tag.is_empty ? tag.end : std::min(text.size(), text.find('<', tag.end));
     const std::string name(section == "Points" ? "Points" : tag.value("Name"));
     if (section == "FieldData" && name == "RegionNames") file.region_names = read_array(text, tag, end, path);
+    if (section == "FieldData" && name == "RegionNumbers") file.region_numbers = read_array(text, tag, end, path);
     if (file.pieces.empty()) return;
     Piece& piece = file.pieces.back();
     const std::string_view components = tag.value("NumberOfComponents");
@@ -191,10 +193,13 @@ bool has_sides(const File& file) {
     });
 }
 
-// In the order of their numbers, a zero byte behind each.
-std::vector<std::string> region_names_of(const File& file, const Decoder& decoder) {
+using RegionNames = std::map<std::int64_t, std::string>;
+
+// A zero byte behind each. Of the numbers from 0, unless an array says others.
+RegionNames region_names_of(const File& file, const Decoder& decoder) {
+    RegionNames of_numbers;
+    if (!file.region_names) return of_numbers;
     std::vector<std::string> names;
-    if (!file.region_names) return names;
     std::string name;
     for (const std::int64_t byte : decoder.values_of<std::int64_t>(*file.region_names)) {
         if (byte != 0) {
@@ -205,7 +210,12 @@ std::vector<std::string> region_names_of(const File& file, const Decoder& decode
         name.clear();
     }
     if (!name.empty()) names.push_back(std::move(name));
-    return names;
+    std::vector<std::int64_t> numbers(names.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    if (file.region_numbers) numbers = decoder.values_of<std::int64_t>(*file.region_numbers);
+    for (std::size_t i = 0; i < std::min(names.size(), numbers.size()); ++i)
+        of_numbers[numbers[i]] = std::move(names[i]);
+    return of_numbers;
 }
 
 bool is_triangle(std::int64_t type) { return type == vtk_triangle || type == vtk_quadratic_triangle; }
@@ -275,13 +285,13 @@ void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& r
                          "cells that are no tetrahedra or triangles");
 }
 
-std::string region_name(const std::vector<std::string>& names, std::int64_t number) {
-    const auto place = static_cast<std::uint64_t>(number);
-    return place < names.size() && !names[place].empty() ? names[place] : "region_" + std::to_string(number);
+std::string region_name(const RegionNames& names, std::int64_t number) {
+    const auto found = names.find(number);
+    return found != names.end() && !found->second.empty() ? found->second : "region_" + std::to_string(number);
 }
 
 // Regions of the numbers that occur, in their order.
-void set_sides(const FileSides& file_sides, const std::vector<std::string>& names, SoupBuilder& builder) {
+void set_sides(const FileSides& file_sides, const RegionNames& names, SoupBuilder& builder) {
     std::map<VolumeKey, std::int32_t> regions;
     for (const auto& pair : file_sides)
         for (const std::int64_t number : pair)
@@ -309,7 +319,7 @@ void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& buil
     vtu::FileSides sides;
     for (const vtu::Piece& piece : file.pieces) vtu::scan_piece(decoder, piece, region_array, path, builder, sides);
     if (builder.wants_scalars()) return;
-    const std::vector<std::string> names = vtu::region_names_of(file, decoder);
+    const vtu::RegionNames names = vtu::region_names_of(file, decoder);
     if (!builder.wants_tets() && !sides.empty() && vtu::has_sides(file)) vtu::set_sides(sides, names, builder);
     if (!region_array.empty())
         builder.tets().name_volumes([&](const VolumeKey& key) { return vtu::region_name(names, key.second); });

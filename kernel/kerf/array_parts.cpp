@@ -89,7 +89,7 @@ Part ArrayParts::load(PartIndex index) const {
     Part part;
     part.id = outline_.parts[index].id;
     part.patch_names = outline_.patch_names;
-    part.region_names = outline_.region_names;
+    part.region_names = NameTable::of_part(outline_.region_names, {region.value()});
     if (!outline_.region_names.empty()) part.regions = {{0, region}};
     part.global_id = boundary_vertices_of(region);
     part.mesh.boundary_vertex_count = static_cast<std::int32_t>(std::ssize(part.global_id));

@@ -67,9 +67,6 @@ class PartTaker {
     Part take(NodeId id, const std::vector<std::int32_t>& tets) {
         Part part;
         part.id = id;
-        part.patch_names = mesh_.patch_names;
-        part.region_names = mesh_.region_names;
-        if (!part.region_names.empty()) part.regions = {{0, RegionIndex(mesh_.region[tets.front()])}};
         for (std::size_t i = 0; i < tets.size(); ++i) add_boundary(tets[i], static_cast<std::int32_t>(i), part);
         part.mesh.boundary_vertex_count = static_cast<std::int32_t>(part.mesh.vertices.size());
         for (const std::int32_t tet : tets) {
@@ -77,6 +74,11 @@ class PartTaker {
             part.mesh.tets.push_back({number(t[0], part), number(t[1], part), number(t[2], part), number(t[3], part)});
         }
         take_edge_nodes(mesh_, tets, part);
+        part.patch_names = NameTable::of_part(mesh_.patch_names, part.patch);
+        if (!mesh_.region_names.empty()) {
+            part.regions = {{0, RegionIndex(mesh_.region[tets.front()])}};
+            part.region_names = NameTable::of_part(mesh_.region_names, {mesh_.region[tets.front()]});
+        }
         for (const std::int64_t vertex : part.global_id) local_[vertex] = -1;
         return part;
     }

@@ -99,6 +99,17 @@ struct VtuGrid {
     }
 };
 
+/// Field data of strings as bytes, each one with a zero byte behind it: VTK has a type for strings with the same bytes,
+/// but meshio opens no file with an array of it. The names must outlive the array.
+template <class File>
+VtuArray<File> names_array(const char* array, std::span<const std::string> names) {
+    std::int64_t bytes = 0;
+    for (const std::string& name : names) bytes += name.size() + 1;
+    return VtuArray<File>::template of<std::uint8_t>("FieldData", array, 1, bytes, [names](File& file) {
+        for (const std::string& name : names) file.write(name.c_str(), name.size() + 1);
+    });
+}
+
 /// Writes value(0), value(1), ..., which are computed while they are written.
 template <class T, class File, class Value>
 void write_computed(File& file, std::int64_t count, const Value& value) {

@@ -57,9 +57,9 @@ class JoinedSurfaces {
     }
 
     /// With one array behind the other as the files have them.
-    Grid grid(bool has_regions) const {
+    Grid grid(std::span<const std::string> patch_names, std::span<const std::string> region_names) const {
         Grid grid{points_, cells_, number_field(vtk_type<std::int64_t>, "BoundaryVertexCount", points_)};
-        grid.arrays = {names("PatchNames"),
+        grid.arrays = {names_array<CheckedFile>("PatchNames", patch_names),
                        copied<std::int64_t>("PointData", "GlobalVertexId", 1, points_),
                        copied<std::int32_t>("CellData", "Part", 1, cells_),
                        copied<std::int32_t>("CellData", "Patch", 1, cells_),
@@ -70,24 +70,14 @@ class JoinedSurfaces {
                                                    [this](CheckedFile& file) { write_connectivity(file); }),
                        computed<std::int64_t>("offsets", [](std::int64_t cell) { return 3 * (cell + 1); }),
                        computed<std::uint8_t>("types", [](std::int64_t) { return vtk_triangle; })};
-        if (has_regions) {
-            grid.add(names("RegionNames"));
+        if (!region_names.empty()) {
+            grid.add(names_array<CheckedFile>("RegionNames", region_names));
             grid.add(copied<std::int32_t>("CellData", "Region", 1, cells_));
         }
         return grid;
     }
-    bool have_regions() const { return pieces_.front().header.find("Region") != nullptr; }
 
  private:
-    // As the first file has them.
-    GridArray names(const char* array) const {
-        const VtuHeader::Array* names = pieces_.empty() ? nullptr : pieces_.front().header.find(array);
-        return GridArray::of<std::uint8_t>(
-            "FieldData", array, 1, names ? names->tuples : 0, [this, array](CheckedFile& file) {
-                read_array(pieces_.front(), array, 1, [&](const std::string& b) { file.write(b); });
-            });
-    }
-
     template <class T>
     GridArray copied(const char* section, const char* name, std::int64_t components, std::int64_t tuples) const {
         return GridArray::of<T>(section, name, components, tuples, [this, name](CheckedFile& file) {
@@ -125,14 +115,14 @@ class JoinedSurfaces {
 
 }  // namespace
 
-std::string surfaces_pvtu_text(const std::vector<std::string>& pieces, bool has_regions) {
-    return pvtu_text(JoinedSurfaces({}).grid(has_regions).heads(), pieces);
+std::string surfaces_pvtu_text(const std::vector<std::string>& pieces, std::span<const std::string> region_names) {
+    return pvtu_text(JoinedSurfaces({}).grid({}, region_names).heads(), pieces);
 }
 
-void write_joined_surfaces(const std::string& path, const std::vector<std::string>& pieces) {
-    const JoinedSurfaces surfaces(pieces);
+void write_joined_surfaces(const std::string& path, const std::vector<std::string>& pieces,
+                           std::span<const std::string> patch_names, std::span<const std::string> region_names) {
     CheckedFile file(path, "wb");
-    surfaces.grid(surfaces.have_regions()).write(file);
+    JoinedSurfaces(pieces).grid(patch_names, region_names).write(file);
     file.close();
 }
 

@@ -14,6 +14,7 @@
 #include "core/ids.h"
 #include "mesh/tet_mesh.h"
 #include "part/edge_nodes.h"
+#include "part/name_table.h"
 
 namespace kerf {
 
@@ -84,10 +85,10 @@ struct Part {
     std::vector<NodeId> neighbour;           ///< #F; part on the other side of an interface or wall, else -1
     std::vector<std::int32_t> tet_at_facet;  ///< #F; the tetrahedron behind the triangle, -1 if there is none
     std::vector<std::int64_t> global_id;  ///< #V; dense over the whole mesh, the same in every part that has the vertex
-    std::vector<std::string> patch_names;
-    std::vector<std::string> region_names;  ///< empty if there is one region
-    std::vector<RegionRun> regions;         ///< of all tetrahedra, ascending; a part that is none joined has one run;
-                                            ///< empty if there is one region
+    NameTable patch_names;                ///< of those on the boundary at least
+    NameTable region_names;               ///< of those of the cells at least; empty if there is one region
+    std::vector<RegionRun> regions;       ///< of all tetrahedra, ascending; a part that is none joined has one run;
+                                          ///< empty if there is one region
     std::vector<std::int32_t> contact_vertices;  ///< where other parts may be that share no triangle with it there
     std::vector<UndirectedEdge> contact_edges;   ///< likewise
     std::vector<SharedGroup> shared;  ///< all vertices that other parts have, too; ascending by SharedGroup::parts,

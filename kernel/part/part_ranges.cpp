@@ -56,8 +56,12 @@ void require_counts(const Part& part, const PartExtent& told, PartContent conten
 
 }  // namespace
 
+void require_names(const Part& part, const MeshOutline& outline, const std::string& path) {
+    if (!part.patch_names.agrees_with(outline.patch_names) || !part.region_names.agrees_with(outline.region_names))
+        fail(path, "it has other names of patches or regions than report.json");
+}
+
 void require_ranges(const Part& part, const std::string& path) {
-    const auto patches = static_cast<std::int32_t>(part.patch_names.size());
     require_finite(part.mesh.vertices, path);
     require_finite(part.edge_nodes.points, path);
     const auto is_negative = [](std::int64_t id) { return id < 0; };
@@ -65,8 +69,9 @@ void require_ranges(const Part& part, const std::string& path) {
         std::any_of(part.edge_nodes.global_id.begin(), part.edge_nodes.global_id.end(), is_negative))
         fail(path, "a node has a global number below zero");
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        if (part.patch[f] < -1 || part.patch[f] >= patches || (part.is_of_input(f) && part.patch[f] < 0))
-            fail(path, fmt::format("triangle {} lies in patch {} of {}", f, part.patch[f], patches));
+        const bool may_have_none = part.patch[f] == -1 && !part.is_of_input(f);
+        if (!may_have_none && !part.patch_names.has(part.patch[f]))
+            fail(path, fmt::format("triangle {} lies in patch {}, which has no name", f, part.patch[f]));
         if (part.facet[f] < -1 || part.neighbour[f] < -1 || part.neighbour[f] == 0 ||
             (part.is_on_outer_boundary(f) && !part.is_of_input(f)))
             fail(path, fmt::format("triangle {} lies neither on the surface nor beside a part", f));
@@ -85,6 +90,7 @@ void require_edge_numbers(const Part& part, const MeshOutline& outline, const st
 
 void require_ranges(const Part& part, PartContent content, const PartStanding& standing, const std::string& path) {
     require_ranges(part, path);
+    if (content != PartContent::vertices) require_names(part, standing.outline, path);
     require_counts(part, standing.outline.parts[standing.index], content, path);
     require_neighbours(part, standing.outline, path);
     require_numbers(part, standing, path);

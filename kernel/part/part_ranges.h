@@ -11,6 +11,9 @@ namespace kerf {
 /// the user's has one with a name, neighbours are leaves or none, and global numbers are none below zero. O(size).
 void require_ranges(const Part& part, const std::string& path);
 
+/// Throws Error(verification) unless the names that the part has are those of the outline. O(names of the part).
+void require_names(const Part& part, const MeshOutline& outline, const std::string& path);
+
 /// Where a part of a run stands in the whole.
 struct PartStanding {
     const MeshOutline& outline;
@@ -20,8 +23,9 @@ struct PartStanding {
 };
 
 /// The same, and that it is this part of the whole, with as many vertices and tetrahedra as the outline has of what was
-/// loaded (`content`), that neighbours are other parts, that no two vertices have one number, and that vertices of the
-/// boundary and of the inside have those that are for them. O(n log n) in the boundary.
+/// loaded (`content`), that neighbours are other parts, that names are those of the outline, that no two vertices have
+/// one number, and that vertices of the boundary and of the inside have those that are for them. O(n log n) in the
+/// boundary.
 void require_ranges(const Part& part, PartContent content, const PartStanding& standing, const std::string& path);
 
 /// Of order 2, a part of that: the nodes on its edges have numbers behind those of all vertices, each once.

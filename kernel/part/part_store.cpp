@@ -17,7 +17,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::array<char, 8> magic = {'K', 'E', 'R', 'F', 'P', 'A', 'R', '2'};
+constexpr std::array<char, 8> magic = {'K', 'E', 'R', 'F', 'P', 'A', 'R', '3'};
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 
 struct Head {
@@ -49,7 +49,8 @@ bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, st
     const std::size_t facets = part.facets.size();
     const std::size_t boundary = part.mesh.boundary_vertex_count;
     const auto is_tet = [&](std::int32_t t) { return t >= -1 && std::cmp_less(t, tets); };
-    bool holds = part.mesh.boundary_vertex_count >= 0 && boundary <= vertices && ids == boundary &&
+    bool holds = part.patch_names.is_consistent() && part.region_names.is_consistent() &&
+                 part.mesh.boundary_vertex_count >= 0 && boundary <= vertices && ids == boundary &&
                  part.patch.size() == facets && part.facet.size() == facets && part.neighbour.size() == facets &&
                  part.tet_at_facet.size() == facets && are_in_range(part.facets, boundary) &&
                  std::all_of(part.tet_at_facet.begin(), part.tet_at_facet.end(), is_tet);

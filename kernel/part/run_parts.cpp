@@ -17,6 +17,7 @@
 #include "part/curved_nodes_file.h"
 #include "part/edge_node_reader.h"
 #include "part/part_store.h"
+#include "part/run_names.h"
 #include "part/second_order_parts.h"
 #include "part/vtu_reader.h"
 
@@ -79,6 +80,9 @@ MeshOutline outline_of(const std::string& folder, const nlohmann::json& report) 
     try {
         outline.vertices = report.at("totals").at("vertices");
         outline.order = report.at("totals").value("order", 1);
+        RunNames names = RunNames::of_report(report);
+        outline.patch_names = std::move(names.patches);
+        outline.region_names = std::move(names.regions);
         for (const auto& of_part : report.at("parts")) {
             outline.parts.push_back({of_part.at("id"), of_part.at("vertices"), of_part.at("tets")});
             PartExtent& extent = outline.parts.back();
@@ -133,8 +137,8 @@ RunParts::RunParts(std::string folder, std::string solution, const nlohmann::jso
         for (const std::int32_t v : surface.contact_vertices) held.push_back({surface.global_id[v], index});
         const std::vector<SharedEdges::Incidence> incidences_here = SharedEdges::incidences_of(surface);
         told.insert(told.end(), incidences_here.begin(), incidences_here.end());
-        outline_.patch_names = std::move(surface.patch_names);
-        outline_.region_names = std::move(surface.region_names);
+        if (outline_.patch_names.empty()) outline_.patch_names = surface.patch_names.names();
+        require_names(surface, outline_, files_.folder() + "/parts/" + part_surface_file_name(extent.id));
         first_interior_ids_.push_back(interior);
         interior += extent.vertices - surface.mesh.boundary_vertex_count;
     }

@@ -111,13 +111,24 @@ std::vector<std::string> read_names(PartArraysFile& file, const char* array) {
     return names;
 }
 
+// Files with all names have no numbers of these.
+NameTable read_name_table(PartArraysFile& file, const char* array, const char* numbers_array) {
+    std::vector<std::string> names = read_names(file, array);
+    if (!file.header().find(numbers_array)) return names;
+    file.open<std::int32_t>(numbers_array, std::ssize(names));
+    const auto numbers = file.take<std::int32_t>(std::ssize(names));
+    if (!NameTable::can_be(numbers)) file.fail(fmt::format("its {} do not rise from 0", numbers_array));
+    return {numbers, std::move(names)};
+}
+
 // The names of regions, and the runs of cells in them; a surface is one run. None where there is one region.
 void read_regions(PartArraysFile& file, std::int64_t tet_count, Part& part) {
     if (!file.header().find("Region")) return;
-    part.region_names = read_names(file, "RegionNames");
-    std::int32_t cell = 0;
+    part.region_names = read_name_table(file, "RegionNames", "RegionNumbers");
+    std::int32_t cell = 0, last = -1;
     visit_tags(file, "Region", [&](std::int32_t region) {
-        if (region < 0 || region >= std::ssize(part.region_names)) file.fail("a cell lies in a region without a name");
+        if (region != std::exchange(last, region) && !part.region_names.has(region))
+            file.fail("a cell lies in a region without a name");
         const bool is_counted = cell < tet_count || part.regions.empty();
         if (is_counted && (part.regions.empty() || part.regions.back().region != RegionIndex(region)))
             part.regions.push_back({cell, RegionIndex(region)});
@@ -178,7 +189,7 @@ void read_cells(PartArraysFile& file, Part& part) {
     part.patch = facet_values(file, "Patch", tet_count);
     part.facet = read_input_facets(file, tet_count);
     part.neighbour = facet_values(file, "Neighbour", tet_count);
-    part.patch_names = read_names(file, "PatchNames");
+    part.patch_names = read_name_table(file, "PatchNames", "PatchNumbers");
     read_regions(file, tet_count, part);
     read_contacts(file, part);
 }
@@ -303,6 +314,16 @@ std::vector<PartValues> read_value_names(const std::string& path) {
     for (const VtuHeader::Array* array : arrays.of_cells)
         names.push_back(nameless_numbers(*array, PartValues::Of::tets));
     return names;
+}
+
+// Files with all names have no numbers of these.
+NameTable read_name_table(PartArraysFile& file, const char* array, const char* numbers_array) {
+    std::vector<std::string> names = read_names(file, array);
+    if (!file.header().find(numbers_array)) return names;
+    file.open<std::int32_t>(numbers_array, std::ssize(names));
+    const auto numbers = file.take<std::int32_t>(std::ssize(names));
+    if (!NameTable::can_be(numbers)) file.fail(fmt::format("its {} do not rise from 0", numbers_array));
+    return {numbers, std::move(names)};
 }
 
 std::vector<PartValues> read_values(const std::string& path) {

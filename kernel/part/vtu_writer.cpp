@@ -50,8 +50,8 @@ class GridMaker {
     /// With the qualities of cells and with values.
     Grid part_grid(const VtuLayout& layout, std::span<const PartValues> values) {
         require_sizes(part_.tet_at_facet.size() == part_.facets.size());
-        add_names("PatchNames", part_.patch_names);
-        if (layout.has_regions) add_names("RegionNames", part_.region_names);
+        add_names("PatchNames", "PatchNumbers", part_.patch_names);
+        if (layout.has_regions) add_names("RegionNames", "RegionNumbers", part_.region_names);
         add_contacts();
         add_array<std::int32_t>("FieldData", "Facet", 1, part_.facet);  // each tetrahedron has none
         add_global_ids();
@@ -70,8 +70,8 @@ class GridMaker {
     }
 
     Grid surface_grid() {
-        add_names("PatchNames", part_.patch_names);
-        if (!part_.region_names.empty()) add_names("RegionNames", part_.region_names);
+        add_names("PatchNames", "PatchNumbers", part_.patch_names);
+        if (!part_.region_names.empty()) add_names("RegionNames", "RegionNumbers", part_.region_names);
         add_contacts();
         add_global_ids();
         add_tags(sizeof(std::int32_t), "Part", part_.id, nullptr);
@@ -103,14 +103,9 @@ class GridMaker {
         add_array<T>(section, std::move(name), components, std::span(numbers));
     }
 
-    // Strings as bytes, each one with a zero byte behind it. VTK has a type for strings with the same bytes, but meshio
-    // opens no file with an array of it.
-    void add_names(const char* array, const std::vector<std::string>& names) {
-        std::int64_t bytes = 0;
-        for (const std::string& name : names) bytes += name.size() + 1;
-        add<std::uint8_t>("FieldData", array, 1, bytes, [&names](CheckedFile& file) {
-            for (const std::string& name : names) file.write(name.c_str(), name.size() + 1);
-        });
+    void add_names(const char* array, const char* numbers, const NameTable& names) {
+        grid_.arrays.push_back(names_array<CheckedFile>(array, names.names()));
+        if (!names.is_whole()) add_array<std::int32_t>("FieldData", numbers, 1, names.numbers());
     }
 
     // Most parts have none, and then no arrays either.

@@ -29,12 +29,13 @@ VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields);
 /// Point array GlobalVertexId (Int64). Cell arrays Part, Patch, Neighbour (Int8, Int16 or Int32), and Float32 ones of
 /// the fields; a boundary triangle carries the quality of the tetrahedron behind it, NaN if there is none; a
 /// tetrahedron has Patch and Neighbour -1. Field data PatchNames (UInt8: the names' bytes in the order of their
-/// patches, a zero byte behind each), Facet (Int32: that of the input, -1 on interfaces, of each boundary triangle) and
-/// BoundaryVertexCount (Int32), of order 2 VertexCount, too. Where there are several regions, there is a cell array
-/// Region, for a boundary triangle that of the tetrahedron behind it, and field data RegionNames as PatchNames; where
-/// bodies touch without a triangle in common, ContactVertices and ContactEdges (Int32, numbers of vertices); `values`
-/// follow the arrays of their kind. 30 bytes a tetrahedron and 4 a field, with tags of one byte. The bytes depend on
-/// the part and the layout alone; their hash is returned. Throws Error(io).
+/// patches, a zero byte behind each), of a NameTable that is not whole PatchNumbers (Int32), Facet (Int32: that of the
+/// input, -1 on interfaces, of each boundary triangle) and BoundaryVertexCount (Int32), of order 2 VertexCount, too.
+/// Where there are several regions, there is a cell array Region, for a boundary triangle that of the tetrahedron
+/// behind it, and field data RegionNames and RegionNumbers likewise; where bodies touch without a triangle in common,
+/// ContactVertices and ContactEdges (Int32, numbers of vertices); `values` follow the arrays of their kind. 30 bytes a
+/// tetrahedron and 4 a field, with tags of one byte. The bytes depend on the part and the layout alone; their hash is
+/// returned. Throws Error(io).
 FileHash write_part(const std::string& path, const Part& part, const VtuLayout& layout = {},
                     std::span<const PartValues> values = {});
 

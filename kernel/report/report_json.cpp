@@ -58,6 +58,7 @@ Json input_json(const Input& input) {
                    {"facets_added", input.repairs.added_facets},
                    {"facets_flipped", input.orientation.facets_flipped},
                    {"shells_flipped", input.orientation.shells_flipped}}}};
+    for (const std::string& name : input.patch_names) json["patches"].push_back(path_text(name));
     for (std::size_t r = 0; r < input.regions.size(); ++r) {
         const InputRegion& region = input.regions[r];
         json["regions"].push_back(

@@ -37,12 +37,11 @@ bool has_repeated_vertex(const Tetrahedron& t) {
 }
 
 void check_boundary_arrays(const Part& part, PartFindings& found) {
-    const auto patches = static_cast<std::int32_t>(part.patch_names.size());
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
         const bool is_between = part.is_interface(f), has_facet = part.is_of_input(f);
         const bool may_be_both = !part.region_names.empty();  // a wall
         const bool is_something = is_between != has_facet || (is_between && may_be_both);
-        if (is_something && (!has_facet || (part.patch[f] >= 0 && part.patch[f] < patches))) continue;
+        if (is_something && (!has_facet || part.patch_names.has(part.patch[f]))) continue;
         found.differences.push_back(found.file + " has a boundary triangle without a patch or facet of the input");
         return;
     }

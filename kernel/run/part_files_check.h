@@ -38,7 +38,7 @@ struct PartFindings {
     std::int64_t tets = 0;
     double volume = 0;
     PartHash hash = {};
-    std::vector<std::string> patch_names = {}, region_names = {};
+    NameTable patch_names = {}, region_names = {};
     std::vector<PlacedVertex> boundary = {};
     std::vector<InputPiece> pieces = {};
     std::vector<InterfaceFacet> interfaces = {};

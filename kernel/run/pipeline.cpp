@@ -160,9 +160,9 @@ void join_surfaces(const RunContext& run, const RunFolder& folder, const std::ve
             names.push_back("parts/" + part_surface_file_name(part.id));
             paths.push_back(folder.part_surface_file(part.id));
         }
-        write_text_file(folder.file("surfaces.pvtu"),
-                        surfaces_pvtu_text(names, !run.input.complex.region_names().empty()));
-        write_joined_surfaces(folder.file("surfaces.vtu"), paths);
+        const std::span<const std::string> regions = run.input.complex.region_names();
+        write_text_file(folder.file("surfaces.pvtu"), surfaces_pvtu_text(names, regions));
+        write_joined_surfaces(folder.file("surfaces.vtu"), paths, run.input.patch_names, regions);
     });
 }
 

@@ -146,7 +146,6 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
     if (!sides.empty())
         for (Leaf& leaf : own.leaves) leaf.surface = joined_by_key(std::move(leaf.surface));
     const SharedVertices shared = find_shared_vertices(ranks, leaves, numbering, own, sides);
-    const std::span<const std::string> regions = input.complex.region_names();
     for (std::size_t i = 0; i < own.leaves.size(); ++i) {
         Leaf& leaf = own.leaves[i];
         PartJob job;
@@ -157,8 +156,8 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
         job.contact_vertices = std::move(contacts.vertices);
         job.contact_edges = std::move(contacts.edges);
         job.shared = shared.groups_of(leaves.index_of(leaf.id), job.boundary_id);
-        job.patch_names = input.patch_names;
-        job.region_names.assign(regions.begin(), regions.end());
+        job.patch_names = NameTable::of_part(input.patch_names, leaf.surface.patch);
+        job.region_names = NameTable::of_part(input.complex.region_names(), {leaf.region.value()});
         job.region = leaf.region;
         job.length_scale = input.diagonal;
         job.surface = std::exchange(leaf.surface, {});

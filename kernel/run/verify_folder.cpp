@@ -25,6 +25,7 @@
 #include "io/path_text.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
+#include "part/run_names.h"
 #include "part/run_parts.h"
 #include "part/vtu_reader.h"
 #include "part/vtu_writer.h"
@@ -57,7 +58,8 @@ class FolderVerifier {
           report_text_(read_report(folder)),
           report_(parse_json(report_text_)),
           is_of_this_version_(report_.at("kerf") == version),
-          order_(report_.at("totals").value("order", 1)) {}
+          order_(report_.at("totals").value("order", 1)),
+          names_(RunNames::of_report(report_)) {}
 
     FolderVerification run() {
         check_files();
@@ -101,9 +103,9 @@ class FolderVerifier {
     std::int64_t unnumbered_interior_ = 0;                // vertices of files that leave the numbers to who reads them
     std::vector<InputPiece> pieces_;
     std::vector<InterfaceFacet> interfaces_;
-    std::vector<std::string> patch_names_, region_names_;  // of the first part
-    std::vector<PartHash> hashes_;                         // in the order of the report
-    std::map<std::string, std::string> file_hashes_;       // by path: as the files are now
+    RunNames names_;
+    std::vector<PartHash> hashes_;                    // in the order of the report
+    std::map<std::string, std::string> file_hashes_;  // by path: as the files are now
     EdgeNodeCheck edge_nodes_;
 };
 
@@ -168,13 +170,11 @@ void FolderVerifier::take(PartFindings found) {
     ++result_.parts;
     result_.tets += found.tets;
     volume_ += found.volume;
-    if (hashes_.empty()) {
-        patch_names_ = found.patch_names;
-        region_names_ = found.region_names;
-    }
-    if (found.patch_names != patch_names_) differs(found.file + " has other names of patches than the parts before it");
-    if (found.region_names != region_names_)
-        differs(found.file + " has other names of regions than the parts before it");
+    if (names_.patches.empty()) names_.patches = found.patch_names.names();
+    if (!found.patch_names.agrees_with(names_.patches))
+        differs(found.file + " has other names of patches than the run");
+    if (!found.region_names.agrees_with(names_.regions))
+        differs(found.file + " has other names of regions than the run");
     hashes_.push_back(found.hash);
     boundary_.insert(boundary_.end(), found.boundary.begin(), found.boundary.end());
     pieces_.insert(pieces_.end(), found.pieces.begin(), found.pieces.end());
@@ -301,9 +301,9 @@ void FolderVerifier::check_input() {
     }
     if (wrong_patches > 0)
         differs(fmt::format("{} boundary triangles are in other patches than the input", wrong_patches));
-    if (patch_names_ != input.patch_names) differs("the parts have other names of patches than the input");
-    if (!std::ranges::equal(region_names_, input.complex.region_names()))
-        differs("the parts have other names of regions than the input");
+    if (names_.patches != input.patch_names) differs("the run has other names of patches than the input");
+    if (!std::ranges::equal(names_.regions, input.complex.region_names()))
+        differs("the run has other names of regions than the input");
     result_.laws.extra_boundary_faces += pieces_.end() - next;
     for (const PlacedVertex& v : boundary_)
         if (v.id >= 0 && v.id < input.vertices)

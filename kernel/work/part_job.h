@@ -25,10 +25,10 @@ struct PartJob {
     std::vector<UndirectedEdge> contact_edges;
     std::vector<SharedGroup> shared;
     std::vector<SharedEdgeGroup> shared_edges;
-    std::vector<std::string> patch_names;
-    std::vector<std::string> region_names;  ///< empty if there is one region
-    RegionIndex region;                     ///< in which the part lies
-    double length_scale = 1;                ///< diagonal of the whole input, for the bins of the distributions
+    NameTable patch_names;  ///< as in Part
+    NameTable region_names;
+    RegionIndex region;       ///< in which the part lies
+    double length_scale = 1;  ///< diagonal of the whole input, for the bins of the distributions
 
     template <class Archive>
     void archive(Archive& a) {

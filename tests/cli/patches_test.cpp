@@ -3,8 +3,12 @@
 #include <fstream>
 #include <set>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "io/file_bytes.h"
+#include "part/run_parts.h"
 #include "prepare/input.h"
 #include "support/assets.h"
 #include "support/program.h"
@@ -112,6 +116,79 @@ TEST_F(Patches, FeatureAngleMakesASideOfACubeAPatch) {
 TEST_F(Patches, FeatureAngleLeavesThePatchesOfTheFile) {
     const Soup box = test::box(Vec3::Zero(), Vec3(1, 2, 3), 6);
     expect_patches(mesh(write("box.obj", test::to_obj(box)), {"--feature-angle", "40"}), box.patch, box.patch_names);
+}
+
+// A patch for each facet of a box with more than a part lists all of.
+TEST_F(Patches, OfManyArePartsNamedByThoseThatTheyHaveAlone) {
+    Soup box = test::box(Vec3::Zero(), Vec3(1, 2, 3), 6);
+    box.patch_names.clear();
+    for (std::size_t f = 0; f < box.facets.size(); ++f) {
+        box.patch[f] = static_cast<std::int32_t>(f);
+        box.patch_names.push_back("face of a facet with the number " + std::to_string(f));
+    }
+    std::vector<std::int32_t> seen;
+    for (const Part& part : mesh(write("box.obj", test::to_obj(box)))) {
+        EXPECT_FALSE(part.patch_names.is_whole());
+        EXPECT_TRUE(part.patch_names.agrees_with(box.patch_names));
+        for (std::size_t f = 0; f < part.facets.size(); ++f)
+            EXPECT_EQ(part.patch[f], part.facet[f]);
+        seen.insert(seen.end(), part.patch_names.numbers().begin(), part.patch_names.numbers().end());
+    }
+    std::sort(seen.begin(), seen.end());
+    EXPECT_EQ(seen, box.patch) << "each facet lies in one part";
+    const std::string out = folder_.file("out");
+    const ChildResult verified = test::run_kerf({"verify", out});
+    EXPECT_EQ(verified.exit_code, 0) << verified.log;
+    EXPECT_EQ(RunParts(out).outline().patch_names, box.patch_names);
+    for (const std::string format : {"abaqus", "mfem"}) {
+        const ChildResult exported = test::run_kerf({"export", out, "--format", format, "-o", folder_.file(format)});
+        EXPECT_EQ(exported.exit_code, 0) << exported.log;
+    }
+}
+
+// A grid of n x n x n cubes of six tetrahedra, each a region with a name.
+std::string msh_of_cubes(int n) {
+    const int m = n + 1;
+    const auto node = [&](const std::array<int, 3>& p) { return 1 + p[0] + m * (p[1] + m * p[2]); };
+    std::string names, nodes, cells;
+    int count = 0;
+    for (int i = 0; i < m * m * m; ++i) nodes += fmt::format("{} {} {} {}\n", i + 1, i % m, i / m % m, i / (m * m));
+    for (int cube = 0; cube < n * n * n; ++cube) {
+        names += fmt::format("3 {} \"grain {}\"\n", cube + 1, cube + 1);
+        std::array<int, 3> axes = {0, 1, 2};
+        do {
+            std::array<int, 3> p = {cube % n, cube / n % n, cube / (n * n)};
+            std::array<int, 4> tet = {node(p)};
+            for (int i = 0; i < 3; ++i) {
+                ++p[axes[i]];
+                tet[i + 1] = node(p);
+            }
+            if ((axes[1] - axes[0] + 3) % 3 != 1) std::swap(tet[1], tet[2]);
+            cells += fmt::format("{} 4 2 {} {} {}\n", ++count, cube + 1, cube + 1, fmt::join(tet, " "));
+        } while (std::next_permutation(axes.begin(), axes.end()));
+    }
+    return fmt::format(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n{}$EndPhysicalNames\n"
+        "$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+        n * n * n, names, m * m * m, nodes, count, cells);
+}
+
+// Names would else grow as the square of the regions: there are parts for each, and walls with names between them.
+TEST_F(Patches, OfManyRegionsDoNotMakeFilesOfPartsLarger) {
+    constexpr int n = 7;
+    const std::string out = folder_.file("out");
+    const ChildResult result = test::run_kerf({"decompose", write("grains.msh", msh_of_cubes(n)), "-o", out, "-q"});
+    ASSERT_EQ(result.exit_code, 0) << result.log;
+    std::set<std::int32_t> regions;
+    for (const Part& part : test::read_part_surfaces(out)) {
+        ASSERT_EQ(part.region_names.size(), 1u);
+        EXPECT_LE(part.patch_names.size(), 6u);
+        const std::int32_t region = part.region_names.number(0);
+        EXPECT_EQ(part.region_names.names().front(), fmt::format("grain {}", region + 1));
+        regions.insert(region);
+    }
+    EXPECT_EQ(regions.size(), static_cast<std::size_t>(n * n * n));
+    EXPECT_NE(read_file(out + "/surfaces.vtu").find(fmt::format("grain {}", n * n * n)), std::string::npos);
 }
 
 }  // namespace

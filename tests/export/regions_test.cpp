@@ -136,8 +136,9 @@ TEST(Regions, TrianglesOfVtuHaveThoseBehindThem) {
 }
 
 TEST(Regions, AreNamedByTheFileThatJoinsSurfaces) {
-    EXPECT_NE(surfaces_pvtu_text({"a.vtu"}, true).find("Name=\"Region\""), std::string::npos);
-    EXPECT_EQ(surfaces_pvtu_text({"a.vtu"}, false).find("Name=\"Region\""), std::string::npos);
+    EXPECT_NE(surfaces_pvtu_text({"a.vtu"}, std::vector<std::string>{"a", "b"}).find("Name=\"Region\""),
+              std::string::npos);
+    EXPECT_EQ(surfaces_pvtu_text({"a.vtu"}, {}).find("Name=\"Region\""), std::string::npos);
 }
 
 TEST(Regions, WallsAreNoMarkersOfSu2) {

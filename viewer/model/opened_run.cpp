@@ -65,7 +65,8 @@ OpenedRun read_run(const std::string& path) {
     run.box = box_of_parts(folder, parts);
     if (const std::size_t count = run.report.region_names.size(); count > 0)
         run.region_places = region_places(folder, run.report.tree, count);
-    if (!parts.empty()) read_part_surface(folder, parts.front(), &run.patch_names);
+    run.patch_names = run.report.patch_names;
+    if (!parts.empty() && run.patch_names.empty()) read_part_surface(folder, parts.front(), &run.patch_names);
     return run;
 }
 

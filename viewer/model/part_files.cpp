@@ -110,7 +110,7 @@ NodeId common_ancestor(NodeId a, NodeId b) {
 
 NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vector<std::string>* patch_names) {
     Part file = read_checked_surface(folder, part);
-    if (patch_names) *patch_names = std::move(file.patch_names);
+    if (patch_names) *patch_names = file.patch_names.filled();
     NodeSurface surface;
     surface.interface_of.reserve(file.facets.size());
     for (std::size_t f = 0; f < file.neighbour.size(); ++f)

@@ -11,6 +11,7 @@
 #include "io/listed_files.h"
 #include "io/path_text.h"
 #include "mesh/quality.h"
+#include "part/run_names.h"
 #include "report/cut_json.h"
 
 namespace kerf::view {
@@ -116,8 +117,9 @@ RunReportFile report_from_json(const Json& json) {
     report.input_facets = input.at("faces").get<std::int64_t>();
     report.input_vertices = input.at("vertices").get<std::int64_t>();
     report.remeshed = input.contains("remeshing");
-    for (const Json& region : input.value("regions", Json::array()))
-        report.region_names.push_back(path_of_text(region.at("name").get<std::string>()));
+    RunNames names = RunNames::of_report(json);
+    report.patch_names = std::move(names.patches);
+    report.region_names = std::move(names.regions);
     report.volume = number(input, "volume");
     for (const Json& note : input.value("notes", Json::array())) report.notes.push_back(note.get<std::string>());
     for (const Json& node : json.at("tree")) read_node(node, report.tree);

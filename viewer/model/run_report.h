@@ -16,6 +16,7 @@ struct RunReportFile {
     RunOptions options;  ///< with the input's path
     std::int64_t input_facets = 0, input_vertices = 0;
     std::vector<std::string> region_names;  ///< of several
+    std::vector<std::string> patch_names;   ///< none of an older version
     bool remeshed = false;                  ///< the surface that was cut is not that of the file
     double volume = 0;
     double seconds = 0;                          ///< of the whole run

@@ -43,6 +43,7 @@ TEST_F(PartStore, PartsComeBackAsTheyWere) {
         EXPECT_EQ(back.tet_at_facet, part.tet_at_facet);
         EXPECT_EQ(back.global_id, part.global_id);
         EXPECT_EQ(back.patch_names, part.patch_names);
+        EXPECT_TRUE(back.patch_names.is_consistent());
         ASSERT_EQ(back.shared.size(), part.shared.size());
         for (std::size_t g = 0; g < part.shared.size(); ++g) {
             EXPECT_EQ(back.shared[g].parts, part.shared[g].parts);
