@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <optional>
 
 #include "core/check.h"
 #include "core/stopwatch.h"
@@ -115,6 +116,9 @@ std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
     for (std::size_t axis = 0; axis < directions.size(); ++axis)
         sequences.emplace_back(surface_, mass_, directions[axis], static_cast<std::int32_t>(axis), place_.fraction,
                                options_);
+    for (const PlaneSequence& sequence : sequences)
+        if (const std::optional<PlaneCandidate> between = sequence.between_bodies())
+            if (try_plane(*between, tries)) return std::move(best_);
     std::int32_t planes = 0;
     for (const bool inside : {true, false})
         for (PlaneSequence& sequence : sequences)

@@ -17,11 +17,11 @@ struct Bisection {
 /// Cuts the surface, which must not be empty, at `place`: the fraction in (0, 1) of the load below the first plane, and
 /// the number of the direction (cut_directions()) that is tried first. `mass`: of the surface.
 ///
-/// The ladder: minimum cut; local repair (the weights at the failed places are raised and the same plane is solved
-/// again); steps of the plane within the load window; the other axes; the best soft cut; none. Every accepted cut is
-/// proven: no intersection, both halves closed 2-manifolds, every shell in its half. Depends on the surface, node,
-/// place and options alone. `record` fills Cut::side, Cut::stages, CutTry::contour and
-/// CutTry::collisions and changes nothing else.
+/// The ladder: a plane between bodies that lie apart, which cuts none; minimum cut; local repair (the weights at the
+/// failed places are raised and the same plane is solved again); steps of the plane within the load window; the other
+/// axes; the best soft cut; none. Every accepted cut is proven: no intersection, both halves closed 2-manifolds, every
+/// shell in its half. Depends on the surface, node, place and options alone. `record` fills Cut::side, Cut::stages,
+/// CutTry::contour and CutTry::collisions and changes nothing else.
 Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, const CutPlace& place,
                  const CutOptions& options, bool record);
 

@@ -1,6 +1,7 @@
 #include "cut/plane.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -20,6 +21,35 @@ double bisecting_height(const LoadProfile& profile, double fraction, Criterion c
     return profile.bisect(fraction);
 }
 
+// Heights over the plane in the middle of each gap, ascending: nothing of the surface lies there.
+std::vector<double> middles_of_gaps(const Surface& surface, const Plane& plane) {
+    constexpr std::int32_t slices = 1024;
+    std::vector<double> heights(static_cast<std::size_t>(surface.vertex_count()));
+    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) heights[v] = plane.distance(surface.point(v));
+    const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+    const double low = *lowest, thickness = (*highest - low) / slices;
+    if (!(thickness > 0)) return {};
+    const auto slice_of = [&](double height) {
+        return std::min(slices - 1, static_cast<std::int32_t>((height - low) / thickness));
+    };
+    std::array<std::int32_t, slices + 1> change = {};  // of the number of facets from one slice to the next
+    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+        const auto& [a, b, c] = surface.vertices(f);
+        const auto [least, most] = std::minmax({heights[a], heights[b], heights[c]});
+        ++change[slice_of(least)];
+        --change[slice_of(most) + 1];
+    }
+    std::vector<double> middles;
+    std::int32_t facets = 0, first_empty = 0;
+    for (std::int32_t slice = 0; slice < slices; ++slice) {
+        facets += change[slice];
+        if (facets == 0) continue;
+        if (first_empty < slice) middles.push_back(low + (first_empty + slice) * thickness / 2);
+        first_empty = slice + 1;
+    }
+    return middles;
+}
+
 }  // namespace
 
 std::vector<Vec3> cut_directions(const Surface& surface, const MassProperties& mass, const CutOptions& options) {
@@ -37,6 +67,18 @@ const PlaneCandidate* PlaneSequence::at(std::size_t i) {
     if (candidates_.empty()) add_bisection();
     if (i == 1 && candidates_.size() == 1) add_steps();
     return i < candidates_.size() ? &candidates_[i] : nullptr;
+}
+
+std::optional<PlaneCandidate> PlaneSequence::between_bodies() const {
+    if (options_.criterion == Criterion::equidistant) return std::nullopt;
+    const std::vector<double> heights = middles_of_gaps(surface_, through_centroid_);
+    if (heights.empty()) return std::nullopt;
+    const LoadProfile profile(surface_, through_centroid_, options_.bisected_load());
+    std::vector<double> off = profile.fractions_below(heights);
+    for (double& fraction : off) fraction = std::abs(fraction - fraction_);
+    const auto nearest = std::min_element(off.begin(), off.end());
+    if (*nearest > options_.load_window) return std::nullopt;
+    return PlaneCandidate{through_centroid_.shifted(heights[nearest - off.begin()]), axis_};
 }
 
 void PlaneSequence::add_bisection() {

@@ -1,6 +1,7 @@
 // Planes that a body may be cut by, in the order in which they are worth trying.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cut/options.h"
@@ -32,6 +33,11 @@ class PlaneSequence {
           through_centroid_(mass.centroid, direction),
           axis_(axis),
           fraction_(fraction) {}
+
+    /// A plane that meets nothing, in the middle of a gap between bodies, with nearly that fraction of the load below:
+    /// within the load window; of several the nearest. None for equidistant cuts. Gaps shorter than a thousandth of the
+    /// extent are not found. O(#V + #F).
+    std::optional<PlaneCandidate> between_bodies() const;
 
     /// The i-th plane, or none beyond the last. O(#V + #F) for the first and for the second, which makes all steps.
     const PlaneCandidate* at(std::size_t i);

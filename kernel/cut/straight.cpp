@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -208,6 +209,11 @@ std::vector<Collision> first_collision(const Surface& surface, const PlaneSplit&
     return found;
 }
 
+// Without a contour: bodies lie on either side.
+bool has_both_sides(const PlaneSplit& split) {
+    return std::adjacent_find(split.side.begin(), split.side.end(), std::not_equal_to<>()) != split.side.end();
+}
+
 Refusal try_plane(const Surface& surface, const StraightPlane& plane, const std::vector<char>& untested,
                   StraightCut& result, std::vector<Collision>& collisions) {
     Cut& cut = result.cut;
@@ -220,7 +226,7 @@ Refusal try_plane(const Surface& surface, const StraightPlane& plane, const std:
     if (!collisions.empty()) return Refusal::intersection;
     result.parent = separated_surface(arrays);
     const std::vector<SurfaceEdge> edges = contour_of(result.parent, result.split);
-    if (edges.empty()) return Refusal::empty_side;
+    if (edges.empty()) return has_both_sides(result.split) ? Refusal::none : Refusal::empty_side;
     cut.loops = trace_loops(result.parent, edges).loops;
     return span_plane(result.parent, cut);
 }

@@ -1,6 +1,7 @@
 // kerf decompose and --trace as a user sees them.
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,10 @@
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"
+#include "support/run_laws.h"
+#include "support/seeded_numbers.h"
+#include "support/shapes.h"
+#include "support/surface_files.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -66,6 +71,33 @@ std::vector<T> array_of(const std::string& bytes, const VtuHeader& header, const
     std::vector<T> values(array ? static_cast<std::size_t>(array->components * array->tuples) : 0);
     if (array) std::memcpy(values.data(), bytes.data() + array->position + 8, values.size() * sizeof(T));
     return values;
+}
+
+// Bars with large facets, which straight cuts divide, and with small ones, some way apart along any direction.
+TEST_F(Decompose, BodiesAreSharedOutBeforeOneIsCut) {
+    for (int seed = 0; seed < 12; ++seed) {
+        SCOPED_TRACE(seed);
+        test::SeededNumbers random(static_cast<std::uint64_t>(seed));
+        const int bodies = 2 + seed % 4, fineness = 1 + seed / 4 * 2;
+        const Vec3 size(random.between(0.5, 2), random.between(0.5, 2), random.between(0.5, 2));
+        const Vec3 direction = seed % 2 ? Vec3(Vec3::UnitX()) : Vec3(1, random.share(), -random.share()).normalized();
+        const double step = size.norm() * random.between(1.05, 3);
+        Soup soup;
+        for (int i = 0; i < bodies; ++i) {
+            const Vec3 low = i * step * direction;
+            soup = join(std::move(soup), test::box(low, low + size, 2 * fineness));
+        }
+        std::ofstream(folder_.file("bars.off")) << test::to_off(soup);
+        const ChildResult result = test::run_kerf(
+            {"decompose", folder_.file("bars.off"), "-o", folder_.file("out"), "-n", std::to_string(bodies), "-q"});
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+        const std::vector<Part> parts = test::read_part_surfaces(folder_.file("out"));
+        EXPECT_EQ(parts.size(), static_cast<std::size_t>(bodies));
+        for (const Part& part : parts) {
+            EXPECT_EQ(part.facets.size(), soup.facets.size() / static_cast<std::size_t>(bodies));
+            for (std::size_t f = 0; f < part.facets.size(); ++f) EXPECT_FALSE(part.is_interface(f));
+        }
+    }
 }
 
 TEST_F(Decompose, OneFileHoldsAllSurfaces) {

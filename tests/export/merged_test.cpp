@@ -194,7 +194,7 @@ class MadeParts : public PartSource {
             outline_.parts.push_back(
                 {part.id, part.vertex_count(), part.tet_count(), static_cast<std::int64_t>(part.facets.size())});
             for (const std::int64_t id : part.global_id) outline_.vertices = std::max(outline_.vertices, id + 1);
-            outline_.patch_names = part.patch_names;
+            outline_.patch_names = part.patch_names.names();
         }
     }
     const MeshOutline& outline() const override { return outline_; }
