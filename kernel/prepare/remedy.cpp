@@ -10,10 +10,40 @@ namespace kerf {
 
 namespace {
 
-bool has_all_steps(const RepairPlan& plan, RepairLevel level) {
-    const RepairPlan wanted = plan_of(level);
-    return std::all_of(wanted.steps.begin(), wanted.steps.end(),
-                       [&](const RepairStep& step) { return plan.find(step.kind) != nullptr; });
+// Bodies of several files, and those that do not fit each other, stay bodies.
+constexpr const char* regions_plan = "full,snap,bodies=regions";
+
+bool are_bodies(const InputOptions& given, const Diagnosis& diagnosis) {
+    return !given.more_files.empty() ||
+           std::any_of(diagnosis.defects.begin(), diagnosis.defects.end(), is_between_bodies);
+}
+
+bool asks_for_more(const InputOptions& options, const InputOptions& given) {
+    const RepairPlan plan = repair_plan_of(options), done = repair_plan_of(given);
+    return options.voids != given.voids || (plan.bodies != BodyRepair::as_found && plan.bodies != done.bodies) ||
+           std::any_of(plan.steps.begin(), plan.steps.end(),
+                       [&](const RepairStep& step) { return done.find(step.kind) == nullptr; });
+}
+
+// What may do, in the order of find_remedy(), but for caps. Kinds of defects do not tell which level does: facets along
+// a crack cross each other, which is gone once it is closed.
+std::vector<InputOptions> ways_to_try(const InputOptions& given, const Diagnosis& diagnosis) {
+    std::vector<std::string> plans;
+    if (are_bodies(given, diagnosis)) plans.emplace_back(regions_plan);
+    for (const RepairLevel level : {RepairLevel::exact, RepairLevel::near, RepairLevel::full})
+        plans.emplace_back(name(level));
+    std::vector<Voids> voids = {given.voids};
+    if (given.voids == Voids::as_given && diagnosis.count(DefectKind::ambiguous_shell) > 0)
+        voids.insert(voids.begin(), Voids::parity);
+    std::vector<InputOptions> ways;
+    for (const Voids v : voids)
+        for (const std::string& plan : plans) {
+            InputOptions way = given;
+            way.voids = v;
+            way.repair = plan;
+            if (asks_for_more(way, given)) ways.push_back(std::move(way));
+        }
+    return ways;
 }
 
 // Neither steps nor a wrap can compute with it.
@@ -27,61 +57,92 @@ bool is_too_much_to_try(const CheckedSoup& checked) {
     return checked.soup.facets.size() > most_tried || crossings >= most_crossings_tried;
 }
 
-// The least level that makes it fit. Kinds do not tell: facets along a crack cross each other, which is gone once it is
-// closed. `done`: what was asked for already.
-std::optional<Remedy> try_levels(const InputFiles& files, const InputOptions& options, const RepairPlan& done,
-                                 StageListener* listener) {
-    for (RepairLevel level = RepairLevel::exact; level <= RepairLevel::full;
-         level = static_cast<RepairLevel>(static_cast<int>(level) + 1)) {
-        if (has_all_steps(done, level)) continue;
-        InputOptions with = options;
-        with.repair = name(level);
-        try {
-            const CheckedSoup repaired = check_files(files, with, 0, poll_of(listener));
-            if (!repaired.diagnosis.clean()) continue;
-            Remedy remedy{.level = level, .was_tried = true, .largest_move = repaired.ladder.largest_move()};
-            for (const StepReport& step : repaired.ladder.steps)
-                for (const RepairAction& action : step.actions)
-                    if (action.is_loss) remedy.losses.push_back(to_text(action));
-            return remedy;
-        } catch (const Error& error) {  // what was repaired fits no region that is asked for
-            if (error.code() != ErrorCode::input) throw;
-        }
-    }
-    return std::nullopt;
+std::int64_t count_caps(const RepairReport& ladder) {
+    std::int64_t caps = 0;
+    for (const StepReport& step : ladder.steps)
+        for (const RepairAction& action : step.actions)
+            if (step.kind == RepairKind::caps && *action.refused_because == '\0') caps += action.count;
+    return caps;
 }
 
-Remedy wrap_remedy(const Soup& soup) {
+// What came of one way.
+struct Trial {
+    bool fits = false;
+    Remedy remedy;
+};
+
+Trial try_way(const InputFiles& files, const InputOptions& way, StageListener* listener) {
+    Trial trial{false, {.options = way, .was_tried = true}};
     try {
-        return {.wrap_distance = estimated_wrap_distance(soup)};
-    } catch (const Error&) {  // there is nothing to wrap
-        return {};
+        const CheckedSoup repaired = check_files(files, way, 0, poll_of(listener));
+        const bool is_region_missing =  // where facets part no bodies, all is united
+            repair_plan_of(way).bodies == BodyRepair::regions && repaired.soup.region_names.size() < 2;
+        trial.fits = repaired.diagnosis.clean() && !is_region_missing;
+        trial.remedy.caps = count_caps(repaired.ladder);
+        trial.remedy.options.cap = trial.remedy.caps > 0;
+        trial.remedy.largest_move = repaired.ladder.largest_move();
+        for (const StepReport& step : repaired.ladder.steps)
+            for (const RepairAction& action : step.actions)
+                if (action.is_loss) trial.remedy.losses.push_back(to_text(action));
+    } catch (const Error& error) {  // what was repaired fits no region that is asked for
+        if (error.code() != ErrorCode::input) throw;
     }
+    return trial;
+}
+
+Trial try_with_and_without_caps(const InputFiles& files, InputOptions way, bool may_cap, StageListener* listener) {
+    if (may_cap) {
+        way.cap = true;
+        Trial capped = try_way(files, way, listener);
+        if (capped.fits || capped.remedy.caps == 0) return capped;
+        way.cap = false;
+    }
+    return try_way(files, way, listener);
+}
+
+Remedy wrap_remedy(const InputOptions& given, const Soup& soup) {
+    Remedy remedy{.options = given};
+    remedy.options.wrap = true;
+    remedy.options.repair.clear();
+    remedy.options.cap = false;
+    if (!soup.sides.empty() || soup.is_of_model || soup.facets.empty()) return remedy;
+    try {
+        remedy.wrap_distance = estimated_wrap_distance(soup);
+    } catch (const Error&) {  // there is nothing to wrap
+    }
+    return remedy;
+}
+
+// By the kinds of the defects, and caps by a try of that step alone.
+Remedy untried_remedy(const std::string& path, const InputOptions& given, const CheckedSoup& checked, bool may_cap,
+                      StageListener* listener) {
+    InputOptions way = given;
+    way.repair = are_bodies(given, checked.diagnosis) ? regions_plan : name(level_for(checked.diagnosis));
+    if (!asks_for_more(way, given)) return wrap_remedy(given, checked.soup);
+    Remedy remedy{.options = way};
+    if (!may_cap) return remedy;
+    InputOptions capping = given;
+    capping.cap = true;
+    remedy.caps = try_way(read_input_files(path, given), capping, listener).remedy.caps;
+    remedy.options.cap = remedy.caps > 0;
+    return remedy;
 }
 
 }  // namespace
 
 std::optional<Remedy> find_remedy(const std::string& path, const InputOptions& options, const CheckedSoup& checked,
                                   StageListener* listener) {
-    if (is_beyond_numbers(checked.diagnosis)) return std::nullopt;
-    if (!checked.soup.sides.empty() || checked.soup.is_of_model || checked.soup.facets.empty()) return Remedy{};
-    const RepairLevel needed = level_for(checked.diagnosis);
-    const RepairPlan done = repair_plan_of(options);
-    if (is_too_much_to_try(checked)) {
-        const bool is_more = needed != RepairLevel::none && !has_all_steps(done, needed);
-        return is_more ? Remedy{.level = needed} : wrap_remedy(checked.soup);
-    }
+    const Diagnosis& diagnosis = checked.diagnosis;
+    const Soup& soup = checked.soup;
+    if (is_beyond_numbers(diagnosis)) return std::nullopt;
+    if (!soup.sides.empty() || soup.is_of_model || soup.facets.empty()) return wrap_remedy(options, soup);
+    const bool may_cap = !options.cap && diagnosis.count(DefectKind::open_edge) > 0;
+    if (is_too_much_to_try(checked)) return untried_remedy(path, options, checked, may_cap, listener);
     const InputFiles files = read_input_files(path, options);
-    if (options.voids == Voids::as_given && checked.diagnosis.count(DefectKind::ambiguous_shell) > 0) {
-        InputOptions with = options;
-        with.voids = Voids::parity;
-        if (std::optional<Remedy> found = try_levels(files, with, RepairPlan{}, listener)) {
-            found->takes_parity = true;
-            return found;
-        }
-    }
-    if (std::optional<Remedy> found = try_levels(files, options, done, listener)) return found;
-    return wrap_remedy(checked.soup);
+    for (const InputOptions& way : ways_to_try(options, diagnosis))
+        if (Trial trial = try_with_and_without_caps(files, way, may_cap, listener); trial.fits)
+            return std::move(trial.remedy);
+    return wrap_remedy(options, soup);
 }
 
 }  // namespace kerf

@@ -57,12 +57,13 @@ nlohmann::ordered_json json_of_repair(const RepairReport& report) {
 std::string to_json(const RepairReport& report) { return json_text(json_of_repair(report)) + "\n"; }
 
 nlohmann::ordered_json json_of_remedy(const Remedy& remedy, const std::string& path) {
-    const bool is_level = remedy.level != RepairLevel::none;
-    return {{"repair", is_level ? Json(name(remedy.level)) : Json(nullptr)},
+    const InputOptions& options = remedy.options;
+    return {{"repair", options.wrap ? Json(nullptr) : Json(options.repair)},
             {"tried", remedy.was_tried},
             {"largest_move", remedy.largest_move},
             {"wrap_distance", remedy.wrap_distance},
-            {"voids", remedy.takes_parity ? Json("parity") : Json(nullptr)},
+            {"voids", options.voids == Voids::parity ? Json("parity") : Json(nullptr)},
+            {"caps", remedy.caps},
             {"losses", remedy.losses},
             {"command", path_text(command_of(remedy, path))}};
 }

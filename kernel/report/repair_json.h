@@ -17,8 +17,8 @@ namespace kerf {
 nlohmann::ordered_json json_of_repair(const RepairReport& report);
 std::string to_json(const RepairReport& report);
 
-/// {"repair": level or null, "tried", "largest_move", "wrap_distance", "voids": "parity" or null, "losses": lines,
-/// "command"}.
+/// {"repair": words of --repair or null, "tried", "largest_move", "wrap_distance", "voids": "parity" or null, "caps",
+/// "losses": lines, "command"}.
 nlohmann::ordered_json json_of_remedy(const Remedy& remedy, const std::string& path);
 
 /// What repair_file() did, what was measured, and what is left.

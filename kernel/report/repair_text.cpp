@@ -49,30 +49,47 @@ std::string volume_text(const SoupMeasures& before, const SoupMeasures& after) {
                          : fmt::format("{:.9g}; before, it was not closed", *after.volume);
 }
 
+std::string caps_text(std::int64_t caps) {
+    return fmt::format("{} large opening{} closed by {}", caps, caps == 1 ? " is" : "s are",
+                       caps == 1 ? "a patch of its own, cap_1" : "patches of their own, cap_1, cap_2, ...");
+}
+
 std::string remedy_line(const Remedy& remedy) {
-    if (remedy.level == RepairLevel::none)
+    if (remedy.options.wrap)
         return remedy.wrap_distance > 0
                    ? fmt::format(
                          "No repair makes it fit. A surface wrapped around it does, some {:.2g} from it at most:",
                          remedy.wrap_distance)
                    : std::string("No repair makes it fit. A surface wrapped around it may:");
-    if (!remedy.was_tried) return "Repairs that fit its defects may make it fit, which was not tried:";
-    std::string text = remedy.takes_parity ? "With shells inside of others as voids, it can be" : "Repaired, it can be";
+    const std::string caps = remedy.caps > 0 ? "; " + caps_text(remedy.caps) : "";
+    if (!remedy.was_tried)
+        return fmt::format("Repairs that fit its defects may make it fit, which was not tried{}:", caps);
+    std::string text = remedy.options.voids == Voids::parity ? "With shells inside of others as voids, it can be"
+                                                             : "Repaired, it can be";
     if (!remedy.losses.empty()) text += fmt::format(", without what may be wanted: {}", fmt::join(remedy.losses, "; "));
-    return text + (remedy.largest_move > 0 ? fmt::format("; no vertex moves by more than {:.3g}:", remedy.largest_move)
-                                           : std::string("; no vertex moves:"));
+    text += remedy.largest_move > 0 ? fmt::format("; no vertex moves by more than {:.3g}", remedy.largest_move)
+                                    : std::string("; no vertex moves");
+    return text + caps + ":";
 }
 
 }  // namespace
 
 std::string command_of(const Remedy& remedy, const std::string& path) {
-    const std::filesystem::path input(path);
-    const bool is_wrap = remedy.level == RepairLevel::none;
-    const std::string output = input.stem().string() + (is_wrap ? "_wrapped.obj" : "_repaired.obj");
-    const std::string level =
-        is_wrap || remedy.level == RepairLevel::full ? "" : fmt::format(" --repair {}", name(remedy.level));
-    return fmt::format("kerf {} {} -o {}{}{}", is_wrap ? "wrap" : "repair", shell_word(path), shell_word(output), level,
-                       remedy.takes_parity ? " --voids parity" : "");
+    InputOptions options = remedy.options;
+    const bool is_wrap = options.wrap;
+    const std::string output =
+        std::filesystem::path(path).stem().string() + (is_wrap ? "_wrapped.obj" : "_repaired.obj");
+    std::vector<std::string> words = {"kerf", is_wrap ? "wrap" : "repair", path};
+    if (!is_wrap) {  // which has one INPUT, and others by --with
+        words.insert(words.end(), options.more_files.begin(), options.more_files.end());
+        options.more_files.clear();
+        if (options.repair == name(RepairLevel::full)) options.repair.clear();  // its default
+    }
+    words.insert(words.end(), {"-o", output});
+    for (std::string& word : command_words(std::move(options))) words.push_back(std::move(word));
+    std::string command;
+    for (const std::string& word : words) command += (command.empty() ? "" : " ") + shell_word(word);
+    return command;
 }
 
 std::string to_text(const Remedy& remedy, const std::string& path) {

@@ -8,7 +8,8 @@
 
 namespace kerf {
 
-/// The command that does it, for a shell: "kerf repair a.stl -o a_repaired.obj --repair near".
+/// The command that does it, for a shell, with all files and options: "kerf repair a.stl b.stl -o a_repaired.obj
+/// --repair near". `path`: the first file.
 std::string command_of(const Remedy& remedy, const std::string& path);
 
 /// Lines: what would do, and the command.

@@ -43,6 +43,10 @@ void take_inputs(const std::vector<std::string>& files, std::string& input, Inpu
 /// The input and the files that are meshed with it.
 std::vector<std::string> files_of(const std::string& input, const InputOptions& options);
 
+/// The options that are not at their defaults, as a command line has them: {"--scale", "0.001", "--cap"}. `wrap` is
+/// none of them.
+std::vector<std::string> command_words(InputOptions options);
+
 /// The steps of `repair`, `cap` and `thicken`. Throws Error(usage), naming option, word and what it may be.
 RepairPlan repair_plan_of(const InputOptions& options);
 

@@ -376,6 +376,24 @@ void InputOptions::check() const {
     repair_plan_of(*this);
 }
 
+std::vector<std::string> command_words(InputOptions options) {
+    InputOptions usual;
+    const std::vector<OptionField> fields = input_option_fields(options), usual_fields = input_option_fields(usual);
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const OptionField& field = fields[i];
+        if (field.text() == usual_fields[i].text()) continue;
+        const auto* list = std::get_if<OptionField::List>(&field.value);
+        if (std::holds_alternative<bool*>(field.value))
+            words.push_back("--" + field.name);
+        else if (list == nullptr)
+            words.insert(words.end(), {"--" + field.name, field.text()});
+        else
+            for (const std::string& item : **list) words.insert(words.end(), {"--" + field.name, join_items({item})});
+    }
+    return words;
+}
+
 std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only) {
     std::vector<OptionText> texts;
     for (const OptionField& field : option_fields(options))

@@ -81,6 +81,18 @@ TEST(RepairMeasures, WhatIsNotFiniteDoesNotCount) {
     EXPECT_EQ(measure_repair({}, test::box()).after.facets, 12);
 }
 
+// A cylinder without its ends, or the ends alone.
+Soup part_of_cylinder(bool ends) {
+    Soup soup = test::twisted_cylinder(16, 5, 1, 4, 0);
+    std::erase_if(soup.facets, [&](const Triangle& t) {
+        const auto z = [&](int i) { return soup.vertices[t[i]].z(); };
+        return (z(0) == z(1) && z(1) == z(2)) != ends;
+    });
+    soup.patch.assign(soup.facets.size(), 0);
+    return soup;
+}
+Soup tube() { return part_of_cylinder(false); }
+
 class Remedies : public testing::Test {
  protected:
     std::optional<Remedy> find(const Soup& soup, const InputOptions& options = {}) const {
@@ -97,7 +109,7 @@ class Remedies : public testing::Test {
 
 TEST_F(Remedies, ALevelIsTriedBeforeItIsTold) {
     const Remedy found = remedy(test::cracked(test::box(), 1e-8, 1));
-    EXPECT_EQ(found.level, RepairLevel::near);
+    EXPECT_EQ(found.options.repair, "near");
     EXPECT_TRUE(found.was_tried);
     EXPECT_LE(found.largest_move, 1e-3 * std::sqrt(3.0));
 }
@@ -105,17 +117,17 @@ TEST_F(Remedies, ALevelIsTriedBeforeItIsTold) {
 TEST_F(Remedies, WhatWasAskedForAlreadyIsNotTold) {
     InputOptions options;
     options.repair = "full,no-weld,no-stitch,no-holes,no-intersections,no-manifold";
-    EXPECT_NE(remedy(test::cracked(test::box(), 1e-8, 1), options).level, RepairLevel::none);
+    EXPECT_FALSE(remedy(test::cracked(test::box(), 1e-8, 1), options).options.wrap);
     options.repair = "full,weld=1e-12,stitch=1e-12,holes=3";
-    EXPECT_EQ(remedy(test::cracked(test::box(), 1e-4, 1), options).level, RepairLevel::none);
+    EXPECT_TRUE(remedy(test::cracked(test::box(), 1e-4, 1), options).options.wrap);
 }
 
 // To unite it with what is around it deletes it: that it is a void comes first, and what would go is told.
 TEST_F(Remedies, AShellWithinAnotherIsAVoidBeforeItIsDeleted) {
     const Soup nested = test::join(test::box(Vec3::Zero(), Vec3::Constant(3), 1), test::box(Vec3::Ones(), {2, 2, 2}));
     const Remedy found = remedy(nested);
-    EXPECT_TRUE(found.takes_parity);
-    EXPECT_EQ(found.level, RepairLevel::exact);
+    EXPECT_EQ(found.options.voids, Voids::parity);
+    EXPECT_EQ(found.options.repair, "exact");
     EXPECT_TRUE(found.losses.empty());
 
     // What crosses the outer one as well is united; then the other goes, which parity alone would keep.
@@ -124,6 +136,57 @@ TEST_F(Remedies, AShellWithinAnotherIsAVoidBeforeItIsDeleted) {
     const Soup crossed = test::join(nested, test::box(Vec3(2.5, 0.5, 0.5), Vec3(3.5, 0.9, 0.9)));
     options.voids = Voids::parity;
     EXPECT_TRUE(remedy(crossed, options).losses.empty());
+}
+
+TEST_F(Remedies, BodiesOfSeveralFilesStayRegions) {
+    const std::string one = folder_.file("one.off"), other = folder_.file("other.off");
+    test::write_off(one, test::box().vertices, test::box().facets);
+    for (const double gap : {-1e-4, -0.5}) {
+        const Soup second = test::box(Vec3(1 + gap, 0, 0), Vec3(2, 1, 1));
+        test::write_off(other, second.vertices, second.facets);
+        InputOptions options;
+        options.more_files = {other};
+        const Remedy found = find_remedy(one, options, check_input(one, options)).value();
+        EXPECT_EQ(found.options.more_files, options.more_files);
+        EXPECT_EQ(check_input(one, found.options).soup.region_names, (std::vector<std::string>{"one", "other"})) << gap;
+    }
+}
+
+TEST_F(Remedies, FilesOfOneBodyAreNoRegions) {
+    const std::string wall = folder_.file("wall.off"), lids = folder_.file("lids.off");
+    Soup ends = part_of_cylinder(true);
+    for (Vec3& p : ends.vertices) p.z() *= 1 + 1e-9;
+    test::write_off(wall, tube().vertices, tube().facets);
+    test::write_off(lids, ends.vertices, ends.facets);
+    InputOptions options;
+    options.more_files = {lids};
+    EXPECT_EQ(find_remedy(wall, options, check_input(wall, options)).value().options.repair, "near");
+}
+
+TEST_F(Remedies, EndsGetPatchesOfTheirOwnAndHolesAreFilled) {
+    const Remedy ends = remedy(tube());
+    EXPECT_EQ(ends.caps, 2);
+    EXPECT_EQ(check_soup(tube(), ends.options).soup.patch_names,
+              (std::vector<std::string>{"cylinder", "cap_1", "cap_2"}));
+    Soup holed = tube();
+    holed.facets.erase(holed.facets.begin() + static_cast<std::ptrdiff_t>(holed.facets.size() / 2));
+    holed.patch.pop_back();
+    EXPECT_EQ(remedy(holed).caps, 2) << "the hole is filled";
+    holed = test::twisted_cylinder(16, 5, 1, 4, 0);
+    holed.facets.pop_back();
+    holed.patch.pop_back();
+    EXPECT_EQ(remedy(holed).caps, 0) << "of three edges";
+    EXPECT_FALSE(remedy(holed).options.cap);
+}
+
+// Nothing but the caps is tried of so many facets.
+TEST_F(Remedies, CapsOfLargeSurfacesAreOffered) {
+    const Soup large = test::join(tube(), test::box(Vec3(10, 0, 0), Vec3(11, 1, 1), 130));
+    ASSERT_GT(large.facets.size(), most_tried);
+    const Remedy found = remedy(large);
+    EXPECT_FALSE(found.was_tried);
+    EXPECT_EQ(found.options.repair, "near");
+    EXPECT_EQ(found.caps, 2);
 }
 
 TEST_F(Remedies, NothingIsToldOfNumbersThatAreTooLarge) {

@@ -10,6 +10,7 @@
 #include "io/stl_writer.h"
 #include "io/text_file.h"
 #include "prepare/remeshed_file.h"
+#include "report/repair_text.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/voxel_regions.h"
@@ -38,6 +39,25 @@ TEST_F(FileDiagnosisTest, AClosedSurfaceCanBeMeshed) {
     EXPECT_TRUE(nlohmann::json::parse(to_json(found))["can_be_meshed"]);
     const std::vector<PatchSummary> patches = patches_of_run(found, patches_by_angle());
     EXPECT_EQ(patches.size(), 6u);
+}
+
+TEST_F(FileDiagnosisTest, TheCommandHasAllFilesAndOptions) {
+    const std::string one = write(test::box(), "one.stl"),
+                      other = write(test::box(Vec3(1 - 1e-4, 0, 0), Vec3(2, 1, 1)), "other.stl");
+    InputOptions options;
+    options.more_files = {other};
+    options.scale = 0.001;
+    FileDiagnosis found = diagnose_file(one, options);
+    found.remedy = find_remedy(one, options, found.checked);
+    const std::string command =
+        "kerf repair " + one + " " + other + " -o one_repaired.obj --scale 0.001 --repair full,snap,bodies=regions";
+    EXPECT_NE(to_text(found).find(command + "\n"), std::string::npos) << to_text(found);
+    const auto json = nlohmann::json::parse(to_json(found))["remedy"];
+    EXPECT_EQ(json["command"], command);
+    EXPECT_EQ(json["repair"], "full,snap,bodies=regions");
+    found.remedy->options.wrap = true;
+    found.remedy->options.repair.clear();
+    EXPECT_EQ(command_of(*found.remedy, one), "kerf wrap " + one + " -o one_wrapped.obj --scale 0.001 --with " + other);
 }
 
 TEST_F(FileDiagnosisTest, AHoleIsOneDefectWithItsVertices) {
