@@ -223,14 +223,15 @@ std::vector<double> cell_volumes(const std::vector<Vec3>& vertices, const std::v
 }
 
 CellLocator::CellLocator(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const Cells& cells)
-    : vertices_(vertices), shells_(boundaries_of(vertices, facets, cell_of_each_side(cells), cells.count)) {}
+    : vertices_(vertices),
+      shells_(boundaries_of(vertices, facets, cell_of_each_side(cells), cells.count)),
+      boxes_(boxes_of(shells_)) {}
 
 std::optional<std::int32_t> CellLocator::find(const Vec3& point) const {
-    for (std::size_t c = 0; c < shells_.size(); ++c) {
-        if (!shells_[c].box.contains(point)) continue;
+    for (const std::int32_t c : boxes_.around(Box(point, point))) {
         const auto inside = encloses(vertices_, shells_[c], point);
         if (!inside) return std::nullopt;
-        if (*inside) return static_cast<std::int32_t>(c);
+        if (*inside) return c;
     }
     return -1;
 }

@@ -36,13 +36,14 @@ class CellLocator {
  public:
     CellLocator(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const Cells& cells);
 
-    /// The number of the cell, -1: the unbounded one; nothing if the point lies on the boundary of a cell. Exact. A
-    /// question to each cell whose box contains the point, see encloses().
+    /// The number of the cell, -1: the unbounded one; nothing if the point lies on the boundary of a cell. Exact.
+    /// O(log #cells), and a question to each cell whose box contains the point, see encloses().
     std::optional<std::int32_t> find(const Vec3& point) const;
 
  private:
     const std::vector<Vec3>& vertices_;
     std::vector<Shell> shells_;
+    BoxTree boxes_;  // of these
 };
 
 }  // namespace kerf

@@ -11,7 +11,7 @@
 // Most pairs of neighbours are plainly apart. A separating plane with a margin beyond rounding proves that in a few
 // multiplications and spares the exact predicates, which are slow where all points lie in one plane.
 //
-// Pairs whose boxes meet come from an OverlapTree, in ranges of its leaves, each with pairs of its own.
+// Pairs that may meet come from a FacetTree, in ranges of its units, each with pairs of its own.
 #include "surface/intersections.h"
 
 #include <algorithm>
@@ -25,10 +25,9 @@
 
 #include "core/check.h"
 #include "core/elements.h"
-#include "geometry/box.h"
-#include "geometry/overlap_tree.h"
 #include "geometry/predicates.h"
 #include "geometry/vector_pair.h"
+#include "surface/facet_tree.h"
 
 namespace kerf {
 
@@ -244,7 +243,7 @@ void keep_first(IntersectingPairs& pairs, std::size_t limit) {
     if (pairs.size() > limit) pairs.resize(limit);
 }
 
-// for_each_pair(range, visit) calls visit(f, g) for pairs of facets whose boxes meet, until it returns true; the ranges
+// for_each_pair(range, visit) calls visit(f, g) for pairs of facets that may meet, until it returns true; the ranges
 // are those of core/threads.h.
 template <class ForEachPair>
 IntersectingPairs first_intersections(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
@@ -272,10 +271,6 @@ IntersectingPairs first_intersections(const std::vector<Vec3>& vertices, const s
     return all;
 }
 
-OverlapTree tree_of_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
-    return {facets.size(), [&](std::size_t i) { return box_around(vertices, facets[i]); }};
-}
-
 }  // namespace
 
 bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
@@ -284,17 +279,15 @@ bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, con
 }
 
 SelfIntersectionSearch::SelfIntersectionSearch(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets)
-    : vertices_(vertices),
-      facets_(facets),
-      tree_(std::make_unique<const OverlapTree>(tree_of_facets(vertices, facets))) {}
+    : vertices_(vertices), facets_(facets), tree_(std::make_unique<const FacetTree>(vertices, facets)) {}
 
 SelfIntersectionSearch::~SelfIntersectionSearch() = default;
 
 IntersectingPairs SelfIntersectionSearch::pairs_of_share(std::size_t share, std::size_t shares,
                                                          std::size_t limit) const {
     KERF_CHECK(share < shares && limit > 0);
-    const std::size_t leaves = tree_->leaf_count();
-    const std::size_t first = leaves * share / shares, last = leaves * (share + 1) / shares;
+    const std::size_t units = tree_->unit_count();
+    const std::size_t first = units * share / shares, last = units * (share + 1) / shares;
     return first_intersections(vertices_, facets_, last - first, limit, [&](IndexRange range, const auto& visit) {
         tree_->any_pair({first + range.first, first + range.last}, visit);
     });
@@ -312,9 +305,9 @@ bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vecto
     const auto are_next = [&](std::int32_t s, std::int32_t t) {
         return s == t || parent[s] == parent[t] || parent[s] == t || parent[t] == s;
     };
-    const OverlapTree tree = tree_of_facets(vertices, facets);
+    const FacetTree tree(vertices, facets);
     const auto pairs =
-        first_intersections(vertices, facets, tree.leaf_count(), 1, [&](const IndexRange& range, const auto& visit) {
+        first_intersections(vertices, facets, tree.unit_count(), 1, [&](const IndexRange& range, const auto& visit) {
             tree.any_pair(range,
                           [&](std::int32_t f, std::int32_t g) { return are_next(shell[f], shell[g]) && visit(f, g); });
         });
@@ -327,13 +320,11 @@ IntersectingPairs find_intersections_of(const std::vector<char>& chosen, const s
     std::vector<std::int32_t> few;
     for (std::size_t f = 0; f < facets.size(); ++f)
         if (chosen[f]) few.push_back(static_cast<std::int32_t>(f));
-    const OverlapTree tree(few.size(), [&](std::size_t i) { return box_around(vertices, facets[few[i]]); });
+    const FacetTree tree(vertices, facets, few);
     // All facets ask the tree; chosen ones come in both orders.
     return first_intersections(vertices, facets, facets.size(), limit, [&](const IndexRange& range, const auto& visit) {
         for (auto f = static_cast<std::int32_t>(range.first); f < static_cast<std::int32_t>(range.last); ++f)
-            if (tree.any_meeting(box_around(vertices, facets[f]), [&](std::int32_t i) {
-                    return few[i] != f && (few[i] < f || !chosen[f]) && visit(f, few[i]);
-                }))
+            if (tree.any_near(f, [&](std::int32_t g) { return g != f && (g < f || !chosen[f]) && visit(f, g); }))
                 return;
     });
 }

@@ -11,7 +11,7 @@
 
 namespace kerf {
 
-class OverlapTree;
+class FacetTree;
 
 /// True if the two triangles meet anywhere but in the vertices and edges that they share by number.
 ///
@@ -25,10 +25,10 @@ bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, con
 using IntersectingPairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 /// All intersecting pairs of a triangle soup; the first `limit` of them if there are more, or of those found so far
-/// when 20 times `limit` are found: then the search ends. O(#F) where few boxes of facets meet, on threads, of which
-/// the result does not depend; 40 bytes a facet. Requires limit > 0, finite coordinates and facets with three distinct,
-/// non-collinear vertices; a facet with collinear corners counts as the segment that it is, but may be reported with
-/// its neighbours.
+/// when 20 times `limit` are found: then the search ends. O(#F log #F) where boxes of few facets meet that have no
+/// vertex in common, on threads, of which the result does not depend; 44 bytes a facet. Requires limit > 0, finite
+/// coordinates and facets with three distinct, non-collinear vertices; a facet with collinear corners counts as the
+/// segment that it is, but may be reported with its neighbours.
 IntersectingPairs find_self_intersections(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                           std::size_t limit = 1000);
 
@@ -46,7 +46,7 @@ class SelfIntersectionSearch {
  private:
     const std::vector<Vec3>& vertices_;
     const std::vector<Triangle>& facets_;
-    std::unique_ptr<const OverlapTree> tree_;  // of the boxes of facets
+    std::unique_ptr<const FacetTree> tree_;
 };
 
 /// Whether no two facets of closed shells meet. `shell`: #F, the shell of each facet; `parent`: of each shell the

@@ -237,5 +237,23 @@ TEST(CellLocator, SaysThatAPointIsOnAFacet) {
     EXPECT_EQ(locator.find(Vec3(2, 0.5, 0.5)), -1);
 }
 
+TEST(CellLocator, FindsEachOfManyCells) {
+    Soup soup;
+    std::vector<Vec3> inside;
+    for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < 12; ++j) {
+            const Vec3 low(i, j, (i + j) % 3);
+            soup = test::join(std::move(soup), test::box(low, low + Vec3(0.9, 0.9, 1.7)));
+            inside.emplace_back(low + Vec3(0.3, 0.4, 1.5));
+        }
+    const Cells cells = find_cells(soup.vertices, soup.facets).value();
+    ASSERT_EQ(cells.count, std::ssize(inside));
+    const CellLocator locator(soup.vertices, soup.facets, cells);
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        EXPECT_EQ(locator.find(inside[i]), static_cast<std::int32_t>(i));
+        EXPECT_EQ(locator.find(inside[i] + Vec3(0.65, 0, 0)), -1);
+    }
+}
+
 }  // namespace
 }  // namespace kerf

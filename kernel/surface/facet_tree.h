@@ -1,0 +1,135 @@
+// Pairs of facets that may meet, in n log n also where many facets have one vertex.
+//
+// Boxes tell which facets may meet, but those of the facets at one vertex all do. Two facets at a vertex meet beyond it
+// if and only if there is a direction from it in which both lie. So facets at a vertex of many, a fan, are in a tree of
+// their own, by their directions from there, and each other facet asks it for those in the directions in which it is
+// seen itself. All others are in one OverlapTree.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/threads.h"
+#include "core/types.h"
+#include "geometry/box.h"
+#include "geometry/box_hierarchy.h"
+#include "geometry/overlap_tree.h"
+
+namespace kerf {
+
+/// Half-spaces through a point that hold all directions from there to a facet; of one at the point itself, its sector.
+class ViewCone {
+ public:
+    ViewCone(const std::vector<Vec3>& vertices, const Triangle& facet, std::int32_t apex);
+
+    /// Whether no direction to the facet is in this box of unit vectors for sure.
+    bool misses(const Box& directions) const;
+
+ private:
+    void add(const Vec3& inward) { inward_[count_++] = inward; }
+
+    std::array<Vec3, 4> inward_;  // no longer than 1
+    std::size_t count_ = 0;
+};
+
+/// Facets at one vertex. Keeps references.
+class FanTree {
+ public:
+    /// `fan`: facets with the corner `apex`.
+    FanTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, std::int32_t apex,
+            std::vector<std::int32_t> fan);
+
+    Box box() const { return tree_.nodes().front().box; }
+
+    /// Calls visit(f) for the facets of the fan that may meet the facet g beyond the apex, or at the apex where g lies
+    /// on it without having it, until it returns true. Returns whether it did.
+    template <class Visit>
+    bool any_near(std::int32_t g, const Visit& visit) const {
+        const ViewCone cone(vertices_, facets_[g], apex_);
+        const Box box_of_g = box_around(vertices_, facets_[g]);
+        return tree_.any(
+            [&](const Node& node) { return node.box.intersects(box_of_g) && !cone.misses(node.directions); },
+            [&](std::int32_t i) {
+                return box_around(vertices_, facets_[fan_[i]]).intersects(box_of_g) && visit(fan_[i]);
+            });
+    }
+
+ private:
+    struct Node : BoxNode {
+        Box directions;  // unit vectors from the apex
+        void add(const Node& other) {
+            BoxNode::add(other);
+            directions.extend(other.directions);
+        }
+    };
+
+    const std::vector<Vec3>& vertices_;
+    const std::vector<Triangle>& facets_;
+    std::int32_t apex_;
+    std::vector<std::int32_t> fan_;  // in the order of the tree
+    BoxHierarchy<Node> tree_;
+};
+
+/// A tree of facets. Keeps references. Built in O(n log n) on threads, of which it does not depend.
+class FacetTree {
+ public:
+    static constexpr std::int32_t least_of_fan = 256;  ///< facets at a vertex: fewer are quicker found by their boxes
+
+    /// Of all facets.
+    FacetTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
+    /// Of some of them, ascending.
+    FacetTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+              const std::vector<std::int32_t>& chosen);
+
+    /// Units of work, for any_pair().
+    std::size_t unit_count() const { return tree_.leaf_count() + (fans_.empty() ? 0 : facets_.size()); }
+
+    /// Of a tree of all facets: calls visit(f, g) for pairs that may meet, until it returns true. Returns whether it
+    /// did. All units give each pair once, in an order that depends on the facets alone.
+    template <class Visit>
+    bool any_pair(const IndexRange& units, const Visit& visit) const {
+        const std::size_t leaves = tree_.leaf_count();
+        if (units.first < leaves && tree_.any_pair({units.first, std::min(units.last, leaves)},
+                                                   [&](auto i, auto j) { return visit(plain(i), plain(j)); }))
+            return true;
+        for (std::size_t unit = std::max(units.first, leaves); unit < units.last; ++unit) {
+            const auto g = static_cast<std::int32_t>(unit - leaves);
+            const std::int32_t own = fan_of_[g];
+            const bool was_visited = any_fan_near(g, [&](std::int32_t fan) {
+                return (own < 0 || fan <= own) &&
+                       fans_[fan].any_near(g, [&](std::int32_t f) { return (fan != own || f < g) && visit(f, g); });
+            });
+            if (was_visited) return true;
+        }
+        return false;
+    }
+
+    /// Calls visit(f) for the facets of the tree that may meet the facet g, itself among them, until it returns true.
+    /// Returns whether it did. The same order every time.
+    template <class Visit>
+    bool any_near(std::int32_t g, const Visit& visit) const {
+        return tree_.any_meeting(box_around(vertices_, facets_[g]), [&](auto i) { return visit(plain(i)); }) ||
+               any_fan_near(g, [&](std::int32_t fan) { return fans_[fan].any_near(g, visit); });
+    }
+
+ private:
+    std::int32_t plain(std::int32_t item) const { return plain_.empty() ? item : plain_[item]; }
+    template <class Visit>
+    bool any_fan_near(std::int32_t g, const Visit& visit) const {
+        return !fans_.empty() && fan_tree_.any_meeting(box_around(vertices_, facets_[g]), visit);
+    }
+    // What is left of `chosen` is not in a fan.
+    void make_fans(std::vector<std::int32_t>& chosen);
+
+    const std::vector<Vec3>& vertices_;
+    const std::vector<Triangle>& facets_;
+    std::vector<std::int32_t> plain_;   // facets of no fan, by items of the tree; empty: all facets in their order
+    std::vector<std::int32_t> fan_of_;  // per facet, -1: none; empty if there is no fan
+    std::vector<FanTree> fans_;
+    OverlapTree tree_, fan_tree_;  // of these facets; of the fans
+};
+
+}  // namespace kerf
