@@ -72,8 +72,6 @@ class FanSeparator {
     }
 
  private:
-    using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
-
     std::int32_t vertex(std::int32_t corner) const { return soup_.facets[corner / 3][corner % 3]; }
     const Vec3& point(std::int32_t corner) const { return soup_.vertices[vertex(corner)]; }
     static std::int32_t previous(std::int32_t corner) { return next_corner(next_corner(corner)); }
@@ -85,8 +83,8 @@ class FanSeparator {
     void choose(std::vector<TouchingFan>& fans);
     void copy_fans();
     void set_copies();
-    void leave_what_lies_on_others(const Pairs& before);
-    bool undo_what_crosses(const Pairs& before, std::vector<char>& chosen);
+    void leave_what_lies_on_others(const std::vector<char>& chosen);
+    bool undo_what_crosses(const std::vector<Triangle>& before, std::vector<char>& chosen);
     std::vector<EdgeMiddle> find_middles() const;
     void add_middles(const std::vector<std::array<std::int32_t, 2>>& pairs, std::vector<EdgeMiddle>& middles) const;
     double wedge(std::int32_t c, std::int32_t d) const;
@@ -192,8 +190,8 @@ void FanSeparator::copy_fans() {
     std::vector<char> chosen(soup_.facets.size(), 0);
     for (const TouchingFan& fan : fans_)
         for (const std::int32_t c : fan.corners) chosen[c / 3] = 1;
-    const Pairs before = find_intersections_of(chosen, soup_.vertices, soup_.facets, most_fan_crossings);
-    leave_what_lies_on_others(before);
+    leave_what_lies_on_others(chosen);
+    const std::vector<Triangle> before = soup_.facets;
     number_vertices(soup_);
     for (TouchingFan& fan : fans_)
         fan.copy = add_vertex(Vec3(soup_.vertices[fan.vertex]), soup_.vertex_number[fan.vertex]);
@@ -208,11 +206,20 @@ void FanSeparator::copy_fans() {
 }
 
 // Fans of which a facet lies on another at the vertex stay: what touches with other facets would come apart by a crack.
-void FanSeparator::leave_what_lies_on_others(const Pairs& before) {
-    std::vector<char> is_on_another(soup_.vertices.size(), 0);
-    for (const auto& [f, g] : before)
+void FanSeparator::leave_what_lies_on_others(const std::vector<char>& chosen) {
+    const auto has = [&](std::int32_t f, std::int32_t v) {
+        return std::count(soup_.facets[f].begin(), soup_.facets[f].end(), v) > 0;
+    };
+    const auto share_vertex = [&](std::int32_t f, std::int32_t g) {
+        return std::any_of(soup_.facets[f].begin(), soup_.facets[f].end(), [&](std::int32_t v) { return has(g, v); });
+    };
+    const IntersectingPairs pairs =
+        find_intersections_of(chosen, soup_.vertices, soup_.facets, most_fan_crossings, share_vertex);
+    const bool may_be_more = pairs.size() == most_fan_crossings;
+    std::vector<char> is_on_another(soup_.vertices.size(), may_be_more);
+    for (const auto& [f, g] : pairs)
         for (const std::int32_t v : soup_.facets[f])
-            if (std::count(soup_.facets[g].begin(), soup_.facets[g].end(), v) > 0) is_on_another[v] = 1;
+            if (has(g, v)) is_on_another[v] = 1;
     std::vector<char> stays;
     for (const TouchingFan& fan : fans_) {
         stays.push_back(is_on_another[fan.vertex]);
@@ -222,15 +229,21 @@ void FanSeparator::leave_what_lies_on_others(const Pairs& before) {
 }
 
 // Fans with a facet that crosses one which it did not cross before share the old vertex again. Whether there are any.
-// `chosen`: facets that have changed, before and behind.
-bool FanSeparator::undo_what_crosses(const Pairs& before, std::vector<char>& chosen) {
+// `before`: the facets over the old vertices; `chosen`: those that have changed, before and behind.
+bool FanSeparator::undo_what_crosses(const std::vector<Triangle>& before, std::vector<char>& chosen) {
+    const auto corners_before = [&](std::int32_t f) {
+        const auto& [a, b, c] = before[f];
+        return std::array{soup_.vertices[a], soup_.vertices[b], soup_.vertices[c]};
+    };
+    const auto is_new = [&](std::int32_t f, std::int32_t g) {
+        return !triangles_intersect(corners_before(f), before[f], corners_before(g), before[g]);
+    };
     std::vector<char> is_bad(soup_.facets.size(), 0);
     bool is_any = false;
-    for (const auto& pair : find_intersections_of(chosen, soup_.vertices, soup_.facets, most_fan_crossings)) {
-        if (std::binary_search(before.begin(), before.end(), pair)) continue;
-        is_bad[pair.first] = is_bad[pair.second] = 1;
-    }
-    std::fill(chosen.begin(), chosen.end(), 0);
+    const IntersectingPairs pairs =
+        find_intersections_of(chosen, soup_.vertices, soup_.facets, most_fan_crossings, is_new);
+    for (const auto& [f, g] : pairs) is_bad[f] = is_bad[g] = 1;
+    if (const bool are_all = pairs.size() < most_fan_crossings; are_all) std::fill(chosen.begin(), chosen.end(), 0);
     for (TouchingFan& fan : fans_) {
         if (!fan.is_moved) continue;
         const bool crosses =

@@ -315,16 +315,22 @@ bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vecto
 }
 
 IntersectingPairs find_intersections_of(const std::vector<char>& chosen, const std::vector<Vec3>& vertices,
-                                        const std::vector<Triangle>& facets, std::size_t limit) {
+                                        const std::vector<Triangle>& facets, std::size_t limit,
+                                        const std::function<bool(std::int32_t, std::int32_t)>& counts) {
     KERF_CHECK(chosen.size() == facets.size());
     std::vector<std::int32_t> few;
     for (std::size_t f = 0; f < facets.size(); ++f)
         if (chosen[f]) few.push_back(static_cast<std::int32_t>(f));
     const FacetTree tree(vertices, facets, few);
+    const auto is_counted = [&](std::int32_t f, std::int32_t g) {
+        return !counts || (facets_intersect(vertices, facets[f], facets[g]) && counts(f, g));
+    };
     // All facets ask the tree; chosen ones come in both orders.
     return first_intersections(vertices, facets, facets.size(), limit, [&](const IndexRange& range, const auto& visit) {
         for (auto f = static_cast<std::int32_t>(range.first); f < static_cast<std::int32_t>(range.last); ++f)
-            if (tree.any_near(f, [&](std::int32_t g) { return g != f && (g < f || !chosen[f]) && visit(f, g); }))
+            if (tree.any_near(f, [&](std::int32_t g) {
+                    return g != f && (g < f || !chosen[f]) && is_counted(f, g) && visit(f, g);
+                }))
                 return;
     });
 }

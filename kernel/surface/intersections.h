@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -58,8 +59,10 @@ bool nested_shells_are_apart(const std::vector<Vec3>& vertices, const std::vecto
                              const std::vector<std::int32_t>& shell, const std::vector<std::int32_t>& parent);
 
 /// Finds what find_self_intersections() does, but only pairs of which at least one facet is `chosen` (#F): what is to
-/// be asked where few facets of a surface without intersections have changed.
+/// be asked where few facets of a surface without intersections have changed. `counts(f, g)`, if given: whether a pair
+/// that intersects counts, also towards the limit; called from several threads.
 IntersectingPairs find_intersections_of(const std::vector<char>& chosen, const std::vector<Vec3>& vertices,
-                                        const std::vector<Triangle>& facets, std::size_t limit = 1000);
+                                        const std::vector<Triangle>& facets, std::size_t limit = 1000,
+                                        const std::function<bool(std::int32_t, std::int32_t)>& counts = {});
 
 }  // namespace kerf

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "repair/facet_copies.h"
+#include "repair/touching_fans.h"
 #include "support/damage.h"
 #include "support/repair_steps.h"
 #include "support/seeded_numbers.h"
@@ -395,6 +396,40 @@ TEST(RepairTopology, SpecksGoButNotTheLargest) {
     EXPECT_EQ(soup.facets.size(), body.facets.size() + 80);
     apply(RepairKind::specks, soup, {.amount = 100});
     EXPECT_EQ(facets_of(soup), facets_of(body));
+}
+
+// Two cones with one apex, and plates through both: the facets there cross as they did before, however often. Boxes at
+// the apex cross none any more.
+TEST(TouchingFans, ComeApartWhereTheirFacetsCrossOthersAlready) {
+    for (const int plates : {1, 200}) {
+        SCOPED_TRACE(plates);
+        constexpr int n = 400;
+        Soup soup = test::twisted_cylinder(n, 1, 1, 1, 0);
+        const auto apex = static_cast<std::int32_t>(soup.vertices.size());
+        soup.vertices.emplace_back(0, 0, 0.5);
+        std::erase_if(soup.facets, [&](const Triangle& t) { return std::max({t[0], t[1], t[2]}) < 2 * n; });
+        for (std::int32_t i = 0; i < n; ++i) {
+            const std::int32_t next = (i + 1) % n;
+            soup.facets.push_back({i, next, apex});
+            soup.facets.push_back({n + next, n + i, apex});
+        }
+        soup.patch.assign(soup.facets.size(), 0);
+        for (int i = 0; i < plates; ++i) {
+            const double z = 0.1 + 0.3 * i / plates, thickness = 0.1 / plates;
+            for (const double low : {z, 1 - z - thickness})
+                soup = test::join(soup, test::box(Vec3(-2, -2, low), Vec3(2, 2, low + thickness), 1));
+        }
+        for (const double z : {0.5 - 3e-5, 0.5 + 3e-5}) {
+            const Vec3 centre(0, 0, z), half = Vec3::Constant(2e-5);
+            soup = test::join(soup, test::box(centre - half, centre + half, 1));
+        }
+        const std::size_t vertices = soup.vertices.size();
+        const FanSeparation separation = separate_fans(soup, 1e-3);
+        EXPECT_EQ(soup.vertices.size(), vertices + 1);
+        EXPECT_GT(separation.largest_move, 0);
+        for (const RepairAction& action : separation.actions)
+            EXPECT_TRUE(*action.refused_because == '\0' || action.count == 0) << action.refused_because;
+    }
 }
 
 }  // namespace
