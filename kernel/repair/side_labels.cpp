@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/threads.h"
 #include "geometry/max_flow.h"
 #include "geometry/triangle.h"
 #include "geometry/union_find.h"
@@ -80,16 +81,23 @@ class SideLabeller {
 
     // Area times how far winding numbers are above 1/2, at most 1/2; negative: outside.
     void ask(std::int32_t facet, double weight) {
-        constexpr std::int32_t polled_each = 4096;
-        if (++asked_ % polled_each == 0) poll_();
         const double beside = winding_.beside(facet);
         for (const auto& [side, sign] : {std::pair(front_side(facet), -1), std::pair(back_side(facet), 1)})
             votes_[side] = weight * std::clamp(beside + sign * times_[facet] / 2.0 - 0.5, -0.5, 0.5);
     }
     void ask_all() {
-        for (std::size_t f = 0; f < facets_.size(); ++f) ask(static_cast<std::int32_t>(f), areas_[f]);
+        constexpr std::size_t polled_each = 1 << 14, grain = 1 << 8;
+        for (std::size_t first = 0; first < facets_.size(); first += polled_each) {
+            poll_();
+            for_ranges_on_threads(std::min(polled_each, facets_.size() - first), grain, [&](const IndexRange& range) {
+                for (std::size_t f = first + range.first; f < first + range.last; ++f)
+                    ask(static_cast<std::int32_t>(f), areas_[f]);
+            });
+        }
     }
     void ask_patches() {
+        constexpr std::int32_t polled_each = 4096;
+        std::int32_t questions = 0;
         UnionFind joined(facets_.size());
         for (const Facing& facing : facing_)
             if (facing.has_two_facets) joined.join(facing.a / 2, facing.b / 2);
@@ -103,7 +111,10 @@ class SideLabeller {
             const std::vector<std::int32_t> samples = samples_of(patch, areas_);
             for (const std::int32_t f : samples) asked += areas_[f];
             if (asked > 0)
-                for (const std::int32_t f : samples) ask(f, areas_[f] / asked * area);
+                for (const std::int32_t f : samples) {
+                    if (++questions % polled_each == 0) poll_();
+                    ask(f, areas_[f] / asked * area);
+                }
         }
     }
 
@@ -166,7 +177,6 @@ class SideLabeller {
     std::vector<double> areas_, votes_;  // #F; 2 #F
     std::vector<Facing> facing_;         // those of an edge follow each other
     bool is_open_ = false;
-    std::int32_t asked_ = 0;
     Components sets_;  // of sides
 };
 
