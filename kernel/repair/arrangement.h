@@ -50,10 +50,11 @@ Arrangement arrange(const std::vector<Vec3>& vertices, const std::vector<Triangl
                     const std::function<void()>& poll = {});
 
 /// Makes walls one that nearly coincide: those of the facets `is_wall` (#F) that lie on one another within `tolerance`
-/// are divided alike, as arrange() divides those in one plane. Their vertices within it of each other become one, the
-/// smaller number stays; those near an edge or a facet come to lie on it, so that facets move by a small multiple of
-/// it. Facets that cross are not looked for; those that are no walls are divided only along edges of walls, so what was
-/// closed stays closed. `unresolved`: walls that are still unlike. Requires and costs as arrange().
+/// are divided alike, as arrange() divides those in one plane. Their vertices within it of each other, and all of a
+/// chain of such, become one, the smallest number stays; those near an edge or a facet come to lie on it. So facets
+/// move by a small multiple of it, but for chains: `largest_move` says how far. Facets that cross are not looked for;
+/// those that are no walls are divided only along edges of walls, so what was closed stays closed. `unresolved`: walls
+/// that are still unlike. Requires and costs as arrange().
 Arrangement arrange_walls(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                           const std::vector<char>& is_wall, double tolerance, const std::function<void()>& poll = {});
 

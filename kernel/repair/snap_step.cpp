@@ -1,5 +1,7 @@
 // Facets of walls that nearly coincide are divided alike, with the same vertices, so that they are copies of each
-// other. Where that would turn facets over, those around are left out, and it is tried again.
+// other. Where that would turn facets over, those around are left out, and it is tried again. Where vertices would move
+// farther than allowed, as those of a chain along which each is near the next, or where bodies would open, all walls
+// stay.
 #include <algorithm>
 #include <cmath>
 #include <limits>
