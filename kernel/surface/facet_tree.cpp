@@ -8,9 +8,9 @@ namespace kerf {
 namespace {
 
 // Of signs of products of unit vectors; undefined where the points are equal, of which no sign is sure.
-constexpr double rounding = 1e-13;
+constexpr double least_sure = 1e-13;
 
-Vec3 direction(const Vec3& from, const Vec3& to) {
+Vec3 unit_towards(const Vec3& from, const Vec3& to) {
     const Vec3 d = to - from;
     return (d / d.cwiseAbs().maxCoeff()).normalized();
 }
@@ -20,9 +20,9 @@ Box directions_of(const std::vector<Vec3>& vertices, const Triangle& facet, std:
     std::array<Vec3, 2> ends;
     std::size_t count = 0;
     for (const std::int32_t v : facet)
-        if (v != apex && count < 2) ends[count++] = direction(vertices[apex], vertices[v]);
-    const double sagitta = 1 - (ends[0] + ends[1]).norm() / 2 + rounding;
-    if (!(sagitta <= 1 + rounding)) return Box(Vec3::Constant(-2), Vec3::Constant(2));
+        if (v != apex && count < 2) ends[count++] = unit_towards(vertices[apex], vertices[v]);
+    const double sagitta = 1 - (ends[0] + ends[1]).norm() / 2 + least_sure;
+    if (!(sagitta <= 1 + least_sure)) return Box(Vec3::Constant(-2), Vec3::Constant(2));
     const Vec3 margin = Vec3::Constant(sagitta);
     return Box(ends[0].cwiseMin(ends[1]) - margin, ends[0].cwiseMax(ends[1]) + margin);
 }
@@ -33,7 +33,7 @@ ViewCone::ViewCone(const std::vector<Vec3>& vertices, const Triangle& facet, std
     std::array<Vec3, 3> to;
     std::size_t count = 0;
     for (const std::int32_t v : facet)
-        if (v != apex) to[count++] = direction(vertices[apex], vertices[v]);
+        if (v != apex) to[count++] = unit_towards(vertices[apex], vertices[v]);
     if (count == 2) {
         const Vec3 normal = to[0].cross(to[1]);
         add(normal);
@@ -44,15 +44,15 @@ ViewCone::ViewCone(const std::vector<Vec3>& vertices, const Triangle& facet, std
     for (std::size_t i = 0; count == 3 && i < 3; ++i) {
         const Vec3 normal = to[i].cross(to[(i + 1) % 3]);
         const double height = normal.dot(to[(i + 2) % 3]);
-        if (height > rounding) add(normal);
-        if (height < -rounding) add(-normal);
+        if (height > least_sure) add(normal);
+        if (height < -least_sure) add(-normal);
     }
 }
 
 bool ViewCone::misses(const Box& directions) const {
     return std::any_of(inward_.begin(), inward_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const Vec3& inward) {
         const Vec3 farthest = inward.cwiseProduct(directions.min()).cwiseMax(inward.cwiseProduct(directions.max()));
-        return farthest.sum() < -rounding;
+        return farthest.sum() < -least_sure;
     });
 }
 
