@@ -143,8 +143,8 @@ class AssemblyMesher {
         if (pairs.empty()) return "";
         const auto [f, g] = pairs.front();
         return fmt::format("faces of {} cross near {}, at {}. {}", solids_at(mesh, {f, g}),
-                           place_text(mesh.vertices[mesh.facets[f][0]]), faces_text({mesh.patch[f], mesh.patch[g]}),
-                           way_out);
+                           place_text(meeting_place(mesh.vertices, mesh.facets[f], mesh.facets[g])),
+                           faces_text({mesh.patch[f], mesh.patch[g]}), way_out);
     }
 
     // The largest of all regions, as a share of its volume.

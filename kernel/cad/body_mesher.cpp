@@ -112,7 +112,7 @@ class BodyMesher {
         if (pairs.empty()) return "";
         const auto [f, g] = pairs.front();
         return fmt::format("solid '{}' intersects itself near {}, at {}. Repair it in the CAD program.", body_.name,
-                           place_text(mesh.vertices[mesh.facets[f][0]]),
+                           place_text(meeting_place(mesh.vertices, mesh.facets[f], mesh.facets[g])),
                            names_of({mesh.patch[f], mesh.patch[g]}, model_.patches));
     }
 

@@ -18,6 +18,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -25,6 +26,7 @@
 
 #include "core/check.h"
 #include "core/elements.h"
+#include "geometry/closest_point.h"
 #include "geometry/predicates.h"
 #include "geometry/vector_pair.h"
 #include "surface/facet_tree.h"
@@ -276,6 +278,28 @@ IntersectingPairs first_intersections(const std::vector<Vec3>& vertices, const s
 bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
                          const Triangle& q_id) {
     return meet_beyond_shared({&p[0], &p[1], &p[2]}, p_id, {&q[0], &q[1], &q[2]}, q_id);
+}
+
+Vec3 meeting_place(const std::vector<Vec3>& vertices, const Triangle& s, const Triangle& t) {
+    Vec3 nearest = vertices[s[0]];
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [own, other] : {std::pair(s, t), std::pair(t, s)}) {
+        const Vec3 &a = vertices[other[0]], &b = vertices[other[1]], &c = vertices[other[2]];
+        const Vec3 normal = (b - a).cross(c - a);
+        const auto try_place = [&](const Vec3& place) {
+            const double distance = point_triangle_distance(place, a, b, c);
+            if (distance < least) nearest = place;
+            least = std::min(least, distance);
+        };
+        for (int i = 0; i < 3; ++i) {
+            const bool is_shared = std::find(other.begin(), other.end(), own[i]) != other.end();
+            const Vec3 &from = vertices[own[i]], &to = vertices[own[(i + 1) % 3]];
+            const double height = normal.dot(from - a), height_of_end = normal.dot(to - a);
+            if (!is_shared) try_place(from);
+            if (height * height_of_end < 0) try_place(from + height / (height - height_of_end) * (to - from));
+        }
+    }
+    return nearest;
 }
 
 SelfIntersectionSearch::SelfIntersectionSearch(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets)

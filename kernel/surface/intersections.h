@@ -22,6 +22,10 @@ class FacetTree;
 bool triangles_intersect(const std::array<Vec3, 3>& p, const Triangle& p_id, const std::array<Vec3, 3>& q,
                          const Triangle& q_id);
 
+/// Where two facets that intersect meet, but for the corners that they share by number: of all corners and of the
+/// points where an edge passes through the plane of the other facet, that which is nearest to that facet.
+Vec3 meeting_place(const std::vector<Vec3>& vertices, const Triangle& s, const Triangle& t);
+
 /// Pairs of facets, the smaller number first, ascending.
 using IntersectingPairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 

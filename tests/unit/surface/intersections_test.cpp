@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/threads.h"
+#include "geometry/closest_point.h"
 #include "geometry/predicates.h"
 #include "support/shapes.h"
 #include "surface/orientation.h"
@@ -186,6 +187,27 @@ TEST(TrianglesIntersect, IsExactWhereRoundingWouldErr) {
     EXPECT_TRUE(triangles_intersect(p, first_ids, standing_at(0), {3, 4, 5}));
     EXPECT_TRUE(triangles_intersect(p, first_ids, standing_at(-tiny), {3, 4, 5}));
     EXPECT_TRUE(triangles_intersect(p, first_ids, p, {2, 0, 1})) << "the same three vertices";
+}
+
+TEST(MeetingPlace, IsOnBothFacets) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    const auto point = [&] { return Vec3(coordinate(random), coordinate(random), coordinate(random)); };
+    int meeting = 0;
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<Vec3> v;
+        for (int k = 0; k < 6; ++k) v.push_back(point());
+        Triangle s = {0, 1, 2}, t = {3, 4, 5};
+        if (i % 3 == 1) t[0] = 0;                                       // a corner is shared
+        if (i % 3 == 2) v[4] = 0.5 * v[0] + 0.25 * v[1] + 0.25 * v[2];  // a corner touches the other facet
+        const Vec3 place = meeting_place(v, s, t);
+        if (!triangles_intersect({v[s[0]], v[s[1]], v[s[2]]}, s, {v[t[0]], v[t[1]], v[t[2]]}, t)) continue;
+        ++meeting;
+        EXPECT_LT(point_triangle_distance(place, v[s[0]], v[s[1]], v[s[2]]), 1e-12) << i;
+        EXPECT_LT(point_triangle_distance(place, v[t[0]], v[t[1]], v[t[2]]), 1e-12) << i;
+        EXPECT_NE(place, v[0]) << i;
+    }
+    EXPECT_GT(meeting, 200);
 }
 
 TEST(FindSelfIntersections, AgreesWithAllPairs) {
