@@ -1,5 +1,7 @@
 #include "geometry/sparse_factors.h"
 
+#include <numeric>
+
 #include <Eigen/SparseCholesky>
 
 namespace kerf {
@@ -39,7 +41,23 @@ SparseFactors::SparseFactors(std::int64_t size, const std::vector<SparseEntry>& 
     check_cancelled();
 }
 
+bool SparseFactors::are_positive() const {
+    if (!factors_) return true;
+    return factors_->of_matrix.info() == Eigen::Success && (factors_->of_matrix.vectorD().array() > 0).all();
+}
+
 Eigen::VectorXd SparseFactors::solve(const Eigen::VectorXd& right) const { return factors_->of_matrix.solve(right); }
+
+std::int64_t factor_size(std::int64_t size, const std::vector<SparseEntry>& entries) {
+    struct Analysis : Eigen::SimplicialLDLT<SparseMatrix> {
+        explicit Analysis(const SparseMatrix& matrix) { analyzePattern(matrix); }
+        std::int64_t below_diagonal() const {
+            return std::accumulate(m_nonZerosPerCol.data(), m_nonZerosPerCol.data() + m_nonZerosPerCol.size(),
+                                   std::int64_t{0});
+        }
+    };
+    return size + Analysis(matrix_of(size, size, entries)).below_diagonal();
+}
 
 PointRows least_squares(std::int64_t unknown, const std::vector<SparseEntry>& entries, const Eigen::VectorXd& weight,
                         const PointRows& known) {

@@ -29,6 +29,8 @@ class SparseFactors {
     SparseFactors& operator=(SparseFactors&&) noexcept;
     ~SparseFactors();
 
+    /// Whether the matrix is positive definite: else the factors are of no use. True without rows.
+    bool are_positive() const;
     /// `right` has a number for each row, of which there is one at least.
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
@@ -36,6 +38,10 @@ class SparseFactors {
     struct Factors;
     std::unique_ptr<Factors> factors_;
 };
+
+/// So many numbers the factor L of such a matrix has, as `entries` say which are not zero; their values do not matter.
+/// In about the time of a pass over L, without the memory of that.
+std::int64_t factor_size(std::int64_t size, const std::vector<SparseEntry>& entries);
 
 /// A row for each point.
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;

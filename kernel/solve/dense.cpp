@@ -23,6 +23,12 @@ double largest_tridiagonal_eigenvalue(const std::vector<double>& diagonal, const
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tridiagonal, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {
+    if (matrix.size() == 0) return {};
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 SixAxes symmetric_axes(const Eigen::Matrix<double, 6, 6>& matrix) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(matrix);
     return {solver.eigenvalues(), solver.eigenvectors()};

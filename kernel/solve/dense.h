@@ -17,7 +17,14 @@ void invert(Eigen::Map<RowMajorBlock<B, B>> block);
 /// Of the symmetric tridiagonal matrix with these numbers on its diagonal, at least one, and beside it.
 double largest_tridiagonal_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside);
 
-/// Eigenvalues, ascending, and unit eigenvectors, a column each, of a symmetric matrix.
+/// Eigenvalues, ascending, and unit eigenvectors, a column each, of a symmetric matrix of any size, which may be 0.
+struct SymmetricEigen {
+    Eigen::VectorXd values;
+    Eigen::MatrixXd vectors;
+};
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+
+/// The same of six rows.
 struct SixAxes {
     Eigen::Matrix<double, 6, 1> values;
     Eigen::Matrix<double, 6, 6> vectors;

@@ -1,41 +1,38 @@
-// Modes by SLEPc.
+// Modes by the block eigensolver and the multigrid.
 #pragma once
 
-#include <exception>
 #include <memory>
-#include <vector>
 
+#include "solve/block_eigensolver.h"
 #include "solve/held_stiffness.h"
 #include "solve/mass_matrix.h"
 #include "solve/modes.h"
 
 namespace kerf {
 
-/// What find_modes() does where there is SLEPc. K + s M and M are scaled so that numbers have no units.
+/// What find_modes() does: the lowest of K + s M and M.
 class ModeSolver {
  public:
-    /// Collective. Throws as find_modes() does.
-    ModeSolver(const ElasticProblem& problem, int count, const AfterModesIteration& after_iteration);
-    ~ModeSolver();
-    ModeSolver(const ModeSolver&) = delete;
-    ModeSolver& operator=(const ModeSolver&) = delete;
+    /// Collective.
+    ModeSolver(const ElasticProblem& problem, int count);
 
-    FoundModes find();
+    /// Collective. Throws as find_modes() does.
+    FoundModes find(const AfterModesIteration& after_iteration);
 
  private:
-    struct Calls;
-    Mode mode_at(int number, double lowest_elastic);
-    double eigenvalue(int number);
+    EigenProblem equations();
+    Eigen::MatrixXd start(int columns) const;
+    Mode make_mode(const Eigen::VectorXd& shape, double eigenvalue, double residual);
+    template <class Work>
+    void apply(const Eigen::VectorXd& from, Eigen::Ref<Eigen::VectorXd> to, Work work);
 
     const ElasticProblem& problem_;
     int count_;
-    const AfterModesIteration& after_iteration_;
     double mass_factor_;  // s
     HeldStiffness stiffness_;
     MassMatrix mass_;
     std::unique_ptr<MultigridLevel> multigrid_;
-    double stiffness_scale_, mass_scale_;
-    std::unique_ptr<Calls> calls_;
+    std::vector<double> given_, found_;  // with room for ghosts
 };
 
 }  // namespace kerf

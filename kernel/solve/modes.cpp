@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-
-#ifdef KERF_WITH_SLEPC
 #include "solve/mode_solver.h"
-#endif
 
 namespace kerf {
 
@@ -22,16 +19,7 @@ void require_density(const ElasticProblem& problem) {
 
 }  // namespace
 
-bool can_find_modes() {
-#ifdef KERF_WITH_SLEPC
-    return true;
-#else
-    return false;
-#endif
-}
-
-FoundModes find_modes(const ElasticProblem& problem, int count,
-                      [[maybe_unused]] const AfterModesIteration& after_iteration) {
+FoundModes find_modes(const ElasticProblem& problem, int count, const AfterModesIteration& after_iteration) {
     require_density(problem);
     std::int64_t free = 0;
     for (std::int32_t dof = 0; dof < 3 * problem.space->owned_count(); ++dof) free += problem.is_held(dof) ? 0 : 1;
@@ -40,13 +28,7 @@ FoundModes find_modes(const ElasticProblem& problem, int count,
         throw Error(ErrorCode::usage, fmt::format("{} modes are too many for {} free degrees of freedom. Ask for {} at "
                                                   "most, or use a finer mesh.",
                                                   count, free, free / 4));
-#ifdef KERF_WITH_SLEPC
-    return ModeSolver(problem, count, after_iteration).find();
-#else
-    throw Error(
-        ErrorCode::usage,
-        "This kerf-solve was built without SLEPc, which finds modes. Install libslepc-real-dev and build again.");
-#endif
+    return ModeSolver(problem, count).find(after_iteration);
 }
 
 std::string to_text(const std::vector<Mode>& modes) {

@@ -13,7 +13,7 @@ namespace kerf {
 struct Mode {
     double frequency = 0;       ///< cycles per time
     bool is_rigid = false;      ///< a motion that no support prevents, of frequency 0
-    double residual = 0;        ///< |K x - w^2 M x| over (w^2 + s) |M x| with w = 2 pi f and some s near the lowest w^2
+    double residual = 0;        ///< of K x = w^2 M x, w = 2 pi f, beside K x, in the norm of energy (EigenPairs)
     std::vector<double> shape;  ///< 3 for each local node; x^T M x = 1, the largest component is positive
     Extreme displacement = {};  ///< the largest of the shape
 };
@@ -29,14 +29,11 @@ struct FoundModes {
 /// Called after each iteration, on every rank: its number, and how many modes are found. Must not throw.
 using AfterModesIteration = std::function<void(int iteration, int found)>;
 
-/// Whether Kerf was built with SLEPc, which finds modes.
-bool can_find_modes();
-
-/// The modes with the lowest frequencies, with consistent mass, by LOBPCG (Knyazev 2001; Hernandez, Roman and Vidal
-/// 2005), preconditioned by the multigrid of the stiffness and a little of the mass: so supports may leave the body
-/// free. Collective, within a PetscSession. O(count) times what a solution takes; about 0.5 kB for each mode and node.
-/// Bytes are the same for the same number of ranks. Throws Error(usage) without SLEPc, for a material without density,
-/// or for more modes than there are degrees of freedom; Error(convergence) if they are not found.
+/// The modes with the lowest frequencies, with consistent mass, by blocks (solve/block_eigensolver.h), preconditioned
+/// by the multigrid of the stiffness and a little of the mass: so supports may leave the body free. Frequencies have
+/// about the square of the tolerance of the residuals, 1e-5. Collective. O(count) times what a solution takes; about
+/// 0.5 kB for each mode and node. Bytes are the same for the same number of ranks. Throws Error(usage) for a material
+/// without density, or for more modes than there are degrees of freedom; Error(convergence) if they are not found.
 FoundModes find_modes(const ElasticProblem& problem, int count, const AfterModesIteration& after_iteration = {});
 
 /// A table for people.

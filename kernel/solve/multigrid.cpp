@@ -1,9 +1,11 @@
 #include "solve/multigrid.h"
 
 #include <algorithm>
+#include <array>
 
 #include <Eigen/Core>
 
+#include "core/error.h"
 #include "geometry/sparse_factors.h"
 
 namespace kerf {
@@ -11,24 +13,38 @@ namespace kerf {
 namespace {
 
 constexpr std::int64_t few_nodes = 100;
+constexpr std::int64_t nodes_to_analyse = 5000;  // about as many as every rank can have without noticing
+constexpr std::int64_t little_fill = 3;
+
+// The numbers of the local nodes among those of all ranks, in their order.
+struct GlobalNumbers {
+    std::int64_t before = 0, all = 0;  // nodes of earlier ranks, of all
+    std::vector<std::int64_t> of_node;
+};
+
+template <int B>
+GlobalNumbers global_numbers(MpiRanks& ranks, const LevelMatrix<B>& matrix) {
+    GlobalNumbers numbers;
+    const std::vector<std::int64_t> owned = all_gather(ranks, static_cast<std::int64_t>(matrix.owned));
+    for (std::size_t r = 0; r < owned.size(); ++r) {
+        if (static_cast<int>(r) < ranks.rank()) numbers.before += owned[r];
+        numbers.all += owned[r];
+    }
+    numbers.of_node.resize(matrix.node_count());
+    for (std::int32_t n = 0; n < matrix.owned; ++n) numbers.of_node[n] = numbers.before + n;
+    matrix.exchange.to_ghosts(std::span(numbers.of_node), 1);
+    return numbers;
+}
 
 // Factorised on every rank: what the ranks have of it is gathered.
 template <int B>
 class CoarsestLevel : public MultigridLevel {
  public:
     CoarsestLevel(MpiRanks& ranks, const LevelMatrix<B>& matrix) : ranks_(ranks), size_(matrix.owned_size()) {
-        std::int64_t before = 0, all = 0;
-        const std::vector<std::int64_t> owned = all_gather(ranks, static_cast<std::int64_t>(matrix.owned));
-        for (std::size_t r = 0; r < owned.size(); ++r) {
-            if (static_cast<int>(r) < ranks.rank()) before += owned[r];
-            all += owned[r];
-        }
-        first_ = static_cast<std::size_t>(B * before);
-        std::vector<std::int64_t> number(matrix.node_count());
-        for (std::int32_t n = 0; n < matrix.owned; ++n) number[n] = before + n;
-        matrix.exchange.to_ghosts(std::span(number), 1);
-        right_.resize(B * all);
-        factorise(gathered(matrix, number));
+        const GlobalNumbers numbers = global_numbers(ranks, matrix);
+        first_ = static_cast<std::size_t>(B * numbers.before);
+        right_.resize(B * numbers.all);
+        factorise(gathered(matrix, numbers.of_node));
     }
     void cycle(const std::vector<double>& right, std::vector<double>& x) override {
         right_.setZero();
@@ -67,6 +83,11 @@ class CoarsestLevel : public MultigridLevel {
         for (std::size_t i = 0; i < diagonal.size(); ++i)  // nothing acts on these
             if (diagonal[i] == 0) entries.push_back({static_cast<int>(i), static_cast<int>(i), 1.0});
         if (right_.size() > 0) factors_ = SparseFactors(right_.size(), entries);
+        if (!factors_.are_positive())
+            throw Error(ErrorCode::convergence,
+                        "The coarsest equations of the multigrid are not positive definite: what holds the body, or a "
+                        "stiffness beside others, is lost in rounding. Hold it at more places, bring the materials "
+                        "nearer to each other, or try preconditioner = \"icc\".");
     }
 
     MpiRanks& ranks_;
@@ -74,6 +95,22 @@ class CoarsestLevel : public MultigridLevel {
     Eigen::VectorXd right_;
     SparseFactors factors_;
 };
+
+// Whether factors have hardly more numbers than the matrix, as those of a chain of nodes: of a slender body, whose
+// bending smoother and aggregates of aggregates see ever worse.
+template <int B>
+bool is_quick_to_factorise(MpiRanks& ranks, const LevelMatrix<B>& matrix, std::int64_t nodes) {
+    if (nodes > nodes_to_analyse) return false;
+    const GlobalNumbers numbers = global_numbers(ranks, matrix);
+    std::vector<std::array<std::int64_t, 2>> own;
+    for (std::int32_t n = 0; n < matrix.node_count(); ++n)
+        for (std::int64_t i = matrix.share.first[n]; i < matrix.share.first[n + 1]; ++i)
+            own.push_back({numbers.of_node[n], numbers.of_node[matrix.share.columns[i]]});
+    std::vector<SparseEntry> entries;
+    for (const auto& [n, m] : gather_items(ranks, own))
+        entries.push_back({static_cast<std::int32_t>(std::max(n, m)), static_cast<std::int32_t>(std::min(n, m)), 1.0});
+    return factor_size(nodes, entries) <= little_fill * std::ssize(entries);
+}
 
 template <int B>
 std::unique_ptr<MultigridLevel> make_level(MpiRanks& ranks, const LevelMatrix<B>& matrix, const NearNullSpace& motions,
@@ -121,7 +158,7 @@ std::unique_ptr<MultigridLevel> make_level(MpiRanks& ranks, const LevelMatrix<B>
     };
     // Each rank has an aggregate at least: more ranks need more nodes.
     const std::int64_t nodes = nodes_of(matrix);
-    if (nodes <= std::max<std::int64_t>(few_nodes, 4 * ranks.size()))
+    if (nodes <= std::max<std::int64_t>(few_nodes, 4 * ranks.size()) || is_quick_to_factorise(ranks, matrix, nodes))
         return std::make_unique<CoarsestLevel<B>>(ranks, matrix);
     ChebyshevSmoother<B> smoother(matrix);
     CoarserLevel<B> coarser = coarsen(ranks, matrix, smoother, motions, is_apart);

@@ -26,9 +26,9 @@ struct MiddleOf {
 };
 
 /// Smoothed aggregation (Vanek, Mandel, Brezina 1996; the first matrix is `matrix`, which has to outlive it) with
-/// Chebyshev smoothing before and after; what is left of a few nodes is factorised on every rank. `is_held`: of each
-/// local degree of freedom, that it stays zero. Collective. O(n); about half of the memory of the matrix for order 1.
-/// Bytes are the same for the same number of ranks.
+/// Chebyshev smoothing before and after; what is left of a few nodes, or of a slender body, is factorised on every
+/// rank. `is_held`: of each local degree of freedom, that it stays zero. Collective. O(n); about half of the memory of
+/// the matrix for order 1. Bytes are the same for the same number of ranks.
 std::unique_ptr<MultigridLevel> make_multigrid(MpiRanks& ranks, const LevelMatrix<3>& matrix, NearNullSpace motions,
                                                const std::vector<std::uint8_t>& is_held);
 

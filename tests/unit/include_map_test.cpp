@@ -133,8 +133,6 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               (std::set<std::string>{"kernel/kerf/mpi.h", "kernel/mpi/mpi_ranks.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name.starts_with("petsc"); }),
               (std::set<std::string>{"kernel/solve/linear_system.cpp", "kernel/solve/petsc_session.cpp"}));
-    EXPECT_EQ(files_including([](const std::string& name) { return name.starts_with("slepc"); }),
-              std::set<std::string>{"kernel/solve/mode_solver.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return name == "tetgen.h"; }),
               std::set<std::string>{"kernel/volume/tetgen_adapter.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
