@@ -198,7 +198,7 @@ TEST(MaterialTable, HasNumbersAndASourceForEachName) {
         EXPECT_EQ(find_table_material(row.name), &row);
         EXPECT_TRUE(row.young > 1e8 && row.young < 1e12) << row.name;
         EXPECT_TRUE(row.poisson > 0 && row.poisson < 0.5) << row.name;
-        EXPECT_TRUE(row.density > 100 && row.density < 2e4) << row.name;
+        EXPECT_TRUE(row.density == 0 || (row.density > 100 && row.density < 2e4)) << row.name;
         EXPECT_TRUE(row.expansion >= 0 && row.expansion < 2e-4) << row.name;
         EXPECT_TRUE(row.yield >= 0 && row.yield < row.young / 20) << row.name;
         EXPECT_GT(std::string(row.source).size(), 5U) << row.name;
