@@ -55,8 +55,8 @@ Temperature read_temperature(const std::string& path, const toml::table& values)
     return temperature;
 }
 
-Combination read_combination(const std::string& path, const toml::table& values,
-                             const std::vector<std::string>& cases) {
+Combination read_combination(const std::string& path, const toml::table& values, const std::vector<std::string>& cases,
+                             const std::vector<Combination>& others) {
     const CaseTable table(path, "a combination");
     Combination combination;
     const auto read_factors = [&](const toml::node& node) {
@@ -75,6 +75,9 @@ Combination read_combination(const std::string& path, const toml::table& values,
         table.refuse(values, "a combination needs a name and cases = {dead = 1.35, wind = 1.5}: cases and factors.");
     if (std::find(cases.begin(), cases.end(), combination.name) != cases.end())
         table.refuse(values, fmt::format("'{}' is a case already.", combination.name));
+    if (std::any_of(others.begin(), others.end(), [&](const Combination& one) { return one.name == combination.name; }))
+        table.refuse(values,
+                     fmt::format("'{}' is a combination already. Give this one another name.", combination.name));
     return combination;
 }
 

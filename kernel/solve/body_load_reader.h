@@ -11,6 +11,7 @@ Gravity read_gravity(const std::string& path, const toml::table& values);
 Rotation read_rotation(const std::string& path, const toml::table& values);
 Temperature read_temperature(const std::string& path, const toml::table& values);
 /// `cases`: names of those that there are.
-Combination read_combination(const std::string& path, const toml::table& values, const std::vector<std::string>& cases);
+Combination read_combination(const std::string& path, const toml::table& values, const std::vector<std::string>& cases,
+                             const std::vector<Combination>& others);
 
 }  // namespace kerf

@@ -1,6 +1,7 @@
 #include "solve/case_forces.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ void CaseForces::add_force_at(std::int64_t row, const Vec3& force) {
 
 void CaseForces::add_load(const Load& load) {
     const std::string who = fmt::format("Load '{}'", load.name);
-    if (load.where.point) return add_force_at(selector_.nearest_vertex(*load.where.point), *load.force);
+    if (load.where.point) return add_force_at(selector_.nearest_vertex(*load.where.point, who), *load.force);
     const std::vector<SurfaceFacet> facets = selector_.facets(load.where, who);
     double area = 0;
     for (const SurfaceFacet& facet : facets) area += facet.area;
@@ -138,6 +139,7 @@ void CaseForces::add_case(const std::string& name) {
         if (is_in_case(rotation.load_case, name)) add_rotation(rotation);
     for (const Temperature& temperature : wanted_.temperatures)
         if (is_in_case(temperature.load_case, name)) add_temperature(temperature);
+    for (const double force : current().forces) current().load_sum += std::abs(force);
     if (problem_.relief.is_needed())
         problem_.relief.balance(problem_, current(), [this](std::size_t p, std::int32_t node, const Vec3& force) {
             add_force(p, node, force);
@@ -156,6 +158,7 @@ void CaseForces::add_combination(const Combination& combination) {
         sum.factors.emplace_back(of - problem_.cases.begin(), factor);
         for (std::size_t dof = 0; dof < sum.forces.size(); ++dof) sum.forces[dof] += factor * of->forces[dof];
         sum.held_forces.add(factor, of->held_forces);
+        sum.load_sum += std::abs(factor) * of->load_sum;
         sum.inertia += factor * of->inertia;
         if (!of->thermal.empty()) sum.thermal.resize(of->thermal.size(), 0);
         for (std::size_t m = 0; m < of->thermal.size(); ++m) sum.thermal[m] += factor * of->thermal[m];

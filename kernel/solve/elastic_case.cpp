@@ -47,7 +47,9 @@ class CaseReader {
              one_or_more("temperature",
                          [&](const toml::table& t) { result_.temperatures.push_back(read_temperature(path_, t)); }),
              lists("combination",
-                   [&](const toml::table& t) { result_.combinations.push_back(read_combination(path_, t, cases)); }),
+                   [&](const toml::table& t) {
+                       result_.combinations.push_back(read_combination(path_, t, cases, result_.combinations));
+                   }),
              {"solver", [&](const toml::node& node) { read_solver(node); }}});
         if (result_.materials.empty())
             throw Error(ErrorCode::usage,
@@ -263,7 +265,8 @@ void CaseReader::read_solver(const toml::node& node) {
          {"rtol",
           [&](const toml::node& n) {
               solver.rtol = table.number(n, "rtol");
-              if (solver.rtol <= 0 || solver.rtol >= 1) table.refuse(n, "rtol must lie between 0 and 1.");
+              if (solver.rtol < 1e-14 || solver.rtol >= 1)
+                  table.refuse(n, "rtol must lie between 1e-14, which is as far as numbers of 16 digits go, and 1.");
           }},
          {"max_iterations",
           [&](const toml::node& n) {

@@ -98,7 +98,7 @@ struct MaterialUse {
 struct SolverOptions {
     int order = 0;                        ///< of the elements: 1 or 2; 0: that of the mesh
     std::string preconditioner = "gamg";  ///< "gamg" or "icc"
-    double rtol = 1e-8;                   ///< of the true residual beside that of no displacement
+    double rtol = 1e-8;                   ///< of SolveOutcome::residual
     int max_iterations = 10000;
     std::string petsc;            ///< further options of PETSc, for experts
     bool inertia_relief = false;  ///< what supports leave free is balanced by inertia

@@ -27,6 +27,7 @@ struct BodyInertia {
 struct ProblemCase {
     std::string name;
     std::vector<double> forces;         ///< #dof of x, y and z; ranks have shares, which add up
+    double load_sum = 0;                ///< of sizes of forces, before inertia balances them; ranks have shares
     HeldForces held_forces;             ///< those at what is held, without those of temperature, likewise
     std::vector<double> thermal;        ///< thermal strain of each material, in every direction; empty: none
     Vec3 inertia = Vec3::Zero();        ///< the sum of the forces of inertia, over all ranks

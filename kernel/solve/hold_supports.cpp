@@ -29,7 +29,7 @@ class SupportHolder {
         problem_.supports.push_back(support.name);
         const std::string who = fmt::format("Support '{}'", support.name);
         if (support.where.point) {
-            problem_.places.push_back(mark_vertex(selector_.nearest_vertex(*support.where.point)));
+            problem_.places.push_back(mark_vertex(selector_.nearest_vertex(*support.where.point, who)));
             return hold_marked(support);
         }
         const std::vector<SurfaceFacet> all = selector_.facets(support.where, who);

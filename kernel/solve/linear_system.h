@@ -14,10 +14,15 @@ namespace kerf {
 
 /// How a solution was found.
 struct SolveOutcome {
-    bool converged = false;  ///< PETSc says so, and the residual is at most LinearSystem::slack * rtol + rounding
-    std::string reason;      ///< why PETSc has ended, as it names it
+    /// PETSc says so, and the residual is at most LinearSystem::slack * rtol, or what rounding may leave, but no more
+    /// than LinearSystem::most_of_rounding * rtol.
+    bool converged = false;
+    bool is_excused = false;  ///< rounding has kept the residual from rtol
+    std::string reason;       ///< why PETSc has ended, as it names it
     int iterations = 0;
-    double residual = 0;  ///< |b - A u| over |b|, computed anew from the solution; |A u| where b is zero
+    /// |b - A u| over |b|, computed anew from the solution, in the norm of the inverse of A as it is preconditioned:
+    /// about the error of u in the energy norm beside u. |A u| where b is zero.
+    double residual = 0;
     double rounding = 0;  ///< of u and of the residual may leave so much: 2 e (|A| |u| / |b| + 1), e = 2^-53
     double solve_seconds = 0;
 };
@@ -31,7 +36,7 @@ struct AssemblySeconds {
 };
 
 /// PETSc's conjugate gradients on HeldStiffness, preconditioned by our multigrid ("gamg") or by PETSc's incomplete
-/// Cholesky factors of the ranks' blocks ("icc"), until the true residual has fallen by rtol: whatever PETSc was told
+/// Cholesky factors of the ranks' blocks ("icc"), until the residual has fallen by rtol: whatever PETSc was told
 /// by SolverOptions::petsc, its residual is compared with rtol after each solution. Bytes of the result are the same
 /// for the same number of ranks; between numbers of ranks they agree within the tolerance.
 class LinearSystem {
@@ -39,6 +44,7 @@ class LinearSystem {
     /// Conjugate gradients end by a residual that they update. What takes it away from the true one is rounding
     /// (greenbaum1997), which is allowed for beside, and less than a tenth of rtol.
     static constexpr double slack = 1.1;
+    static constexpr double most_of_rounding = 10;
 
     /// Collective. O(n). 9 doubles for each pair of nodes of an element. Throws Error(memory) or
     /// Error(internal), on all ranks alike.

@@ -138,8 +138,9 @@ std::string case_text(const CaseReport& of_case, const std::vector<Reacting>& re
     std::string text;
     if (!of_case.name.empty()) text += line_of("case", of_case.name);
     if (of_case.factors.empty())
-        text += line_of("solver", fmt::format("{} iterations, residual {:.1e}", of_case.outcome.iterations,
-                                              of_case.outcome.residual));
+        text += line_of("solver", fmt::format("{} iterations, residual {:.1e}{}", of_case.outcome.iterations,
+                                              of_case.outcome.residual,
+                                              of_case.outcome.is_excused ? ", which rounding keeps above rtol" : ""));
     else
         text += line_of("sum of", factors_text(of_case.factors));
     text += line_of("load", vector_text(of_case.load));

@@ -39,6 +39,14 @@ std::string way_out(const SolverOptions& solver) {
         solver.preconditioner == "gamg" ? "icc" : "gamg");
 }
 
+// Numbers of a case may each be finite, and their products not.
+[[noreturn]] void throw_not_finite(const std::string& case_name) {
+    throw Error(ErrorCode::usage,
+                fmt::format("Displacements or stresses{} are larger than numbers can be. Look for numbers of the case "
+                            "that are far too large or too small, and for units that do not go together.",
+                            case_name.empty() ? "" : fmt::format(" in case '{}'", case_name)));
+}
+
 class SolveStages {
  public:
     SolveStages(const SolveRequest& request, MpiRanks& ranks, SolveListener* listener)
@@ -75,6 +83,7 @@ class SolveStages {
     void solve_case(LinearSystem& system, std::size_t number);
     void combine(std::size_t number);
     void finish_case(std::size_t number);
+    void require_finite() const;
     void require_no_reaction(std::size_t number) const;
     void write();
     void write_tables();
@@ -181,6 +190,7 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
         });
     report_.seconds.solve += of_case.outcome.solve_seconds;
     stage_.lap();
+    if (of_case.outcome.reason == "DIVERGED_NANORINF") throw_not_finite(of_case.name);
     if (!of_case.outcome.converged)
         throw Error(
             ErrorCode::convergence,
@@ -214,18 +224,22 @@ void SolveStages::finish_case(std::size_t number) {
     CaseSolution& solution = solutions_.back();
     solution.stress = recover_stress(problem_, solution.displacement, number);
     report_case(problem_, solution, number, parts_->outline().region_names, report_.cases.back());
+    require_finite();
     if (problem_.relief.is_needed()) require_no_reaction(number);
     report_.seconds.recover += stage_.lap();
 }
 
+void SolveStages::require_finite() const {
+    const CaseReport& of_case = report_.cases.back();
+    bool is_finite = std::isfinite(of_case.norms.solution) && std::isfinite(of_case.norms.error);
+    for (const double value : solutions_.back().displacement) is_finite = is_finite && std::isfinite(value);
+    if (ranks_.all_reduce(std::int64_t{is_finite ? 0 : 1}, Reduction::sum) > 0) throw_not_finite(of_case.name);
+}
+
 // Where inertia balances the loads, what fixes the body must not be felt: but for residuals of the equations.
 void SolveStages::require_no_reaction(std::size_t number) const {
-    const std::vector<double>& forces = problem_.cases[number].forces;
-    std::array<double, 2> sums{};  // of squares, of sizes
-    for (const double force : forces) {
-        sums[0] += force * force;
-        sums[1] += std::abs(force);
-    }
+    std::array<double, 2> sums = {0, problem_.cases[number].load_sum};  // of squares, of sizes
+    for (const double force : problem_.cases[number].forces) sums[0] += force * force;
     ranks_.all_reduce(std::span<double>(sums), Reduction::sum);
     const double rounding = 1e-9 * sums[1];
     const double allowed = 10 * report_.wanted.solver.rtol * std::sqrt(3 * report_.nodes * sums[0]) + rounding;
@@ -327,7 +341,7 @@ void SolveStages::solve_cases() {
 }
 
 void SolveStages::find_all_modes() {
-    progress("modes", 0, 0);
+    progress("modes", 0, static_cast<std::size_t>(report_.request.modes));
     FoundModes found = find_modes(problem_, report_.request.modes, [this](int, int so_many) {
         if (listener_ && is_root())
             listener_->on_progress("modes", static_cast<std::size_t>(so_many),

@@ -13,7 +13,7 @@ namespace kerf {
 
 namespace {
 
-constexpr double on_plane = 1e-6;  // of the diagonal
+constexpr double on_plane = 1e-6, beside_body = 0.01;  // of the diagonal
 constexpr std::size_t most_names = 30;
 
 std::string listed(const std::vector<std::string>& names) {
@@ -64,6 +64,8 @@ SurfaceSelector::SurfaceSelector(const FeSpace& space, std::vector<std::string> 
     }
     space.ranks().all_reduce(std::span<double>(low), Reduction::smallest);
     diagonal_ = std::hypot(low[0] + low[3], low[1] + low[4], low[2] + low[5]);
+    low_ = Vec3(low[0], low[1], low[2]);
+    high_ = -Vec3(low[3], low[4], low[5]);
 }
 
 std::vector<char> SurfaceSelector::match(const std::vector<std::string>& patterns, const std::string& who) const {
@@ -109,11 +111,20 @@ std::vector<SurfaceFacet> SurfaceSelector::facets(const SurfaceSelection& where,
                                 who,
                                 where.patches.empty() ? ": those with all corners there count, those between parts "
                                                         "do not"
-                                                      : ""));
+                                                      : ", for its patches are walls between regions, inside of the "
+                                                        "body. Name a patch of the outside, or a box or plane there"));
     return selected;
 }
 
-std::int64_t SurfaceSelector::nearest_vertex(const Vec3& point) const {
+std::int64_t SurfaceSelector::nearest_vertex(const Vec3& point, const std::string& who) const {
+    const Vec3 margin = Vec3::Constant(beside_body * diagonal_);
+    if (((point - low_ + margin).array() < 0).any() || ((high_ + margin - point).array() < 0).any())
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{} is at ({:g}, {:g}, {:g}), away from the body, which reaches from ({:g}, {:g}, {:g}) "
+                        "to ({:g}, {:g}, {:g}). Give a point of it, in units of the mesh.",
+                        who, point.x(), point.y(), point.z(), low_.x(), low_.y(), low_.z(), high_.x(), high_.y(),
+                        high_.z()));
     double nearest = std::numeric_limits<double>::infinity();
     std::int64_t row = std::numeric_limits<std::int64_t>::max();
     for (const SurfaceFacet& facet : surface_)

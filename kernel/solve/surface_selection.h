@@ -28,8 +28,9 @@ class SurfaceSelector {
     /// Triangles that are selected, on this rank. `who` begins the message of Error(usage) that is thrown for a patch
     /// that the mesh does not have, or if nothing is selected on any rank. O(F).
     std::vector<SurfaceFacet> facets(const SurfaceSelection& where, const std::string& who) const;
-    /// Row of the vertex of the surface next to the point; of several the one with the smallest row.
-    std::int64_t nearest_vertex(const Vec3& point) const;
+    /// Row of the vertex of the surface next to the point; of several the one with the smallest row. Collective. Throws
+    /// Error(usage), with `who` asks, for a point outside of the box around the body.
+    std::int64_t nearest_vertex(const Vec3& point, const std::string& who) const;
     /// All that the mesh has, in the order of their numbers.
     std::vector<PatchSummary> summaries() const;
     /// Which patches the names stand for. Throws Error(usage) naming those that there are.
@@ -43,6 +44,7 @@ class SurfaceSelector {
     std::vector<std::string> names_;
     std::vector<SurfaceFacet> surface_;  // all on this rank
     double diagonal_ = 0;
+    Vec3 low_, high_;  // of the box around the mesh
 };
 
 /// Whether the pattern, in which '*' stands for any characters, is all of the text. O(n m).

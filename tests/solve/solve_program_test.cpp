@@ -232,8 +232,18 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
     expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0.6\n" + held, {"between -1 and 0.5"});
     expect_refused(9, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\nmax_iterations = 2",
                    {"not reached", "2 iterations", "Try"});
+    expect_refused(2, material + held + "[[load]]\npoint = [1e9, 0, 0]\nforce = [1, 0, 0]",
+                   {"away from the body", "units of the mesh"});
+    expect_refused(2, material + held + "[solver]\nrtol = 1e-30", {"between 1e-14", "and 1"});
+    expect_refused(2,
+                   material + held +
+                       "[[load]]\npatch = \"face_1\"\npressure = 1\ncase = \"a\"\n[[combination]]\nname = \"b\"\n"
+                       "cases = {a = 1}\n[[combination]]\nname = \"b\"\ncases = {a = 2}",
+                   {"'b' is a combination already"});
+    expect_refused(2, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1e300",
+                   {"larger than numbers can be"});
     expect_refused(2, material + held + "[solver]\npetsc = \"nonsense\"", {"'nonsense'"});
-    for (const std::string options : {"-pc_type nonsense", "-ksp_type nonsense", "-ksp_rtol nonsense"})
+    for (const std::string options : {"-pc_type nonsense", "-pc_type lu", "-ksp_type nonsense", "-ksp_rtol nonsense"})
         expect_refused(
             2, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\npetsc = \"" + options + "\"",
             {"'" + options + "'", "Correct them"});
