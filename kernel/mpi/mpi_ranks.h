@@ -22,6 +22,10 @@ inline MPI_Datatype mpi_type<double>() {
     return MPI_DOUBLE;
 }
 template <>
+inline MPI_Datatype mpi_type<long double>() {
+    return MPI_LONG_DOUBLE;
+}
+template <>
 inline MPI_Datatype mpi_type<std::int32_t>() {
     return MPI_INT32_T;
 }

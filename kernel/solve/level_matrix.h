@@ -28,11 +28,12 @@ struct LevelMatrix {
     std::size_t owned_size() const { return static_cast<std::size_t>(B) * owned; }
     std::size_t size() const { return static_cast<std::size_t>(B) * node_count(); }
 
-    /// y = A x for the owned nodes; ghosts of x get their values. Collective.
-    void multiply(std::vector<double>& x, std::vector<double>& y) const {
+    /// y = A x for the owned nodes, to the precision of its numbers; ghosts of x get their values. Collective.
+    template <class Number>
+    void multiply(std::vector<Number>& x, std::vector<Number>& y) const {
         exchange.to_ghosts(std::span(x), B);
         y.assign(size(), 0);
-        share.multiply_add(x, y);
+        share.template multiply_add<Number>(x, y);
         exchange.add_to_owners(std::span(y), B);
     }
     /// The blocks of the diagonal, of owned nodes. Collective.

@@ -14,16 +14,21 @@ namespace kerf {
 
 /// How a solution was found.
 struct SolveOutcome {
-    /// PETSc says so, and the residual is at most LinearSystem::slack * rtol, or what rounding may leave, but no more
-    /// than LinearSystem::most_of_rounding * rtol.
+    /// PETSc says so, and the residual is at most LinearSystem::slack * rtol, or is_of_rounding and at most
+    /// LinearSystem::most_of_rounding * rtol.
     bool converged = false;
-    bool is_excused = false;  ///< rounding has kept the residual from rtol
-    std::string reason;       ///< why PETSc has ended, as it names it
-    int iterations = 0;
-    /// |b - A u| over |b|, computed anew from the solution, in the norm of the inverse of A as it is preconditioned:
-    /// about the error of u in the energy norm beside u. |A u| where b is zero.
+    bool is_of_rounding = false;  ///< PETSc has converged, and what keeps the residual above rtol is rounding
+    std::string reason;           ///< why PETSc has ended, as it names it
+    int iterations = 0;           ///< with those of refinements
+    int refinements = 0;          ///< solutions for a residual that rounding had left
+    /// |b - A u| over |b|, computed anew from the solution with more digits than it has, in the norm of the inverse of
+    /// A as it is preconditioned: about the error of u in the energy norm beside u. |A u| where b is zero.
     double residual = 0;
-    double rounding = 0;  ///< of u and of the residual may leave so much: 2 e (|A| |u| / |b| + 1), e = 2^-53
+    /// |b - A u| over |A| |u| + |b|: u solves exactly what differs by so little from A and b (rigal1967). The norm of A
+    /// is its largest sum of a row, those of vectors are Euclidean.
+    double backward_error = 0;
+    /// The error of one rounding of u, as small as that of a solution by factors: A and b say no more of u.
+    bool is_backward_stable() const { return backward_error <= 2 * 0x1p-53; }
     double solve_seconds = 0;
 };
 
@@ -41,8 +46,8 @@ struct AssemblySeconds {
 /// for the same number of ranks; between numbers of ranks they agree within the tolerance.
 class LinearSystem {
  public:
-    /// Conjugate gradients end by a residual that they update. What takes it away from the true one is rounding
-    /// (greenbaum1997), which is allowed for beside, and less than a tenth of rtol.
+    /// Conjugate gradients end by a residual that they update; rounding takes it away from the true one
+    /// (greenbaum1997). Where it takes it further than that, the solution is refined.
     static constexpr double slack = 1.1;
     static constexpr double most_of_rounding = 10;
 

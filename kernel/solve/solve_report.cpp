@@ -45,6 +45,8 @@ SolveJson case_json(const CaseReport& of_case, const std::vector<Reacting>& reac
                       {"reason", of_case.outcome.reason},
                       {"iterations", of_case.outcome.iterations},
                       {"residual", of_case.outcome.residual},
+                      {"backward_error", of_case.outcome.backward_error},
+                      {"refinements", of_case.outcome.refinements},
                       {"load", vector_json(of_case.load)},
                       {"reactions", reactions_json(of_case.reactions, reacting)},
                       {"imbalance", of_case.imbalance},
@@ -127,6 +129,15 @@ const char* units_text(CaseUnits units) {
     return "those of the surface and of the case file: mm, N and MPa go together, and so do m, N and Pa";
 }
 
+std::string solver_text(const SolveOutcome& outcome) {
+    const int refinements = outcome.refinements;
+    const std::string refined =
+        refinements > 0 ? fmt::format(" with {} refinement{}", refinements, refinements == 1 ? "" : "s") : "";
+    return fmt::format("{} iterations{}, residual {:.1e}, backward error {:.0e}{}", outcome.iterations, refined,
+                       outcome.residual, outcome.backward_error,
+                       outcome.is_of_rounding ? ": rounding keeps the residual above rtol" : "");
+}
+
 std::string factors_text(const std::vector<std::pair<std::string, double>>& factors) {
     std::string text;
     for (const auto& [name, factor] : factors)
@@ -138,9 +149,7 @@ std::string case_text(const CaseReport& of_case, const std::vector<Reacting>& re
     std::string text;
     if (!of_case.name.empty()) text += line_of("case", of_case.name);
     if (of_case.factors.empty())
-        text += line_of("solver", fmt::format("{} iterations, residual {:.1e}{}", of_case.outcome.iterations,
-                                              of_case.outcome.residual,
-                                              of_case.outcome.is_excused ? ", which rounding keeps above rtol" : ""));
+        text += line_of("solver", solver_text(of_case.outcome));
     else
         text += line_of("sum of", factors_text(of_case.factors));
     text += line_of("load", vector_text(of_case.load));

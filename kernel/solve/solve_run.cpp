@@ -28,7 +28,13 @@ namespace kerf {
 
 namespace {
 
-std::string way_out(const SolverOptions& solver) {
+std::string way_out(const SolverOptions& solver, const SolveOutcome& outcome) {
+    if (outcome.is_of_rounding)
+        return fmt::format(
+            "The rest is rounding (backward error {:.0e}), which a body so slender, or so soft beside others, "
+            "multiplies. "
+            "Take rtol = {:.0e}.",
+            outcome.backward_error, std::pow(10, std::ceil(std::log10(outcome.residual))));
     return fmt::format(
         "{}Try preconditioner = \"{}\", a larger max_iterations or rtol, or a mesh with better cells "
         "(kerf quality).",
@@ -192,13 +198,13 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
     stage_.lap();
     if (of_case.outcome.reason == "DIVERGED_NANORINF") throw_not_finite(of_case.name);
     if (!of_case.outcome.converged)
-        throw Error(
-            ErrorCode::convergence,
-            fmt::format("The solver has not reached the tolerance {:g}{}: {} after {} iterations, residual "
-                        "{:.3g}. {}",
-                        report_.wanted.solver.rtol,
-                        of_case.name.empty() ? "" : fmt::format(" in case '{}'", of_case.name), of_case.outcome.reason,
-                        of_case.outcome.iterations, of_case.outcome.residual, way_out(report_.wanted.solver)));
+        throw Error(ErrorCode::convergence,
+                    fmt::format("The solver has not reached the tolerance {:g}{}: {} after {} iterations, residual "
+                                "{:.3g}. {}",
+                                report_.wanted.solver.rtol,
+                                of_case.name.empty() ? "" : fmt::format(" in case '{}'", of_case.name),
+                                of_case.outcome.reason, of_case.outcome.iterations, of_case.outcome.residual,
+                                way_out(report_.wanted.solver, of_case.outcome)));
     if (problem_.relief.is_needed()) problem_.relief.remove_motions(problem_, solution.displacement);
     finish_case(number);
 }
@@ -214,7 +220,9 @@ void SolveStages::combine(std::size_t number) {
     for (const auto& [of, factor] : problem_.cases[number].factors) {
         for (std::size_t dof = 0; dof < solution.displacement.size(); ++dof)
             solution.displacement[dof] += factor * solutions_[of].displacement[dof];
-        of_case.outcome.residual = std::max(of_case.outcome.residual, report_.cases[of].outcome.residual);
+        const SolveOutcome& outcome = report_.cases[of].outcome;
+        of_case.outcome.residual = std::max(of_case.outcome.residual, outcome.residual);
+        of_case.outcome.backward_error = std::max(of_case.outcome.backward_error, outcome.backward_error);
     }
     finish_case(number);
 }

@@ -27,14 +27,15 @@ struct SymmetricBlocks {
     Eigen::Map<Block> block(std::int64_t at) { return Eigen::Map<Block>(&values[B * B * at]); }
     Eigen::Map<const Block> block(std::int64_t at) const { return Eigen::Map<const Block>(&values[B * B * at]); }
 
-    /// y += A x, with B numbers of each node. O(blocks).
-    void multiply_add(std::span<const double> x, std::span<double> y) const {
-        using Vector = Eigen::Matrix<double, B, 1>;
+    /// y += A x, with B numbers of each node, to their precision. O(blocks).
+    template <class Number>
+    void multiply_add(std::span<const Number> x, std::span<Number> y) const {
+        using Vector = Eigen::Matrix<Number, B, 1>;
         for (std::int32_t n = 0; n < row_count(); ++n) {
             const Vector of_row = Eigen::Map<const Vector>(&x[B * n]);
-            Vector sum = block(first[n]) * of_row;
+            Vector sum = block(first[n]).template cast<Number>() * of_row;
             for (std::int64_t i = first[n] + 1; i < first[n + 1]; ++i) {
-                const auto a = block(i);
+                const auto a = block(i).template cast<Number>();
                 sum.noalias() += a * Eigen::Map<const Vector>(&x[B * columns[i]]);
                 Eigen::Map<Vector>(&y[B * columns[i]]).noalias() += a.transpose() * of_row;
             }
