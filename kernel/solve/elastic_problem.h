@@ -23,6 +23,9 @@ struct BodyInertia {
     Vec3 angular_acceleration = Vec3::Zero();  ///< radians per time squared
 };
 
+/// Of a material among those of a problem.
+using MaterialNumber = std::uint16_t;
+
 /// One set of loads, or several with factors.
 struct ProblemCase {
     std::string name;
@@ -40,7 +43,8 @@ struct ProblemCase {
 struct ElasticProblem {
     const FeSpace* space = nullptr;
     std::vector<Material> materials;
-    std::vector<std::vector<std::uint8_t>> material_of_tet;  ///< of each part of this rank; empty: the first material
+    /// Of each part of this rank; empty: the first material.
+    std::vector<std::vector<MaterialNumber>> material_of_tet;
     std::vector<std::string> supports;     ///< names: of supports, of springs, and of what inertia relieves
     std::vector<Vec3> places;              ///< of supports: the centres of their areas, for moments
     std::vector<std::int32_t> support_of;  ///< #dof: the first support that holds it, or `free`
@@ -53,13 +57,14 @@ struct ElasticProblem {
 
     static constexpr std::int32_t free = INT32_MAX;
     bool is_held(std::size_t dof) const { return support_of[dof] != free; }
-    const Material& material(std::size_t p, std::size_t tet) const {
-        return materials[material_of_tet.empty() ? 0 : material_of_tet[p][tet]];
+    MaterialNumber material_number(std::size_t p, std::size_t tet) const {
+        return material_of_tet.empty() ? MaterialNumber{0} : material_of_tet[p][tet];
     }
+    const Material& material(std::size_t p, std::size_t tet) const { return materials[material_number(p, tet)]; }
     /// Of a tetrahedron in a case, in every direction; without cases 0.
     double thermal_strain(std::size_t number, std::size_t p, std::size_t tet) const {
         if (number >= cases.size() || cases[number].thermal.empty()) return 0;
-        return cases[number].thermal[material_of_tet.empty() ? 0 : material_of_tet[p][tet]];
+        return cases[number].thermal[material_number(p, tet)];
     }
     /// Calls take(support, force) for what those who hold the node have of a force there.
     template <class Take>
@@ -76,10 +81,6 @@ struct ElasticProblem {
     bool holds_any(std::int32_t node) const {
         const std::size_t dof = 3 * static_cast<std::size_t>(node);
         return is_held(dof) || is_held(dof + 1) || is_held(dof + 2);
-    }
-    /// Is the cell of the material with this number?
-    bool is_of(std::size_t number, std::size_t p, std::size_t tet) const {
-        return material_of_tet.empty() || material_of_tet[p][tet] == number;
     }
 };
 

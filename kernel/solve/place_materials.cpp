@@ -11,16 +11,16 @@ namespace kerf {
 
 namespace {
 
-constexpr std::uint8_t no_material = 255;
+constexpr MaterialNumber no_material = 65535;
 
 // The numbers of the materials of parts that are named, of regions, of bodies, and of all else.
 struct MaterialPlaces {
-    std::map<NodeId, std::uint8_t> of_part;
-    std::vector<std::uint8_t> of_region;
-    std::vector<std::uint8_t> of_body;
-    std::uint8_t of_rest = no_material;
+    std::map<NodeId, MaterialNumber> of_part;
+    std::vector<MaterialNumber> of_region;
+    std::vector<MaterialNumber> of_body;
+    MaterialNumber of_rest = no_material;
 
-    std::uint8_t at(NodeId part, RegionIndex region, std::int32_t body) const {
+    MaterialNumber at(NodeId part, RegionIndex region, std::int32_t body) const {
         if (const auto named = of_part.find(part); named != of_part.end()) return named->second;
         const auto r = static_cast<std::size_t>(region.value());
         if (r < of_region.size() && of_region[r] != no_material) return of_region[r];
@@ -69,7 +69,8 @@ std::vector<char> MaterialPlacer::bodies_at(const std::vector<std::string>& patc
 }
 
 void MaterialPlacer::place() {
-    if (wanted_.materials.size() >= no_material) throw Error(ErrorCode::usage, "A case may have up to 254 materials.");
+    if (wanted_.materials.size() >= no_material)
+        throw Error(ErrorCode::usage, "A case may have up to 65,534 materials.");
     problem_.materials.clear();
     MaterialPlaces places;
     places.of_body.resize(bodies_.count, no_material);
@@ -82,7 +83,7 @@ void MaterialPlacer::place() {
     std::int64_t without = 0;
     for (std::size_t p = 0; p < space_.parts().size(); ++p) {
         const Part& part = space_.parts()[p];
-        std::vector<std::uint8_t>& of_tet = problem_.material_of_tet.emplace_back();
+        std::vector<MaterialNumber>& of_tet = problem_.material_of_tet.emplace_back();
         for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
             of_tet.push_back(places.at(part.id, part.region_of(static_cast<std::int32_t>(t)),
                                        bodies_.of_node[space_.nodes_of(p, t)[0]]));
@@ -101,18 +102,18 @@ void MaterialPlacer::place() {
 void MaterialPlacer::place_in_regions(const MaterialUse& use, const std::vector<std::string>& regions,
                                       MaterialPlaces& places) const {
     for (const std::string& wanted : regions) {
-        std::uint8_t& of_region =
+        MaterialNumber& of_region =
             places.of_region[region_called(outline_, wanted, fmt::format("Material '{}'", use.material.name))];
         if (of_region != no_material)
             throw Error(ErrorCode::usage, fmt::format("The region '{}' has two materials: '{}' and '{}'.", wanted,
                                                       problem_.materials[of_region].name, use.material.name));
-        of_region = static_cast<std::uint8_t>(problem_.materials.size() - 1);
+        of_region = static_cast<MaterialNumber>(problem_.materials.size() - 1);
     }
 }
 
 // Where the material that was added last is.
 void MaterialPlacer::place_material(const MaterialUse& use, MaterialPlaces& places) const {
-    const std::uint8_t number = problem_.materials.size() - 1;
+    const MaterialNumber number = problem_.materials.size() - 1;
     const std::string who = fmt::format("Material '{}'", use.material.name);
     for (const NodeId id : use.parts) {
         if (std::none_of(outline_.parts.begin(), outline_.parts.end(), [&](const PartExtent& e) { return e.id == id; }))
@@ -154,23 +155,23 @@ std::vector<std::int32_t> MaterialPlacer::split_by_regions(const std::vector<cha
     if (problem_.material_of_tet.empty())
         for (const Part& part : space_.parts()) problem_.material_of_tet.emplace_back(part.mesh.tets.size(), 0);
     for_parts_there([&](std::size_t p, std::size_t region) {
-        for (const std::uint8_t m : problem_.material_of_tet[p]) is_used[count * region + m] = 1;
+        for (const MaterialNumber m : problem_.material_of_tet[p]) is_used[count * region + m] = 1;
     });
     space_.ranks().all_reduce(std::span(is_used), Reduction::largest);
     std::vector<std::int32_t> region_of(count, -1);
-    std::vector<std::uint8_t> number(is_used.size(), no_material);
+    std::vector<MaterialNumber> number(is_used.size(), no_material);
     for (std::size_t at = 0; at < is_used.size(); ++at) {
         if (!is_used[at]) continue;
         if (region_of.size() >= no_material)
             throw Error(ErrorCode::usage,
-                        "A case may have up to 254 materials, those of regions with a temperature of "
+                        "A case may have up to 65,534 materials, those of regions with a temperature of "
                         "their own counted by themselves.");
-        number[at] = static_cast<std::uint8_t>(region_of.size());
+        number[at] = static_cast<MaterialNumber>(region_of.size());
         region_of.push_back(static_cast<std::int32_t>(at / count));
         problem_.materials.push_back(problem_.materials[at % count]);
     }
     for_parts_there([&](std::size_t p, std::size_t region) {
-        for (std::uint8_t& m : problem_.material_of_tet[p]) m = number[count * region + m];
+        for (MaterialNumber& m : problem_.material_of_tet[p]) m = number[count * region + m];
     });
     return region_of;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solve/element_stress.h"
+#include "solve/material_nodes.h"
 #include "solve/stress_patches.h"
 
 namespace kerf {
@@ -36,15 +37,14 @@ void add_spring_forces(const ElasticProblem& problem, const std::vector<double>&
     }
 }
 
-// Means at local nodes over the cells of a material around.
+// Means over the cells around, of each material by themselves.
 std::vector<SymmetricTensor> average_stresses(const ElasticProblem& problem, const std::vector<double>& displacement,
-                                              std::size_t number, std::size_t material) {
+                                              std::size_t number, const MaterialNodes& numbers) {
     const FeSpace& space = *problem.space;
-    std::vector<double> sums(stress_sums * space.node_count(), 0);
+    std::vector<double> sums(stress_sums * numbers.count(), 0);
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
-        if (!problem.is_of(material, p, t)) return;
         const ElementStress element(problem, displacement, number, p, t);
-        const auto nodes = space.nodes_of(p, t);
+        const auto nodes = numbers.of(p, t);
         const double volume = element.element().volume();
         for (int i = 0; i < element_nodes(space.order()); ++i) {
             double* sum = &sums[stress_sums * nodes[i]];
@@ -52,10 +52,10 @@ std::vector<SymmetricTensor> average_stresses(const ElasticProblem& problem, con
             sum[stress_sums - 1] += volume;
         }
     });
-    space.exchange().add_to_owners(std::span(sums), stress_sums);
-    space.exchange().to_ghosts(std::span(sums), stress_sums);
-    std::vector<SymmetricTensor> means(space.node_count(), SymmetricTensor::Zero());
-    for (std::int32_t n = 0; n < space.node_count(); ++n) {
+    numbers.exchange().add_to_owners(std::span(sums), stress_sums);
+    numbers.exchange().to_ghosts(std::span(sums), stress_sums);
+    std::vector<SymmetricTensor> means(numbers.count(), SymmetricTensor::Zero());
+    for (std::int32_t n = 0; n < numbers.count(); ++n) {
         const double* sum = &sums[stress_sums * n];
         if (sum[stress_sums - 1] > 0) means[n] = Eigen::Map<const SymmetricTensor>{sum} / sum[stress_sums - 1];
     }
@@ -82,7 +82,7 @@ class StressRecovery {
     }
 
     StressField recover() {
-        for (std::size_t m = 0; m < problem_.materials.size(); ++m) compare(m);
+        compare();
         std::array<double, 2> squares = {field_.norms.solution, field_.norms.error};
         space_.ranks().all_reduce(std::span<double>(squares), Reduction::sum);
         field_.norms = {std::sqrt(squares[0]), std::sqrt(squares[1])};
@@ -90,17 +90,17 @@ class StressRecovery {
     }
 
  private:
-    void compare(std::size_t m) {
-        const std::vector<SymmetricTensor> means = average_stresses(problem_, displacement_, number_, m);
+    void compare() {
+        const MaterialNodes numbers(problem_);
+        const std::vector<SymmetricTensor> means = average_stresses(problem_, displacement_, number_, numbers);
         // What is fitted is nearer to the truth inside, but not where a surface has kinks: it tells the error alone.
         const std::vector<SymmetricTensor> better =
-            space_.order() == 1 ? means : fit_stresses(problem_, displacement_, number_, m);
+            space_.order() == 1 ? means : fit_stresses(problem_, displacement_, number_, numbers);
         const int nodes_each = element_nodes(space_.order());
         for_all_tets(space_, [&](std::size_t p, std::size_t t) {
-            if (!problem_.is_of(m, p, t)) return;
             const ElementStress element(problem_, displacement_, number_, p, t);
             const double volume = element.element().volume();
-            const auto nodes = space_.nodes_of(p, t);
+            const auto nodes = numbers.of(p, t);
             SymmetricTensor mean = SymmetricTensor::Zero();
             double of_solution = 0, of_error = 0;
             for (const TetPoint& at : rule_of_errors(space_.order())) {
@@ -120,14 +120,26 @@ class StressRecovery {
             of_part.energy += of_solution / 2;
             field_.norms.solution += of_solution;
             field_.norms.error += of_error;
-            const Tetrahedron& corners = space_.parts()[p].mesh.tets[t];
-            for (std::size_t i = 0; i < 4; ++i) of_part.at_vertex[corners[i]] = means[nodes[i]];
-            if (!of_part.at_edge.empty()) {
-                const auto of_tet = space_.parts()[p].nodes_of_tet(static_cast<std::int64_t>(t));
-                const auto first = std::ssize(of_part.at_vertex);
-                for (std::size_t i = 4; i < 10; ++i) of_part.at_edge[of_tet[i] - first] = means[nodes[i]];
-            }
         });
+        for (std::size_t p = 0; p < field_.parts.size(); ++p) tell_nodes(p, numbers, means);
+    }
+
+    // Of the materials of a part that meet in a node the last one counts.
+    void tell_nodes(std::size_t p, const MaterialNodes& numbers, const std::vector<SymmetricTensor>& means) {
+        PartStress& of_part = field_.parts[p];
+        const Part& part = space_.parts()[p];
+        const std::size_t vertices = of_part.at_vertex.size();
+        std::vector<std::int32_t> last(vertices + of_part.at_edge.size(), -1);
+        for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
+            const auto nodes = numbers.of(p, t);
+            const Tetrahedron& corners = part.mesh.tets[t];
+            for (std::size_t i = 0; i < 4; ++i) last[corners[i]] = std::max(last[corners[i]], nodes[i]);
+            if (of_part.at_edge.empty()) continue;
+            const auto of_tet = part.nodes_of_tet(static_cast<std::int64_t>(t));
+            for (std::size_t i = 4; i < 10; ++i) last[of_tet[i]] = std::max(last[of_tet[i]], nodes[i]);
+        }
+        for (std::size_t n = 0; n < last.size(); ++n)
+            if (last[n] >= 0) (n < vertices ? of_part.at_vertex[n] : of_part.at_edge[n - vertices]) = means[last[n]];
     }
 
     const ElasticProblem& problem_;

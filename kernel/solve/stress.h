@@ -35,8 +35,8 @@ struct StressField {
 /// patches (solve/stress_patches.h) for order 2, where the estimate is 0.95 to 1.2 of the true error of smooth fields.
 /// The polynomials do not become the stresses: where the surface has kinks they are further off. A node between two
 /// materials has a stress in each; a tetrahedron takes that of its own, and what a part says of a vertex is that of
-/// one of its cells. `number`: of the case, whose temperatures leave no stress where nothing is held. Collective, one
-/// exchange for each material; O(n).
+/// one of its cells. `number`: of the case, whose temperatures leave no stress where nothing is held. Collective; O(n),
+/// however many materials there are.
 StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement,
                            std::size_t number = 0);
 

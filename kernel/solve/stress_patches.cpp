@@ -32,8 +32,8 @@ constexpr double largest_growth = 30;  // of the square of an error of all stres
 class PatchFit {
  public:
     PatchFit(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number,
-             std::size_t material)
-        : problem_(problem), space_(*problem.space), displacement_(displacement), number_(number), material_(material) {
+             const MaterialNodes& numbers)
+        : problem_(problem), space_(*problem.space), displacement_(displacement), number_(number), numbers_(numbers) {
         number_vertices();
     }
     std::vector<SymmetricTensor> at_nodes();
@@ -45,47 +45,49 @@ class PatchFit {
     Eigen::Map<Coefficients> polynomial(std::int32_t vertex) {
         return Eigen::Map<Coefficients>(&values_[static_cast<std::size_t>(vertex) * monomials * tensor_size]);
     }
-    SymmetricTensor value_at(std::int32_t node, const Vec3& place) {
-        return polynomial(vertex_of_node_[node]).transpose() * monomials_at(place - space_.points()[node]);
+    SymmetricTensor value_at(std::int32_t vertex, const Vec3& distance) {
+        return polynomial(vertex).transpose() * monomials_at(distance);
     }
 
     const ElasticProblem& problem_;
     const FeSpace& space_;
     const std::vector<double>& displacement_;
-    std::size_t number_, material_;
-    std::vector<std::int32_t> vertex_of_node_;  // -1: on an edge
-    std::size_t owned_ = 0, vertices_ = 0;      // vertices of this rank, and with ghosts
+    std::size_t number_;
+    const MaterialNodes& numbers_;
+    std::vector<std::int32_t> vertex_of_;   // of each of these numbers; -1: on an edge
+    std::size_t owned_ = 0, vertices_ = 0;  // vertices of this rank, and with ghosts
     GhostExchange exchange_;
     std::vector<double> products_, values_;
 };
 
 // Ghosts come after the own ones, as among nodes.
 void PatchFit::number_vertices() {
-    vertex_of_node_.assign(space_.node_count(), -1);
+    vertex_of_.assign(numbers_.count(), -1);
     for (const PartFeNodes& part : space_.nodes_of_parts())
-        for (const std::int32_t node : part.of_vertex) vertex_of_node_[node] = 0;
-    for (std::int32_t n = 0; n < space_.node_count(); ++n) {
-        if (n == space_.owned_count()) owned_ = vertices_;
-        if (vertex_of_node_[n] == 0) vertex_of_node_[n] = static_cast<std::int32_t>(vertices_++);
+        for (const std::int32_t node : part.of_vertex)
+            for (std::int32_t n = numbers_.first_of(node); n < numbers_.first_of(node + 1); ++n) vertex_of_[n] = 0;
+    const std::int32_t first_ghost = numbers_.first_of(space_.owned_count());
+    for (std::int32_t n = 0; n < numbers_.count(); ++n) {
+        if (vertex_of_[n] < 0) continue;
+        vertex_of_[n] = static_cast<std::int32_t>(vertices_++);
+        if (n < first_ghost) owned_ = vertices_;
     }
-    if (space_.owned_count() == space_.node_count()) owned_ = vertices_;
-    exchange_ = space_.exchange().renumbered(vertex_of_node_);
+    exchange_ = numbers_.exchange().renumbered(vertex_of_);
 }
 
 void PatchFit::add_equations() {
     products_.assign(products * vertices_, 0);
     values_.assign(monomials * tensor_size * vertices_, 0);
     for_all_tets(space_, [&](std::size_t p, std::size_t t) {
-        if (!problem_.is_of(material_, p, t)) return;
         const ElementStress element(problem_, displacement_, number_, p, t);
-        const auto nodes = space_.nodes_of(p, t);
+        const auto nodes = space_.nodes_of(p, t), numbers = numbers_.of(p, t);
         for (const TetPoint& at : quadrature::four_points) {
             const double weight = at.weight * element.element().volume();
             const SymmetricTensor stress = weight * element.stress(at.place);
             const Vec3 place = element.element().position_of(at.place);
             for (std::size_t i = 0; i < 4; ++i) {
                 const Monomials m = monomials_at(place - space_.points()[nodes[i]]);
-                const std::int32_t vertex = vertex_of_node_[nodes[i]];
+                const std::int32_t vertex = vertex_of_[numbers[i]];
                 polynomial(vertex).noalias() += m * stress.transpose();
                 double* sum = &products_[static_cast<std::size_t>(vertex) * products];
                 for (int a = 0; a < monomials; ++a)
@@ -126,16 +128,17 @@ std::vector<SymmetricTensor> PatchFit::at_nodes() {
     for (std::size_t v = 0; v < owned_; ++v) solve(v);
     products_ = {};
     exchange_.to_ghosts(std::span(values_), monomials * tensor_size);
-    std::vector<SymmetricTensor> stresses(space_.node_count(), SymmetricTensor::Zero());
+    std::vector<SymmetricTensor> stresses(numbers_.count(), SymmetricTensor::Zero());
     for_all_tets(space_, [&](std::size_t p, std::size_t t) {
-        if (!problem_.is_of(material_, p, t)) return;
-        const auto nodes = space_.nodes_of(p, t);
+        const auto nodes = space_.nodes_of(p, t), numbers = numbers_.of(p, t);
         for (std::size_t i = 0; i < 4; ++i)
-            stresses[nodes[i]] = polynomial(vertex_of_node_[nodes[i]]).row(0).transpose();
+            stresses[numbers[i]] = polynomial(vertex_of_[numbers[i]]).row(0).transpose();
         for (std::size_t e = 0; e < 6; ++e) {
-            const Vec3& place = space_.points()[nodes[4 + e]];
-            const std::int32_t a = nodes[tet_edges[e][0]], b = nodes[tet_edges[e][1]];
-            stresses[nodes[4 + e]] = 0.5 * (value_at(a, place) + value_at(b, place));
+            const auto value_from = [&](int end) {
+                const Vec3& place = space_.points()[nodes[4 + e]];
+                return value_at(vertex_of_[numbers[end]], place - space_.points()[nodes[end]]);
+            };
+            stresses[numbers[4 + e]] = 0.5 * (value_from(tet_edges[e][0]) + value_from(tet_edges[e][1]));
         }
     });
     return stresses;
@@ -144,8 +147,8 @@ std::vector<SymmetricTensor> PatchFit::at_nodes() {
 }  // namespace
 
 std::vector<SymmetricTensor> fit_stresses(const ElasticProblem& problem, const std::vector<double>& displacement,
-                                          std::size_t number, std::size_t material) {
-    return PatchFit(problem, displacement, number, material).at_nodes();
+                                          std::size_t number, const MaterialNodes& numbers) {
+    return PatchFit(problem, displacement, number, numbers).at_nodes();
 }
 
 }  // namespace kerf

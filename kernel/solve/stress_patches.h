@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "solve/elastic_problem.h"
+#include "solve/material_nodes.h"
 
 namespace kerf {
 
-/// Stresses of a case at the local nodes of a space of order 2, of the cells of one material: where none is, zero.
-/// Around each vertex the polynomial of degree 2 that is nearest to the stresses of the cells there, in the mean over
+/// Stresses of a case at the nodes of a space of order 2, of each material by itself: of `numbers`. Around each vertex
+/// the polynomial of degree 2 that is nearest to the stresses of the cells there, in the mean over
 /// these cells; a node on an edge has the mean of those of both ends (superconvergent patch recovery: Zienkiewicz and
 /// Zhu 1992). Where a patch does not determine a polynomial well, it has a lower degree. Ranks add up the equations of
 /// vertices that they share, and need no cells of each other. Collective; O(n), 0.9 kB for each vertex.
 std::vector<SymmetricTensor> fit_stresses(const ElasticProblem& problem, const std::vector<double>& displacement,
-                                          std::size_t number, std::size_t material);
+                                          std::size_t number, const MaterialNodes& numbers);
 
 }  // namespace kerf

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -92,6 +93,43 @@ TEST_P(Solution, PassesThePatchTest) {
         }
         EXPECT_LT(found.norms.relative(), 1e-8);
         EXPECT_LT(reactions(problem, u).of(0).force.norm(), 1e-9 * stress.norm());
+    }
+}
+
+// However many materials there are, also between ranks: each cell with one of its own has the stress of that, without
+// an error.
+TEST_P(Solution, StressesOfMaterialsDoNotMix) {
+    const Eigen::Matrix3d slope = (Eigen::Matrix3d() << 1, 2, -3, 0.5, -1, 4, 2, 0.25, 3).finished() * 1e-3;
+    const SymmetricTensor strain = strain_of(slope);
+    std::vector<double> u(3 * space_->node_count());
+    for (std::int32_t n = 0; n < space_->node_count(); ++n) Eigen::Map<Vec3>{&u[3 * n]} = slope * space_->points()[n];
+    ElasticProblem problem = make_free_problem(*space_, steel_);
+    problem.materials.clear();
+    std::map<NodeId, std::size_t> first;  // material of a part
+    for (const PartExtent& part : CubeOfParts::parts->outline().parts)
+        for (std::int64_t t = 0; t < part.tets; ++t) {
+            first.emplace(part.id, problem.materials.size());
+            const double young = 1000 + 3 * static_cast<double>(problem.materials.size());
+            problem.materials.push_back({"own", young, 0.3, 1});
+        }
+    ASSERT_GT(problem.materials.size(), 500);
+    for (const Part& part : space_->parts()) {
+        std::vector<MaterialNumber>& of_tet = problem.material_of_tet.emplace_back();
+        for (std::size_t t = 0; t < part.mesh.tets.size(); ++t)
+            of_tet.push_back(static_cast<MaterialNumber>(first.at(part.id) + t));
+    }
+    const StressField found = recover_stress(problem, u);
+    EXPECT_LT(found.norms.relative(), 1e-9);
+    for (std::size_t p = 0; p < found.parts.size(); ++p) {
+        const std::vector<Tetrahedron>& tets = space_->parts()[p].mesh.tets;
+        std::vector<SymmetricTensor> last(space_->parts()[p].mesh.vertices.size());
+        for (std::size_t t = 0; t < tets.size(); ++t) {
+            const SymmetricTensor stress = stress_of(problem.material(p, t), strain);
+            EXPECT_LT((found.parts[p].of_tet[t] - stress).norm(), 1e-9 * stress.norm());
+            for (const std::int32_t v : tets[t]) last[static_cast<std::size_t>(v)] = stress;
+        }
+        for (std::size_t v = 0; v < last.size(); ++v)
+            EXPECT_LT((found.parts[p].at_vertex[v] - last[v]).norm(), 1e-9 * last[v].norm());
     }
 }
 

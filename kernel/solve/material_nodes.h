@@ -1,0 +1,40 @@
+// The nodes of a space, a number for each material around.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solve/elastic_problem.h"
+
+namespace kerf {
+
+/// What has a value in each material at a node between several of them, as stresses have, is an array over these
+/// numbers: those of a node follow each other, ascending by material, and nodes are in their order, so that the own
+/// ones come first. The owner of a node has numbers for the materials of all ranks there, others for those of their
+/// cells.
+class MaterialNodes {
+ public:
+    /// Collective. O(n), and O(k log k) in the k cells at nodes between materials.
+    explicit MaterialNodes(const ElasticProblem& problem);
+
+    std::int32_t count() const { return static_cast<std::int32_t>(material_.size()); }
+    /// Of the node's numbers the first; `local_node` may be FeSpace::node_count().
+    std::int32_t first_of(std::int32_t local_node) const { return first_[local_node]; }
+    /// The numbers of the nodes of a tetrahedron of the part `p` of this rank, in its material.
+    std::array<std::int32_t, most_element_nodes> of(std::size_t p, std::size_t tet) const;
+    /// Between the ranks, of arrays over these numbers.
+    const GhostExchange& exchange() const { return exchange_; }
+
+ private:
+    struct Pair;
+    std::vector<Pair> pairs_of_cells() const;
+    std::int32_t number(std::int32_t node, MaterialNumber material) const;
+
+    const ElasticProblem& problem_;
+    std::vector<std::int32_t> first_;       // of each local node, and the end
+    std::vector<MaterialNumber> material_;  // of each number
+    GhostExchange exchange_;
+};
+
+}  // namespace kerf
