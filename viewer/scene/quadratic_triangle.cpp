@@ -21,13 +21,14 @@ Vec3 mixed_place(const std::array<Vec3, 6>& nodes, const std::array<double, 6>& 
     return sum;
 }
 
-// What is positive at all nodes, as lengths are, is not below zero between them.
+// Between those of the nodes: the least and the largest value of a picture are those of the solution, which reports
+// have, and a length is not below zero.
 float mixed_value(const std::array<float, 6>& nodes, const std::array<double, 6>& shares) {
     double sum = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i)
         if (shares[i] != 0) sum += shares[i] * static_cast<double>(nodes[i]);
-    const bool is_positive = std::all_of(nodes.begin(), nodes.end(), [](float value) { return value >= 0; });
-    return static_cast<float>(is_positive ? std::max(sum, 0.0) : sum);
+    const auto [least, largest] = std::minmax_element(nodes.begin(), nodes.end());
+    return std::clamp(static_cast<float>(sum), *least, *largest);
 }
 
 // Of the curved face, outwards.
