@@ -1,4 +1,4 @@
-"""Heat from face_6 to face_2 of the bearing cap in DOLFINx 0.5, on any number of processes: ../solvers.md"""
+"""Heat from face_7 to face_3 of the bearing cap in DOLFINx 0.5, on any number of processes: ../solvers.md"""
 
 from xml.etree import ElementTree
 
@@ -27,7 +27,7 @@ def held(patch, value):
 
 zero = fem.Constant(mesh, ScalarType(0))
 problem = fem.petsc.LinearProblem(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, zero * v * ufl.dx,
-                                  bcs=[held("face_2", 0), held("face_6", 1)],
+                                  bcs=[held("face_3", 0), held("face_7", 1)],
                                   petsc_options={"ksp_type": "cg", "pc_type": "gamg", "ksp_rtol": 1e-9})
 heat = problem.solve()
 largest = mesh.comm.allreduce(heat.x.array.max(), MPI.MAX)

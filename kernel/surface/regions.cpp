@@ -30,8 +30,8 @@ std::int32_t make_feature_patches(Soup& soup, double angle_deg) {
     Components regions = facets.take();
     soup.patch = std::move(regions.of);
     soup.patch_names.clear();
-    for (std::int32_t patch = 0; patch < regions.count; ++patch)
-        soup.patch_names.push_back("face_" + std::to_string(patch));
+    for (std::int32_t number = 1; number <= regions.count; ++number)
+        soup.patch_names.push_back("face_" + std::to_string(number));
     return static_cast<std::int32_t>(soup.patch_names.size());
 }
 

@@ -6,7 +6,7 @@
 namespace kerf {
 
 /// Gives every region of facets that is bounded by edges with more than `angle_deg` between the normals of their facets
-/// a patch of its own, named "face_0", "face_1", ... in the order of their first facets. Requires consistently oriented
+/// a patch of its own, named "face_1", "face_2", ... in the order of their first facets. Requires consistently oriented
 /// facets. O(#F log #F), deterministic. Returns the number of patches.
 std::int32_t make_feature_patches(Soup& soup, double angle_deg);
 

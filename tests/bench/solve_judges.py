@@ -23,7 +23,7 @@ sys.path.insert(0, str(ROOT / "tests/oracles"))
 import compare_with_calculix as calculix  # noqa: E402
 
 YOUNG, POISSON, PRESSURE, RTOL = 110e3, 0.26, 130.0, 1e-8
-HELD, PRESSED = ("face_3", "face_5"), ("face_4", "face_11", "face_13")
+HELD, PRESSED = ("face_4", "face_6"), ("face_5", "face_12", "face_14")
 CASE = f"""[material.cast_iron]
 young = {YOUNG}
 poisson = {POISSON}

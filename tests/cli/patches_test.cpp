@@ -110,7 +110,7 @@ TEST_F(Patches, FeatureAngleMakesASideOfACubeAPatch) {
     }
     ASSERT_EQ(sides.size(), 6u);
     expect_patches(mesh(test::asset_path("cube"), {"--feature-angle", "40"}), patch,
-                   {"face_0", "face_1", "face_2", "face_3", "face_4", "face_5"});
+                   {"face_1", "face_2", "face_3", "face_4", "face_5", "face_6"});
 }
 
 TEST_F(Patches, FeatureAngleLeavesThePatchesOfTheFile) {

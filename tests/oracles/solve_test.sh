@@ -21,15 +21,15 @@ young = 210000
 poisson = 0.3
 
 [[support]]
-patch = "face_0"
+patch = "face_1"
 fixed = true
 
 [[load]]
-patch = "face_3"
+patch = "face_4"
 pressure = 2.5
 
 [[load]]
-patch = "face_1"
+patch = "face_2"
 traction = [1, 2, -3]
 
 [solver]

@@ -118,7 +118,7 @@ TEST_F(KerfSolve, FilesHaveTheValues) {
 TEST_F(KerfSolve, LoadsAndReactionsBalanceForAnyRanks) {
     const std::string loads =
         std::string(steel) +
-        "[[support]]\npatch = \"face_0\"\nfixed = true\n[[support]]\npoint = [1, 1, 1]\nx = 0.01\n"
+        "[[support]]\npatch = \"face_1\"\nfixed = true\n[[support]]\npoint = [1, 1, 1]\nx = 0.01\n"
         "[[load]]\nbox = [-1, -1, 0.999, 2, 2, 2]\npressure = 3\n"
         "[[load]]\npoint = [1, 0, 1]\nforce = [0, 1, 0]\n[gravity]\nacceleration = [0, 0, -9.81]\n";
     for (const std::string& solver :
@@ -219,10 +219,10 @@ TEST_F(KerfSolve, ListsPatches) {
 }
 
 TEST_F(KerfSolve, RefusesWhatCannotBe) {
-    const std::string held = "[[support]]\npatch = \"face_0\"\nfixed = true\n";
+    const std::string held = "[[support]]\npatch = \"face_1\"\nfixed = true\n";
     const std::string material = steel;
     expect_refused(2, material, {"not held at all", "[[support]]"});
-    expect_refused(2, material + "[[support]]\npatch = \"face_9\"\nfixed = true", {"'face_9'", "It has 'face_0'"});
+    expect_refused(2, material + "[[support]]\npatch = \"face_10\"\nfixed = true", {"'face_10'", "It has 'face_1'"});
     expect_refused(2, material + "[[support]]\nbox = [5, 5, 5, 6, 6, 6]\nfixed = true", {"selects no triangle"});
     expect_refused(2, material + "[[support]]\nplane = [0, 0, 1, 0]\nz = 0", {"free to"});
     expect_refused(2, material + held + "[[load]]\nplane = [1, 0, 0, 0.4321]\npressure = 1",
@@ -230,26 +230,26 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
     expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0\nparts = [4]\n" + held, {"have no material"});
     expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0\nparts = [77]\n" + held, {"part 77"});
     expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0.6\n" + held, {"between -1 and 0.5"});
-    expect_refused(9, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\nmax_iterations = 2",
+    expect_refused(9, material + held + "[[load]]\npatch = \"face_2\"\npressure = 1\n[solver]\nmax_iterations = 2",
                    {"not reached", "2 iterations", "Try"});
     expect_refused(2, material + held + "[[load]]\npoint = [1e9, 0, 0]\nforce = [1, 0, 0]",
                    {"away from the body", "units of the mesh"});
     expect_refused(2, material + held + "[solver]\nrtol = 1e-30", {"between 1e-14", "and 1"});
     expect_refused(2,
                    material + held +
-                       "[[load]]\npatch = \"face_1\"\npressure = 1\ncase = \"a\"\n[[combination]]\nname = \"b\"\n"
+                       "[[load]]\npatch = \"face_2\"\npressure = 1\ncase = \"a\"\n[[combination]]\nname = \"b\"\n"
                        "cases = {a = 1}\n[[combination]]\nname = \"b\"\ncases = {a = 2}",
                    {"'b' is a combination already"});
-    expect_refused(2, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1e300",
+    expect_refused(2, material + held + "[[load]]\npatch = \"face_2\"\npressure = 1e300",
                    {"larger than numbers can be"});
     expect_refused(2, material + held + "[solver]\npetsc = \"nonsense\"", {"'nonsense'"});
     for (const std::string options : {"-pc_type nonsense", "-pc_type lu", "-ksp_type nonsense", "-ksp_rtol nonsense"})
         expect_refused(
-            2, material + held + "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\npetsc = \"" + options + "\"",
+            2, material + held + "[[load]]\npatch = \"face_2\"\npressure = 1\n[solver]\npetsc = \"" + options + "\"",
             {"'" + options + "'", "Correct them"});
     expect_refused(2,
                    material + held +
-                       "[[load]]\npatch = \"face_1\"\npressure = 1\n[solver]\npreconditioner = \"icc\"\npetsc = "
+                       "[[load]]\npatch = \"face_2\"\npressure = 1\n[solver]\npreconditioner = \"icc\"\npetsc = "
                        "\"-sub_pc_type nonsense\"",
                    {"'-sub_pc_type nonsense'", "Correct them"});
 }
@@ -258,7 +258,7 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
 TEST_F(KerfSolve, WhatPetscCallsConvergedIsMeasured) {
     const std::string text =
         std::string(steel) +
-        "[[support]]\npatch = \"face_0\"\nfixed = true\n[[load]]\npatch = \"face_1\"\npressure = 1\n";
+        "[[support]]\npatch = \"face_1\"\nfixed = true\n[[load]]\npatch = \"face_2\"\npressure = 1\n";
     expect_refused(9, text + "[solver]\npetsc = \"-ksp_type preonly -pc_type none\"",
                    {"not reached the tolerance 1e-08", "'-ksp_type preonly -pc_type none'", "leave that out"});
     expect_refused(9, text + "[solver]\npetsc = \"-ksp_rtol 0.5\"", {"CONVERGED_RTOL", "residual"});

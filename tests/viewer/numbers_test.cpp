@@ -60,14 +60,14 @@ class NumberedBox : public testing::Test {
         for (const FaceNumber& face : driver_->app().facts().numbers) all.push_back(face.number);
         return all;
     }
-    // Of a patch by its outward normal.
+    // The number of a patch by its outward normal, counted from 1.
     std::int32_t patch_towards(const Vec3& normal) {
         const auto surface = driver_->app().session().fetched().surface(1);
         for (std::size_t f = 0; f < surface->facets.size(); ++f) {
             const auto p = [&](std::size_t k) {
                 return surface->vertices[static_cast<std::size_t>(surface->facets[f][k])];
             };
-            if ((p(1) - p(0)).cross(p(2) - p(0)).normalized().dot(normal) > 0.99) return surface->patch[f];
+            if ((p(1) - p(0)).cross(p(2) - p(0)).normalized().dot(normal) > 0.99) return surface->patch[f] + 1;
         }
         return -1;
     }
@@ -81,6 +81,13 @@ TEST_F(NumberedBox, FacesThatAreSeenHaveThem) {
     for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) expected.push_back(patch_towards(normal));
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(seen(), expected);
+    for (const std::int32_t number : expected) {
+        const std::vector<LegendEntry>& entries = driver_->app().facts().categories;
+        const std::string& name = driver_->document().patch_names[static_cast<std::size_t>(number - 1)];
+        const std::string text = fmt::format("{}: {}", number, name);
+        EXPECT_TRUE(std::any_of(entries.begin(), entries.end(), [&](const LegendEntry& e) { return e.text == text; }))
+            << text;
+    }
     std::vector<std::string> words = words_on_screen();
     for (const std::int32_t number : expected)
         EXPECT_EQ(std::count(words.begin(), words.end(), std::to_string(number)), 1) << number;

@@ -43,12 +43,12 @@ void Labels::place_numbers() {
     const auto has_numbers = [](const Layer& layer) { return layer.patch != nullptr; };
     const std::vector<Layer>& layers = view_.built.scene.layers;
     view_.facts.numbers.clear();
-    if (std::none_of(layers.begin(), layers.end(), has_numbers)) return;
+    if (!view_.state.numbers || std::none_of(layers.begin(), layers.end(), has_numbers)) return;
     const float least_room = 0.7f * ImGui::GetFontSize();
     for (const NumberPlace& place : view_.renderer.places_of_patches(view_.built.scene, view_.projection))
         if (static_cast<float>(place.room) >= least_room)
             view_.facts.numbers.push_back(
-                {place.number, static_cast<float>(place.x) + 0.5f, static_cast<float>(place.y) + 0.5f});
+                {patch_number(place.number), static_cast<float>(place.x) + 0.5f, static_cast<float>(place.y) + 0.5f});
 }
 
 void Labels::place_line_values() {

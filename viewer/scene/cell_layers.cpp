@@ -75,7 +75,7 @@ void CellLayers::add_section(const PartCells& cells, const CellColors& colors) {
 // The values of a layer of cells are numbers of patches, unless these share few colours.
 void CellLayers::number_cells(Layer& layer, const PartCells& cells, const NodeSurface& surface,
                               const CellColors& colors) const {
-    if (!context_.numbers_patches()) return;
+    if (!context_.shows_patches()) return;
     std::shared_ptr<const Geometry> numbered = layer.geometry;
     if (!context_.palette_of_patch.empty()) {
         std::vector<float> numbers;

@@ -135,6 +135,9 @@ constexpr LayerKind layer_of(Stage stage) {
 }
 static_assert(layer_of(Stage::interface) == LayerKind::interface);
 
+/// What is read of a patch, on its face and in the legend: counted from 1, as names, reports and solvers do.
+inline std::int32_t patch_number(std::int32_t index) { return index + 1; }
+
 struct Layer {
     LayerKind kind = LayerKind::surface;  ///< with the owner unique in a scene, but for isolines
     NodeId owner = 0;                     ///< the node or part that it belongs to; 0: none
@@ -153,7 +156,7 @@ struct Layer {
     /// Every range is the whole boundary of a body, facing outwards: who is outside sees no backs. The renderer then
     /// draws none unless the plane or the eye cuts the body open, which is up to twice as fast.
     bool closed = false;
-    /// Per triangle of the geometry, the number of its patch; -1: none. Null: they are not to be read on the faces.
+    /// Per triangle of the geometry, its patch as an index; -1: none. Null unless patches have the colours.
     std::shared_ptr<const std::vector<std::int32_t>> patch = nullptr;
     /// Of an opaque layer only what is seen from its back is drawn: a ground behind other things that covers none of
     /// them. Not picked.

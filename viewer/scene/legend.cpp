@@ -75,13 +75,23 @@ void LegendMaker::explain_origins() {
     for (const std::string& filler : others) explain(filler, color(CellOrigin::other));
 }
 
+// Several patches may have one colour.
+std::set<std::int32_t> LegendMaker::drawn_patches() const {
+    std::set<std::int32_t> drawn;
+    for (const Layer& layer : scene_.layers)
+        if (layer.patch && layer.fill == Fill::categories)
+            for (const Range& range : layer.ranges)
+                for (std::size_t i = range.first; i < std::size_t{range.first} + range.count; ++i)
+                    drawn.insert((*layer.patch)[i]);
+    return drawn;
+}
+
 void LegendMaker::explain_patches() {
-    const std::set<int> drawn = drawn_categories();
-    for (std::size_t i = 0; i < context_.document.patch_names.size(); ++i) {
-        const float value = i < context_.palette_of_patch.size() ? context_.palette_of_patch[i] : static_cast<float>(i);
+    const std::set<std::int32_t> drawn = drawn_patches();
+    for (std::int32_t i = 0; i < std::ssize(context_.document.patch_names); ++i) {
+        if (!drawn.contains(i)) continue;
         const std::string& name = context_.document.patch_names[i];
-        if (drawn.contains(static_cast<int>(value)))
-            explain(context_.numbers_patches() ? fmt::format("{}: {}", i, name) : name, context_.patch_color(i));
+        explain(context_.state.numbers ? fmt::format("{}: {}", patch_number(i), name) : name, context_.patch_color(i));
     }
     if (drawn.contains(-1))
         explain(context_.step.stage == Stage::tetrahedra ? "interface or inside" : "interface", context_.colors.none);
@@ -94,7 +104,7 @@ void LegendMaker::explain_regions() {
             part_of_region.emplace(region, part);
     for (const auto& [region, part] : part_of_region) {
         const std::string* name = region_of(context_.document, part);
-        const std::string text = name ? *name : fmt::format("region {}", region);
+        const std::string text = name ? *name : fmt::format("region {}", region + 1);
         explain(context_.state.walls ? "walls of " + text : text, drawn_color_of(part));
     }
 }

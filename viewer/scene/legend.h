@@ -25,6 +25,7 @@ class ScaleMaker {
     template <class Visit>
     void for_drawn_values(Visit visit) const;
     ValueRange range_of_most_values(const ValueRange& all);
+    void follow(ValueRange drawn);
 
     const SceneContext& context_;
     LayerSink& sink_;
@@ -43,6 +44,7 @@ class LegendMaker {
     std::string title_of_values() const;
     Color drawn_color_of(NodeId part) const;
     std::set<int> drawn_categories() const;
+    std::set<std::int32_t> drawn_patches() const;
     void explain(const std::string& text, const Color& color, LegendEntry::Mark mark = LegendEntry::Mark::area);
     void explain_layer(const Layer* layer, const std::string& text, const Color& color);
     void explain_kind(LayerKind kind, const std::string& text, const Color& color) {

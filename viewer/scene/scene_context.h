@@ -33,7 +33,7 @@ class SceneContext {
     bool has_filter() const { return state.filter && is_measure(state.color) && !ring; }
     bool needs_values() const { return is_measure(state.color) || is_kind(state.color); }
     bool needs_solution() const;
-    bool numbers_patches() const { return state.numbers && state.color == ColorBy::patch; }
+    bool shows_patches() const { return state.color == ColorBy::patch; }
     /// Where a part, or half, of the node goes that is shown.
     Vec3 offset_of(NodeId part) const;
     Color color_of(NodeId part) const;

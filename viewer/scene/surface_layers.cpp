@@ -99,7 +99,7 @@ void FacetColors::set_values(const NodeSurface& surface, FacetChoice& choice) co
 void FacetColors::finish(const SceneContext& context, const NodeSurface& surface, Layer& layer) const {
     if (values) layer.fill = Fill::scale;
     if (!patches.empty()) layer.fill = Fill::categories;
-    if (!context.numbers_patches() || surface.patch.empty()) return;
+    if (!context.shows_patches() || surface.patch.empty()) return;
     auto numbers = std::make_shared<std::vector<std::int32_t>>();
     numbers->reserve(layer.geometry->element.size());
     for (const std::int32_t facet : layer.geometry->element)
