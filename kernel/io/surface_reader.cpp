@@ -157,7 +157,8 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     throw Error(ErrorCode::input,
                 path +
                     ": the format is not recognised. Give STL, OBJ, PLY, OFF, Gmsh's .msh, MEDIT's .mesh as text, "
-                    "VTK's .vtu, or TetGen's .smesh or .poly, plain or compressed with gzip or zstd.");
+                    "VTK's .vtu, TetGen's .smesh or .poly, STEP, IGES, BREP or 3MF, plain or compressed with gzip or "
+                    "zstd.");
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ constexpr std::array<KindTexts, defect_kind_count> texts_of_kinds = {{
      "unite the bodies, as --repair intersections does, move them apart, or leave all out but the largest with "
      "--keep-largest"},
     {"self-intersection", "unite the parts that overlap where the surface was made, or with --repair intersections"},
-    {"needle", "remesh the surface with --surface remesh where good cells are needed"},
+    {"needle",
+     "kerf mesh remeshes CAD files, and others where needles would spoil cells; --surface remesh remeshes any file"},
     {"short edge", "move the part closer to the origin or collapse the edges"},
     {"wall of unlike facets",
      "give both bodies the same triangles where they touch, as solids of one CAD file have them, or merge vertices "

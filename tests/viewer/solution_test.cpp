@@ -151,6 +151,13 @@ TEST_F(SolvedCube, ColoursSpanMostOfTheStresses) {
     driver_->state().color_range = ValueRange{0, 0.5};
     EXPECT_EQ(legend(ColorBy::von_mises).extremes->high, 1) << "beyond a range that is given";
     EXPECT_FALSE(is_said("Colours span 99 % of the values drawn"));
+    EXPECT_TRUE(legend(ColorBy::min_dihedral).goes_above) << "which no extremes say";
+    EXPECT_FALSE(legend(ColorBy::min_dihedral).goes_below);
+    driver_->state().color_range = ValueRange{170, 180};
+    EXPECT_TRUE(legend(ColorBy::min_dihedral).goes_below);
+    EXPECT_FALSE(legend(ColorBy::min_dihedral).goes_above);
+    driver_->state().color_range = {};
+    EXPECT_FALSE(legend(ColorBy::min_dihedral).goes_above || legend(ColorBy::min_dihedral).goes_below);
 }
 
 TEST_F(SolvedCube, TellsWhatIsAtAPlace) {

@@ -38,6 +38,29 @@ bool is_said(const std::string& words) {
                        [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
+// What can be read is named at the start, and in the list of files.
+TEST(StartPage, KnowsEveryFormatThatIsRead) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> formats = {".stl",   ".obj",  ".ply",  ".off",  ".msh",  ".vtu", ".mesh",
+                                              ".smesh", ".poly", ".step", ".iges", ".brep", ".3mf"};
+    for (const std::string& format : formats) std::ofstream(folder.file("a" + format + ".gz")) << "x";
+    std::ofstream(folder.file("a.txt")) << "x";
+    Driver driver(with_examples(assets));
+    driver.settle();
+    for (const std::string& format : formats) {
+        std::string upper = format.substr(1);
+        for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        EXPECT_TRUE(is_said(format) || is_said(upper)) << format;
+    }
+    const fs::path before = fs::current_path();
+    fs::current_path(fs::path(folder.file("a.txt")).parent_path());
+    driver.key(key_of('O'), true);
+    driver.settle();
+    fs::current_path(before);
+    for (const std::string& format : formats) EXPECT_TRUE(is_said("a" + format + ".gz")) << format;
+    EXPECT_FALSE(is_said("a.txt"));
+}
+
 TEST(StartPage, ShowsEverySurfaceOfTheFolder) {
     Driver driver(with_examples(assets));
     driver.settle();

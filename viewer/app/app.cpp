@@ -64,6 +64,8 @@ void App::build_scene() {
     facts.percentile = legend.percentile;
     facts.categories = legend.categories;
     facts.scale = legend.scale;
+    facts.goes_below = legend.goes_below;
+    facts.goes_above = legend.goes_above;
     facts.selection = describe_selection(view_.session, view_.state.selection, view_.state.load_case);
     facts.pending = view_.session.pending();
     facts.triangles = facts.lines = 0;

@@ -96,6 +96,7 @@ class LegendBox {
         const float e = em(), bar = 1.1f * e, above = facts_.extremes ? ImGui::GetTextLineHeight() : 0;
         const float bottom = from.y + above + ImGui::GetTextLineHeight() / 2 + bar_height_;
         draw_bar({from.x, bottom - bar_height_}, bar);
+        draw_ends({from.x, bottom - bar_height_}, bar);
         for (const double tick : ticks_) {
             const float y = bottom - height_of(tick);
             const ImVec4& color = is_filtered_out(tick) ? colors_.dim : colors_.text;
@@ -104,6 +105,18 @@ class LegendBox {
                           text_of(tick).c_str());
         }
         draw_extremes(from, bottom);
+    }
+
+    // Pointed ends: values beyond have these colours, too. Of a solution the extremes say how far they go.
+    void draw_ends(const ImVec2& from, float width) {
+        if (facts_.extremes) return;
+        const float middle = from.x + width / 2, bottom = from.y + bar_height_, point = 0.4f * em();
+        if (facts_.goes_above)
+            list_.AddTriangleFilled({from.x, from.y}, {from.x + width, from.y}, {middle, from.y - point},
+                                    packed(facts_.scale.back()));
+        if (facts_.goes_below)
+            list_.AddTriangleFilled({from.x, bottom}, {from.x + width, bottom}, {middle, bottom + point},
+                                    packed(facts_.scale.front()));
     }
 
     // Above and below the bar, each with a mark where its colour is.

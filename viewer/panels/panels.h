@@ -113,6 +113,7 @@ struct SceneFacts {
     double percentile = 100;                      ///< Legend::percentile
     std::vector<LegendEntry> categories;          ///< what else a legend explains: "part 8"
     std::vector<Color> scale;                     ///< colours from low to high, of a legend with numbers
+    bool goes_below = false, goes_above = false;  ///< Legend::goes_below, goes_above
     std::string selection;                        ///< what is selected, as lines of text; empty: nothing
     std::int64_t triangles = 0, lines = 0;        ///< drawn
     std::string notice;                           ///< e.g. "saved as kerf-001.png"; shown for some seconds

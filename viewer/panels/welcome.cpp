@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t most_recent = 8;
 
 constexpr const char* what_can_be_opened[] = {
-    "Surfaces: STL, OBJ, PLY, OFF, .msh, .mesh, .smesh, .poly, also .gz or .zst",
-    "CAD files: STEP, IGES, BREP",
+    "Surfaces: STL, OBJ, PLY, OFF, .msh, .vtu, .mesh, .smesh, .poly, also .gz or .zst",
+    "CAD files: STEP, IGES, BREP, and 3MF",
     "Traces: what kerf mesh --trace FILE has written",
     "Runs: the folder of kerf mesh -o DIR, finished or under way",
     "Solutions: the folder of kerf solve -o DIR",

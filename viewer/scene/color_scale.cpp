@@ -102,14 +102,21 @@ ValueRange ScaleMaker::range_of_most_values(const ValueRange& all) {
 // Of a run under way nobody knows the distribution of the values yet, of surfaces nobody ever does.
 void ScaleMaker::follow_layers() {
     const bool is_solution = is_of_solution(context_.state.color);
-    if (!context_.shows_values() || (built_.legend.values && !is_solution)) return;
+    if (!context_.shows_values()) return;
     ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for_drawn_values([&](double value, const Layer&, std::size_t) {
         range.low = std::min(range.low, value);
         range.high = std::max(range.high, value);
     });
     if (is_solution && range.low <= range.high) built_.legend.extremes = range;
-    if (built_.legend.values) return;
+    const ValueRange drawn = range;
+    if (!built_.legend.values) follow(range);
+    built_.legend.goes_below = static_cast<float>(drawn.low) < built_.scene.scale.low;
+    built_.legend.goes_above = static_cast<float>(drawn.high) > built_.scene.scale.high;
+}
+
+// Of values that nobody has limited.
+void ScaleMaker::follow(ValueRange range) {
     if (is_stress(context_.state.color) && range.low < range.high) range = range_of_most_values(range);
     if (context_.state.color == ColorBy::deviation && range.high >= 0)
         range = {0, std::max(range.high, rounding_share * context_.document.box.diagonal().norm())};

@@ -21,6 +21,8 @@ struct Legend {
     std::vector<PlacedValue> marked;      ///< where ViewState::extremes asks for them: of the least, the largest value
     double percentile = 100;              ///< per cent of the drawn values that the colours span, where they span fewer
     std::vector<Color> scale;             ///< from its low to its high end
+    bool goes_below = false;              ///< values that are drawn lie below `values`
+    bool goes_above = false;              ///< or above
     std::vector<LegendEntry> categories;  ///< what else there is to explain, also beside a scale
 };
 
