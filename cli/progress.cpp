@@ -128,9 +128,14 @@ void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t 
         begin_stage(stage);
     } else if (!quiet_ && (terminal_ || each_second_) && total != 1 && is_time_for_a_line()) {
         last_seconds_ = of_stage_.seconds();
-        print(total == 0 ? fmt::format("{}{}  {:.1f} s", stage_, unknowns_, last_seconds_)
-                         : fmt::format("{}{}  {}/{}", stage_, unknowns_, done, total));
+        print(total == 0 ? fmt::format("{}{}  {:.1f} s", stage_, unknowns_, last_seconds_) : state_text());
     }
+    text_ = state_text();
+}
+
+// With what has been done, which is told as long as nothing new is.
+std::string ProgressLine::state_text() const {
+    return total_ < 2 ? stage_ + unknowns_ : fmt::format("{}{}  {}/{}", stage_, unknowns_, done_, total_);
 }
 
 // A residual falls by about the same factor in each iteration.

@@ -37,13 +37,14 @@ class ProgressLine : public SolveListener {
     void clear();
     void tell_that_it_goes_on();
     bool is_time_for_a_line() const;
+    std::string state_text() const;
 
     bool quiet_, terminal_, shows_plan_, line_open_ = false;
     EventLog* events_;
     std::string stage_;
     double last_seconds_ = 0;  // of the stage, that were printed
     int last_tenth_ = 0;
-    std::string text_;                  // what was printed last
+    std::string text_;                  // what is told again as long as nothing new is
     std::string unknowns_;              // for the stages of a solution
     std::size_t done_ = 0, total_ = 0;  // of the stage
     bool each_second_ = false;
