@@ -33,7 +33,9 @@ int verify_run(const VerifyRequest& request) {
 void add_verify_command(CLI::App& kerf, int& exit_code) {
     const auto request = std::make_shared<VerifyRequest>();
     CLI::App* command = kerf.add_subcommand("verify", "Check every law of a finished run again, from its files.");
-    command->add_option("folder", request->folder, "Folder of the run.")->required()->type_name("DIR");
+    command->add_option("folder", request->folder, "Folder of the run, or of a solution on it.")
+        ->required()
+        ->type_name("DIR");
     command
         ->add_option("--input", request->options.input, "Where the surface is now. Default: where the run has read it.")
         ->type_name("FILE");

@@ -20,6 +20,7 @@
 #include "io/listed_files.h"
 #include "io/run_folder.h"
 #include "part/part_ranges.h"
+#include "part/solution_parts.h"
 #include "part/vtu_reader.h"
 
 namespace kerf {
@@ -168,6 +169,12 @@ std::string filled(std::string_view page, const Blanks& blanks) {
 ReportPage report_page(const std::string& folder, std::int64_t limit) {
     try {
         PageJson report = parse_ordered_json(read_sealed_report(folder));
+        if (is_of_solution(report))
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} is a solution of kerf solve, and pages are of runs. kerf view {} shows its "
+                                    "stresses, kerf screenshot {} -o stresses.png draws them, and kerf report {} -o "
+                                    "mesh.html tells of its mesh.",
+                                    folder, folder, folder, mesh_in(folder)));
         const ReadSurface read = read_surfaces(report, ListedFiles(folder, files_of_report(report)), limit);
         report = shortened(std::move(report));
         const std::string title = title_of(report);

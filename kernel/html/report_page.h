@@ -20,8 +20,8 @@ struct ReportPage {
 /// figures of its report, and the surfaces of its parts, with 16 bits a coordinate and at most `limit` > 0 triangles
 /// (html/page_surface.h). It needs no other file and no network. The bytes depend on the folder alone.
 ///
-/// Throws Error(io), with the way out, for what is no such run, and where the report is not as Kerf has written it.
-/// Memory: the page, and a part at a time.
+/// Throws Error(io), with the way out, for what is no such run, Error(usage) for a solution, and Error(verification)
+/// where the report or a surface is not as Kerf has written it. Memory: the page, and a part at a time.
 ReportPage report_page(const std::string& folder, std::int64_t limit = most_page_triangles);
 
 }  // namespace kerf

@@ -114,7 +114,6 @@ void sort_files(std::vector<RunFile>& files) {
 }
 
 RunFile describe_file(const std::string& folder, const std::string& path) {
-    constexpr std::size_t chunk_size = std::size_t{1} << 20;
     const std::string whole = (fs::path(folder) / path).string();
     std::error_code error;
     if (fs::exists(whole, error) && !fs::is_regular_file(whole, error))
@@ -122,9 +121,10 @@ RunFile describe_file(const std::string& folder, const std::string& path) {
     CheckedFile file(whole, "rb");
     Hasher hasher;
     std::int64_t bytes = 0;
-    for (std::string chunk = file.read(chunk_size); !chunk.empty(); chunk = file.read(chunk_size)) {
-        hasher.add_bytes(chunk.data(), chunk.size());
-        bytes += static_cast<std::int64_t>(chunk.size());
+    std::string chunk(std::size_t{1} << 17, '\0');  // that the processor's own memory holds
+    while (const std::size_t size = file.read_into(chunk.data(), chunk.size())) {
+        hasher.add_bytes(chunk.data(), size);
+        bytes += static_cast<std::int64_t>(size);
     }
     return {path, bytes, hash_text(hasher.digest())};
 }

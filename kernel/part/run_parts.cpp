@@ -19,6 +19,7 @@
 #include "part/part_store.h"
 #include "part/run_names.h"
 #include "part/second_order_parts.h"
+#include "part/solution_parts.h"
 #include "part/vtu_reader.h"
 
 namespace kerf {
@@ -64,18 +65,23 @@ void require_parts(const std::string& folder, const MeshOutline& outline) {
             fail_damaged_report(folder, fmt::format("it has numbers of part {} that cannot be", part.id));
         held += part.vertices;
     }
-    if (outline.vertices < 0 || outline.vertices > held)
-        fail_damaged_report(folder, fmt::format("it has {} vertices, and its parts {}", outline.vertices, held));
     for (const PartExtent& part : outline.parts)
         if (part.tets == 0)
             throw Error(ErrorCode::io,
                         fmt::format("Part {} of {} has no tetrahedra: kerf decompose makes none, and a run of kerf "
                                     "mesh that has not ended goes on by kerf mesh --resume {}.",
                                     part.id, folder, folder));
+    if (outline.vertices < 0 || outline.vertices > held)
+        fail_damaged_report(folder, fmt::format("it has {} vertices, and its parts {}", outline.vertices, held));
 }
 
 // What the report says of the whole; triangles are not counted in it.
 MeshOutline outline_of(const std::string& folder, const nlohmann::json& report) {
+    if (is_of_solution(report))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} is a solution of kerf solve, and here a run of kerf mesh is asked "
+                                "for. Name {}, on which it stands.",
+                                folder, mesh_in(folder)));
     MeshOutline outline;
     try {
         outline.vertices = report.at("totals").at("vertices");

@@ -23,9 +23,14 @@ using Json = nlohmann::json;
 // Null if there is none. Throws Error(verification) for one that is not as it was written.
 Json report_of(const fs::path& folder) {
     std::error_code ignored;
-    const fs::path path = folder / "report.json";
-    if (!fs::exists(path, ignored)) return nullptr;
-    return parse_json(read_sealed_report(folder.string()));
+    if (!fs::exists(folder / "report.json", ignored)) return nullptr;
+    try {
+        return parse_json(read_sealed_report(folder.string()));
+    } catch (const Json::exception& error) {
+        throw Error(ErrorCode::verification,
+                    fmt::format("{}/report.json is damaged: {}. Copy the folder again, or make it again.",
+                                folder.string(), error.what()));
+    }
 }
 
 std::string path_beside(const fs::path& folder, const Json& name) {
@@ -46,11 +51,11 @@ std::optional<std::string> find_solution_folder(const std::string& path) {
         return beneath.is_object() && beneath.contains("solve") ? std::optional((folder / "solution").string())
                                                                 : std::nullopt;
     }
-    if (!report.is_object()) return std::nullopt;
+    if (!is_of_solution(report)) return std::nullopt;
     if (report.contains("solve")) return path;
-    if (!report.contains("steps")) return std::nullopt;
     try {
-        return path_beside(folder, report.at("steps").back().at("solution"));
+        const Json& steps = report.at("steps");
+        return path_beside(folder, steps.at(steps.empty() ? 0 : steps.size() - 1).at("solution"));
     } catch (const Json::exception& error) {
         fail_damaged(path, error.what());
     }
@@ -75,6 +80,11 @@ std::string mesh_of_solution(const std::string& solution) {
     } catch (const Json::exception& error) {
         fail_damaged(solution, error.what());
     }
+}
+
+std::string mesh_in(const std::string& folder) {
+    const std::optional<std::string> solution = find_solution_folder(folder);
+    return solution ? mesh_of_solution(*solution) : folder;
 }
 
 std::unique_ptr<PartSource> open_parts(const std::string& folder) {

@@ -12,6 +12,7 @@
 #include "geometry/box.h"
 #include "mesh/adjacency.h"
 #include "part/curved_part.h"
+#include "part/solution_parts.h"
 
 namespace kerf {
 
@@ -106,7 +107,7 @@ void MeasurableMesh::open_file() {
 }
 
 void MeasurableMesh::open_run() {
-    run_ = std::make_unique<RunParts>(path_);
+    run_ = std::make_unique<RunParts>(mesh_in(path_));
     Box box;
     for (const PartIndex part : run_->outline().parts.ids())
         box.extend(box_around(run_->load_only(part, PartContent::surface).mesh.vertices));

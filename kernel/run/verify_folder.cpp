@@ -27,6 +27,7 @@
 #include "io/run_manifest.h"
 #include "part/run_names.h"
 #include "part/run_parts.h"
+#include "part/solution_parts.h"
 #include "part/vtu_reader.h"
 #include "part/vtu_writer.h"
 #include "prepare/remeshing.h"
@@ -48,6 +49,41 @@ std::string read_report(const std::string& folder) {
     if (!std::filesystem::exists(path, ignored))
         throw Error(ErrorCode::io, fmt::format("{} is not a finished run: it holds no report.json.", folder));
     return read_file(path);
+}
+
+struct ComparedFiles {
+    std::vector<std::string> differences;
+    std::map<std::string, std::string> hashes;  // by path: as the files are now
+};
+
+// The files of a folder are those of its report's list, each with its hash.
+ComparedFiles compare_files(const std::string& folder, const std::string& report_text) {
+    ComparedFiles compared;
+    const auto differs = [&](std::string what) { compared.differences.push_back(std::move(what)); };
+    if (!is_sealed(report_text)) differs("report.json is not as the run has written it");
+    const std::vector<std::string> present = list_files(folder);
+    const std::vector<RunFile> listed = files_of_report(parse_json(report_text));
+    std::vector<std::optional<RunFile>> found(listed.size());
+    for_each_on_threads(listed.size(), [&](std::size_t i) {
+        if (std::binary_search(present.begin(), present.end(), listed[i].path))
+            found[i] = describe_file(folder, listed[i].path);
+    });
+    std::vector<std::string> known = {"report.json"};
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        const RunFile& file = listed[i];
+        known.push_back(file.path);
+        if (!found[i])
+            differs(file.path + " is missing");
+        else if (found[i]->bytes != file.bytes || found[i]->hash != file.hash)
+            differs(file.path + " is not as the run has written it");
+        if (found[i]) compared.hashes[file.path] = found[i]->hash;
+    }
+    std::sort(known.begin(), known.end());
+    for (const std::string& file : present)
+        if (!std::binary_search(known.begin(), known.end(), file) && !file.ends_with('/') &&
+            !(file.starts_with("work/") && is_named_like_run_file(file)))  // a kill may have left it
+            differs(file + " is no file of the run");
+    return compared;
 }
 
 class FolderVerifier {
@@ -109,31 +145,10 @@ class FolderVerifier {
     EdgeNodeCheck edge_nodes_;
 };
 
-// The files are those of the list, each with its hash.
 void FolderVerifier::check_files() {
-    if (!is_sealed(report_text_)) differs("report.json is not as the run has written it");
-    const std::vector<std::string> present = list_files(folder_);
-    const std::vector<RunFile> listed = files_of_report(report_);
-    std::vector<std::optional<RunFile>> found(listed.size());
-    for_each_on_threads(listed.size(), [&](std::size_t i) {
-        if (std::binary_search(present.begin(), present.end(), listed[i].path))
-            found[i] = describe_file(folder_, listed[i].path);
-    });
-    std::vector<std::string> known = {"report.json"};
-    for (std::size_t i = 0; i < listed.size(); ++i) {
-        const RunFile& file = listed[i];
-        known.push_back(file.path);
-        if (!found[i])
-            differs(file.path + " is missing");
-        else if (found[i]->bytes != file.bytes || found[i]->hash != file.hash)
-            differs(file.path + " is not as the run has written it");
-        if (found[i]) file_hashes_[file.path] = found[i]->hash;
-    }
-    std::sort(known.begin(), known.end());
-    for (const std::string& file : present)
-        if (!std::binary_search(known.begin(), known.end(), file) && !file.ends_with('/') &&
-            !(file.starts_with("work/") && is_named_like_run_file(file)))  // a kill may have left it
-            differs(file + " is no file of the run");
+    ComparedFiles compared = compare_files(folder_, report_text_);
+    result_.differences = std::move(compared.differences);
+    file_hashes_ = std::move(compared.hashes);
 }
 
 void FolderVerifier::end_if_cancelled() const {
@@ -320,10 +335,31 @@ void FolderVerifier::summarise() {
     laws.passed = laws.all_hold() && result_.differences.empty();
 }
 
+// Of a run whose report is damaged, too, all is told that differs.
+std::optional<std::string> find_solution(const std::string& folder) {
+    const std::string path = folder + "/report.json";
+    std::error_code ignored;
+    const bool is_run = std::filesystem::exists(path, ignored) && !is_of_solution(parse_json_or_null(read_file(path)));
+    return is_run ? std::nullopt : find_solution_folder(folder);
+}
+
+FolderVerification verify_solution(const std::string& folder, const VerifyOptions& options) {
+    const std::string text = read_report(folder);
+    const std::string mesh = mesh_of_solution(folder);
+    FolderVerification found = FolderVerifier(mesh, options).run();
+    found.mesh = mesh;
+    found.solution_differences = compare_files(folder, text).differences;
+    if (parse_json(text).at("exit_code") != 0)
+        found.solution_differences.push_back("report.json is that of a solution that did not reach its tolerance");
+    return found;
+}
+
 }  // namespace
 
 FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options) {
     try {
+        if (const std::optional<std::string> solution = find_solution(folder))
+            return verify_solution(*solution, options);
         return FolderVerifier(folder, options).run();
     } catch (const nlohmann::json::exception& e) {
         throw Error(ErrorCode::io, fmt::format("{}/report.json is damaged: {}.", folder, e.what()));

@@ -25,7 +25,9 @@ struct FolderVerification {
     std::int64_t curved_nodes = 0;  ///< of them, on edges but not in their middle
     std::int32_t parts = 0;
     std::vector<std::string> differences;  ///< what is not as the run has left it, or does not follow from the mesh
-    std::string not_compared;              ///< why the input was not compared; empty: it was, or was not to be
+    std::string mesh;                      ///< of a solution: the run that it stands on, which all else is about
+    std::vector<std::string> solution_differences;  ///< what of it is not as kerf solve has left it
+    std::string not_compared;                       ///< why the input was not compared; empty: it was, or was not to be
 
     /// Value of ErrorCode: `verification` if a law that was asked for does not hold, `io` if all that can be told
     /// without the input hold, but that is gone or another; 0: every law holds.
@@ -37,8 +39,8 @@ struct FolderVerification {
 /// global numbers, the facets, patches and their names of the input one by one, of order 2 the nodes on edges by
 /// EdgeNodeCheck. Every file must have the hash that the report has for it, and the report its own; what follows from
 /// the mesh (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh) is computed again and compared.
-/// Memory follows the surface, not the mesh. Throws Error(io) for a folder that is no finished run, a missing or
-/// unreadable part.
+/// Memory follows the surface, not the mesh. Of a solution the files are compared with their hashes, and the run that
+/// it stands on is verified. Throws Error(io) for a folder that is no finished run, a missing or unreadable part.
 FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options = {});
 
 /// Lines for people: counts, a line for each law that does not hold, the verdict.

@@ -10,7 +10,7 @@
 namespace kerf {
 
 int FolderVerification::exit_code() const {
-    if (!laws.passed) return static_cast<int>(ErrorCode::verification);
+    if (!laws.passed || !solution_differences.empty()) return static_cast<int>(ErrorCode::verification);
     return not_compared.empty() ? 0 : static_cast<int>(ErrorCode::io);
 }
 
@@ -19,13 +19,17 @@ std::string to_text(const FolderVerification& found, const std::string& folder, 
     const std::string nodes = found.nodes > found.vertices ? fmt::format("{} nodes of order 2, {} of them curved, ",
                                                                          found.nodes, found.curved_nodes)
                                                            : std::string();
-    std::string text = fmt::format("{}: {} parts, {} tetrahedra, {} vertices, {}volume error {:.1e}\n", folder,
-                                   found.parts, found.tets, found.vertices, nodes, laws.volume_rel_error);
+    std::string text = fmt::format("{}: {}{} parts, {} tetrahedra, {} vertices, {}volume error {:.1e}\n", folder,
+                                   found.mesh.empty() ? "" : "a solution on " + found.mesh + ", ", found.parts,
+                                   found.tets, found.vertices, nodes, laws.volume_rel_error);
     if (!(laws.volume_rel_error <= laws.volume_rel_bound))
         text += fmt::format("  volume error above {:.1e}, which rounding explains\n", laws.volume_rel_bound);
     for (const RunLaw& law : run_laws)
         if (const std::int64_t count = laws.*law.count) text += fmt::format("  {} {}\n", count, law.broken);
     for (const std::string& difference : found.differences) text += fmt::format("  {}\n", difference);
+    for (const std::string& difference : found.solution_differences)
+        text += fmt::format("  {}: {}\n", folder, difference);
+    if (!found.solution_differences.empty()) text += "The solution is NOT valid. Run kerf solve again.\n";
     if (!laws.passed)
         text += "The mesh is NOT valid. Run kerf mesh again.\n";
     else if (options.without_input)
@@ -43,7 +47,7 @@ std::string to_text(const FolderVerification& found, const std::string& folder, 
 std::string to_json(const FolderVerification& found, const std::string& folder, const VerifyOptions& options) {
     const RunVerification& laws = found.laws;
     nlohmann::ordered_json json = {{"path", path_text(folder)},
-                                   {"passed", laws.passed},
+                                   {"passed", laws.passed && found.solution_differences.empty()},
                                    {"compared_with_input", !options.without_input && found.not_compared.empty()},
                                    {"parts", found.parts},
                                    {"tets", found.tets},
@@ -54,6 +58,10 @@ std::string to_json(const FolderVerification& found, const std::string& folder, 
                                    {"volume_rel_bound", laws.volume_rel_bound}};
     for (const RunLaw& law : run_laws) json[law.name] = laws.*law.count;
     json["differences"] = found.differences;
+    if (!found.mesh.empty()) {
+        json["mesh"] = path_text(found.mesh);
+        json["solution_differences"] = found.solution_differences;
+    }
     json["not_compared"] = found.not_compared;
     return json_text(json, 2) + "\n";
 }

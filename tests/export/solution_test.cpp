@@ -123,6 +123,27 @@ TEST_F(SolutionExport, OfOrder2HasValuesAtTheNodesOfEdges) {
     for (const auto& row : nodes) ASSERT_NEAR(of_tags.at(row[0]), row[1], 1e-6);
 }
 
+// What is asked of a run is asked of that under the solution, or refused with the command that shows the solution.
+TEST_F(SolutionExport, IsVerifiedAndMeasured) {
+    const std::string solution = folder_->file("verified");
+    write_solution(folder_->file("out/mesh"), solution, "../out/mesh", {""});
+    const auto refused = [](const std::vector<std::string>& command, int exit_code, const std::string& words) {
+        const ChildResult result = run_kerf(command);
+        EXPECT_EQ(result.exit_code, exit_code) << result.log;
+        EXPECT_NE((result.log + output_of(result)).find(words), std::string::npos) << result.log;
+    };
+    refused({"verify", folder_->file("out")}, 0, "Every law holds.");
+    refused({"verify", solution}, 0, "a solution on " + folder_->file("out/mesh"));
+    EXPECT_EQ(output_of(run_kerf({"quality", solution, "--json"})).substr(100),
+              output_of(run_kerf({"quality", folder_->file("out/mesh"), "--json"})).substr(100));
+    refused({"report", solution, "-o", folder_->file("a.html")}, 2, "kerf screenshot " + solution);
+    refused({"solve", solution, "--list-patches"}, 2, "Name " + folder_->file("out/mesh"));
+    std::ofstream(solution + "/parts/part_0004.vtu", std::ios::app) << "x";
+    refused({"verify", solution}, 8, "part_0004.vtu is not as the run has written it");
+    std::filesystem::remove(solution + "/parts/part_0004.vtu");
+    refused({"verify", solution}, 8, "part_0004.vtu is missing");
+}
+
 TEST_F(SolutionExport, DoesNotWriteAmongTheFilesOfOthers) {
     EXPECT_EQ(run_kerf({"merge", folder_->file("out/solution"), "-o", folder_->file("out/mesh/parts/part_0004.vtu")})
                   .exit_code,

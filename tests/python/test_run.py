@@ -210,7 +210,7 @@ def test_what_is_no_run_is_refused(copy, tmp_path):
     with pytest.raises(kerf.FileError, match="not a finished run"):
         kerf.open(tmp_path)
     (copy / "report.json").write_text("{}")
-    with pytest.raises(kerf.FileError, match="damaged"):
+    with pytest.raises(kerf.VerificationError, match="not as Kerf has written it"):
         kerf.open(copy)
 
 

@@ -1,6 +1,8 @@
 // What the session says of surfaces, traces and runs, against what the kernel says.
 #include "viewer/model/session.h"
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -19,6 +21,7 @@
 #include "support/trace_options.h"
 #include "support/write_off.h"
 #include "surface/mass_properties.h"
+#include "viewer/model/file_kind.h"
 #include "viewer/model/loader.h"
 #include "viewer/model/node_surface.h"
 #include "viewer/model/part_files.h"
@@ -895,6 +898,14 @@ TEST(StoreTest, KeepsTheLimitButWhatIsInUse) {
     EXPECT_EQ(store.bytes(), 10u);
     store.clear();
     EXPECT_EQ(store.bytes(), 0u);
+}
+
+TEST(FileKind, IsToldOfPipesAndLinksThatLeadNowhere) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+    EXPECT_EQ(tell_kind(folder.file("pipe")).kind, OpenedPath::Kind::surface) << "whose reader refuses it";
+    fs::create_symlink("report.json", folder.file("report.json"));
+    EXPECT_THROW(tell_kind(folder.file("")), Error);
 }
 
 TEST(LoaderTest, DropsWhatNobodyWants) {

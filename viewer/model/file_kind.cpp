@@ -56,16 +56,17 @@ OpenedPath tell_kind(const std::string& path) {
     if (!is_file) {
         // A run that is under way is of more interest than the one that it replaces, but only to who asks for it.
         const bool asks_for_partial = full != folder;
-        if (!asks_for_partial && exists(fs::path(folder) / "report.json")) return {OpenedPath::Kind::run, folder, ""};
-        if (exists(fs::path(partial) / "work/run.json")) return {OpenedPath::Kind::partial_run, folder, partial};
+        if (!asks_for_partial && exists(folder + "/report.json")) return {OpenedPath::Kind::run, folder, ""};
+        if (exists(partial + "/work/run.json")) return {OpenedPath::Kind::partial_run, folder, partial};
         for (const char* report : {"report.json", "solution/report.json"})
-            if (exists(fs::path(folder) / report)) return {OpenedPath::Kind::run, folder, ""};
+            if (exists(folder + "/" + report)) return {OpenedPath::Kind::run, folder, ""};
         if (exists(full))
             throw Error(ErrorCode::io, fmt::format("{} is a folder without report.json, so it is no finished run. Open "
                                                    "the folder that kerf mesh -o has written, or a surface file.",
                                                    path));
         return {};
     }
+    if (!fs::is_regular_file(full, ignored)) return {};  // a pipe may wait for ever: who reads a surface refuses it
     if (begins_like_trace(full)) return {OpenedPath::Kind::trace, "", ""};
     if (begins_with_event(full)) return {OpenedPath::Kind::events, "", ""};
     return {};
