@@ -37,7 +37,7 @@ int print_patches(FileDiagnosis found, const InputOptions& options) {
 
 int check_surface(const CheckRequest& request) {
     refuse_to_overwrite(request.path, "--offenders", request.offenders_file);
-    require_writable("--offenders", request.offenders_file);
+    require_writable("--offenders", request.offenders_file, output_kind::vtu);
     FileDiagnosis found = diagnose_file(request.path, request.options, request.needle_angle_deg);
     if (request.list_regions) {
         print_data(tables_of_regions(found));

@@ -157,6 +157,7 @@ std::unique_ptr<EventLog> open_solve_events(const SolveLine& line, Communicator&
         if (ranks.rank() != 0 || file.empty() || line.list_patches) return;
         for (const std::string& read : {line.request.solve.case_file, line.meshes ? line.input : std::string()})
             refuse_to_overwrite(read, "--events", file);
+        require_writable("--events", file, output_kind::events);
         log = std::make_unique<EventLog>(file);
         RunOptions told = line.request.mesh;
         told.input = line.input;

@@ -37,7 +37,9 @@ CLI::App* add_command(CLI::App& kerf, const char* name, const char* text, const 
     for (const OptionField& field : program_fields(*request)) add_option_field(*command, field);
     command->option_defaults()->group(option_group::running);
     command->add_flag("--print-config", request->print_config, "Print the options as a config file and end.");
-    command->add_option("--config", request->config_file, "Read options from a TOML file; the command line wins.")
+    command
+        ->add_option("--config", request->config_file,
+                     "Read options from a TOML file, but for those of files to be written; the command line wins.")
         ->type_name("FILE");
     command->callback([=, &exit_code] { exit_code = run_request(*command, *request); });
     return command;

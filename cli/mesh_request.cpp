@@ -17,9 +17,10 @@ namespace kerf {
 
 namespace {
 
-// What a config file may say.
+// What a config file may say. It may come from anybody, and write nothing but a run.
 std::vector<OptionField> config_fields(MeshRequest& request) {
     std::vector<OptionField> fields = option_fields(request.options);
+    std::erase_if(fields, [](const OptionField& field) { return names_output(field.name); });
     for (OptionField& field : program_fields(request)) fields.push_back(std::move(field));
     return fields;
 }
@@ -34,6 +35,10 @@ void apply_config(const CLI::App& command, MeshRequest& request) {
     std::vector<std::string> names;
     for (const OptionField& field : fields) names.push_back(field.name);
     for (const ConfigEntry& entry : read_config(request.config_file)) {
+        if (names_output(entry.name))
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: '{}' names a file to be written, which only the command line may: --{} {}.",
+                                    entry.place, entry.name, entry.name, entry.text));
         if (std::find(names.begin(), names.end(), entry.name) == names.end())
             throw Error(ErrorCode::usage,
                         fmt::format("{}: '{}' is not an option.{} kerf mesh --print-config lists them.", entry.place,

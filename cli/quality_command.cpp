@@ -35,7 +35,7 @@ int show_quality(const QualityRequest& request) {
     const QualityGate gate = QualityGate::parse(request.fail_below, request.fail_above);
     for (const std::string& input : {request.mesh, request.compare})
         refuse_to_overwrite(input, "--picture", request.picture);
-    require_writable("--picture", request.picture);
+    require_writable("--picture", request.picture, output_kind::histograms);
     const ComparedQuality compared = compare_quality(request.mesh, request.compare);
     const std::vector<std::string> missed = gate.missed_by(compared.mesh);
     if (!request.picture.empty()) write_output_file(request.picture, to_picture(compared));

@@ -51,7 +51,7 @@ std::string summary(const ReportPage& page, const std::string& output) {
 int write_report(const ReportRequest& request) {
     require_page(request.output);
     refuse_inside(request);
-    require_writable("--output", request.output);
+    require_writable("--output", request.output, output_kind::page);
     const ReportPage page = report_page(request.folder);
     write_output_file(request.output, page.html);
     if (!request.quiet) tell(summary(page, request.output));

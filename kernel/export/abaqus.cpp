@@ -234,10 +234,12 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 
 }  // namespace abaqus
 
-extern const Format abaqus_format = {.name = "abaqus",
-                                     .help = "Abaqus input with sets: CalculiX, Abaqus",
-                                     .ending = ".inp",
-                                     .patch_words = abaqus::patch_words,
-                                     .write_merged = abaqus::write_merged};
+extern const Format abaqus_format = {
+    .name = "abaqus",
+    .help = "Abaqus input with sets: CalculiX, Abaqus",
+    .ending = ".inp",
+    .kind = {"Abaqus input", [](std::string_view text) { return text.starts_with("*NODE, NSET=NALL"); }},
+    .patch_words = abaqus::patch_words,
+    .write_merged = abaqus::write_merged};
 
 }  // namespace kerf

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "export/export_files.h"
+#include "io/output_kind.h"
 #include "part/part.h"
 
 namespace kerf {
@@ -22,6 +23,7 @@ struct Format {
     const char* name;                    ///< of --format
     const char* help;                    ///< what it is and who reads it, a few words
     const char* ending;                  ///< of merged files, with its dot; null: there are none
+    OutputKind kind = {};                ///< of merged files, all that there are beside the named one, too
     bool needs_face_neighbours = false;  ///< write_part() gets a part with them
     bool asks_for_one_part = false;      ///< write_part() loads no other one, nor does write_whole() any
     int highest_order = 2;               ///< of the cells that it can hold

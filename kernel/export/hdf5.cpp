@@ -299,6 +299,11 @@ void write_hdf5_merged(const PartSource& parts, const MergeOptions&, ExportFiles
 extern const Format hdf5_format = {.name = "hdf5",
                                    .help = "HDF5 as VTKHDF and XDMF: ParaView, DOLFINx, PETSc",
                                    .ending = ".h5",
+                                   .kind = {"HDF5 file or XDMF",
+                                            [](std::string_view text) {
+                                                return text.starts_with("\x89HDF\r\n") ||
+                                                       text.find("<Xdmf Version=\"3.0\">") < 50;
+                                            }},
                                    .write_whole = write_hdf5_whole,
                                    .write_part = write_hdf5_part,
                                    .write_merged = write_hdf5_merged};

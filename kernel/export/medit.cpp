@@ -70,9 +70,11 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 
 }  // namespace medit
 
-extern const Format medit_format = {.name = "medit",
-                                    .help = "Medit's .mesh: MMG, FreeFEM, gmsh",
-                                    .ending = ".mesh",
-                                    .write_merged = medit::write_merged};
+extern const Format medit_format = {
+    .name = "medit",
+    .help = "Medit's .mesh: MMG, FreeFEM, gmsh",
+    .ending = ".mesh",
+    .kind = {"MEDIT file", [](std::string_view text) { return text.starts_with("MeshVersionFormatted "); }},
+    .write_merged = medit::write_merged};
 
 }  // namespace kerf

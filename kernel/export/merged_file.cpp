@@ -32,13 +32,13 @@ const Format& format_of(const fs::path& file) {
 }
 
 // Where a file goes: behind links, to a place that is free or has a file, and outside of the run.
-fs::path place_for(const fs::path& file, const std::string& run) {
+fs::path place_for(const fs::path& file, const std::string& run, const Format& format) {
     const fs::path place = behind_links(file.string());
     if (!run.empty() && lies_inside(place.string(), run))
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}, whose files it would mix "
                                                "with others. Choose another place.",
                                                file.string(), run));
-    require_writable("--output", file.string());
+    require_writable("--output", file.string(), format.kind);
     std::error_code ignored;
     if (fs::exists(place, ignored) && !fs::is_regular_file(place, ignored))
         throw Error(ErrorCode::io,
@@ -64,7 +64,7 @@ const Format& check_merged_request(const MergeRequest& request) {
                                                   "Drop one.",
                                                   request.output));
     require_order(format, request.order);
-    place_for(request.output, request.folder);
+    place_for(request.output, request.folder, format);
     return format;
 }
 
@@ -91,7 +91,7 @@ std::string merged_file_of(const std::string& run_folder) {
 MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
     const fs::path output = request.output;
     const Format& format = check_merged_request(request);
-    const fs::path main_place = place_for(output, request.folder);
+    const fs::path main_place = place_for(output, request.folder, format);
     // On the disk where the files will lie, for as long as they are not complete.
     const TemporaryFolder beside(main_place.string(), "write beside " + main_place.string(),
                                  "Choose another place for --output.");
@@ -107,7 +107,7 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
     for (const RunFile& file : written)
         places.push_back(fs::path(file.path) == output.filename()
                              ? main_place
-                             : place_for(output.parent_path() / file.path, request.folder));
+                             : place_for(output.parent_path() / file.path, request.folder, format));
     MergedFile merged{written_parts.outline().vertices, written_parts.outline().tets(), 0,
                       written_parts.outline().nodes()};
     for (std::size_t i = 0; i < written.size(); ++i) {
@@ -118,9 +118,9 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
 }
 
 MergedFile merge_run(const MergeRequest& request) {
-    check_merged_request(request);
+    const Format& format = check_merged_request(request);
     if (const auto solution = find_solution_folder(request.folder))
-        place_for(request.output, mesh_of_solution(*solution));
+        place_for(request.output, mesh_of_solution(*solution), format);
     return merge_parts(*open_parts(request.folder), request);
 }
 

@@ -186,11 +186,13 @@ void write_merged(const PartSource& parts, const MergeOptions& options, ExportFi
 
 }  // namespace msh
 
-extern const Format msh_format = {.name = "msh",
-                                  .help = "Gmsh MSH: gmsh; merged also deal.II, DOLFINx, meshio",
-                                  .ending = ".msh",
-                                  .patch_words = msh::readable_names,
-                                  .write_part = msh::write_part,
-                                  .write_merged = msh::write_merged};
+extern const Format msh_format = {
+    .name = "msh",
+    .help = "Gmsh MSH: gmsh; merged also deal.II, DOLFINx, meshio",
+    .ending = ".msh",
+    .kind = {"MSH file", [](std::string_view text) { return text.starts_with("$MeshFormat\n"); }},
+    .patch_words = msh::readable_names,
+    .write_part = msh::write_part,
+    .write_merged = msh::write_merged};
 
 }  // namespace kerf

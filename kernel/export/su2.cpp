@@ -76,11 +76,13 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 
 }  // namespace su2
 
-extern const Format su2_format = {.name = "su2",
-                                  .help = "SU2's native mesh",
-                                  .ending = ".su2",
-                                  .highest_order = 1,
-                                  .patch_words = su2::patch_words,
-                                  .write_merged = su2::write_merged};
+extern const Format su2_format = {
+    .name = "su2",
+    .help = "SU2's native mesh",
+    .ending = ".su2",
+    .kind = {"SU2 mesh", [](std::string_view text) { return text.starts_with("NDIME= 3\nNELEM= "); }},
+    .highest_order = 1,
+    .patch_words = su2::patch_words,
+    .write_merged = su2::write_merged};
 
 }  // namespace kerf

@@ -174,6 +174,7 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 extern const Format vtu_format = {.name = "vtu",
                                   .help = "VTK XML: ParaView, meshio, pyvista",
                                   .ending = ".vtu",
+                                  .kind = output_kind::vtu,
                                   .asks_for_one_part = true,
                                   .write_whole = vtu::write_joining_file,
                                   .write_part = vtu::write_piece,

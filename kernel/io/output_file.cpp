@@ -5,11 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -61,10 +64,38 @@ bool are_one_file(const std::string& a, const std::string& b) {
     return behind_all_links(behind_links(a)) == behind_all_links(behind_links(b));
 }
 
+bool is_of_kind(const std::string& file, const OutputKind& kind) {
+    constexpr std::size_t beginning = 1024;
+    const std::string text = CheckedFile(file, "rb").read(beginning);
+    return text.empty() || kind.is(text);
+}
+
 void write_in_place(const std::string& path, std::span<const char> bytes) {
     CheckedFile file(open_output(path), path);
     file.write(bytes.data(), bytes.size());
     file.close();
+}
+
+bool is_pipe(const std::string& path) {
+    std::error_code error;
+    return fs::is_fifo(path, error);
+}
+
+// To open one that nobody reads would wait for ever.
+std::FILE* open_pipe(const std::string& path) {
+    constexpr int most_tries = 20;
+    constexpr std::chrono::milliseconds pause(100);
+    int fd = -1;
+    for (int i = 0; fd < 0 && i < most_tries; ++i) {
+        if (i > 0) std::this_thread::sleep_for(pause);
+        fd = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        if (fd < 0 && errno != ENXIO) return nullptr;
+    }
+    if (fd < 0)
+        throw Error(ErrorCode::io,
+                    fmt::format("{} is a pipe that nobody reads. Start what reads it first, or name a file.", path));
+    ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) & ~O_NONBLOCK);
+    return ::fdopen(fd, "wb");
 }
 
 // Opens a new file beside the target, which is nobody else's, and says its name; -1 with errno if there can be none.
@@ -117,7 +148,7 @@ bool lies_inside(const std::string& file, const std::string& folder) {
     return !outer.empty() && std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-void require_writable(const std::string& option, const std::string& path) {
+void require_writable(const std::string& option, const std::string& path, const OutputKind& kind) {
     if (path.empty() || descriptor_of(path) >= 0) return;
     const std::string target = behind_links(path);
     std::error_code error;
@@ -129,11 +160,28 @@ void require_writable(const std::string& option, const std::string& path) {
     if (error)
         throw Error(ErrorCode::io, fmt::format("{} is {}, which cannot be written: {}. Choose another place.", option,
                                                path, error.message()));
+    if (exists && fs::is_regular_file(target, error) && !is_of_kind(target, kind))
+        throw Error(ErrorCode::io, fmt::format("{} is {}, where a file lies that is no {} of Kerf and would be lost. "
+                                               "Move it away, or choose another place.",
+                                               option, path, kind.name));
+}
+
+void refuse_file_name(const std::string& option, const std::string& folder) {
+    const std::string ending = fs::path(folder).extension().string();
+    const bool is_of_file =
+        ending.size() > 1 && std::isalpha(static_cast<unsigned char>(ending[1])) != 0 &&
+        std::all_of(ending.begin() + 1, ending.end(), [](unsigned char c) { return std::isalnum(c); });
+    std::error_code error;
+    if (!is_of_file || fs::exists(folder, error)) return;
+    throw Error(ErrorCode::usage, fmt::format("{} is {}, the name of a file, but a folder is made there. If you want a "
+                                              "folder of that name, end it with a slash: {}/.",
+                                              option, folder, folder));
 }
 
 std::FILE* open_output(const std::string& path) {
     const int descriptor = descriptor_of(path);
-    if (descriptor < 0 && !path.starts_with("fd:")) return std::fopen(path.c_str(), "wb");
+    if (descriptor < 0 && !path.starts_with("fd:"))
+        return is_pipe(path) ? open_pipe(path) : std::fopen(path.c_str(), "wb");
     const int copy = ::dup(descriptor);  // sets errno where there is no such file
     return copy < 0 ? nullptr : ::fdopen(copy, "w");
 }

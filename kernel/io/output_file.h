@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "io/output_kind.h"
+
 namespace kerf {
 
 /// The path behind all links that it ends with, the last of which may lead to what does not exist yet.
@@ -18,6 +20,7 @@ void refuse_to_overwrite(const std::string& input, const std::string& option, co
 /// A file that a user has named, and the option that named it, as "--report"; an empty path: none.
 struct NamedPath {
     std::string option, path;
+    OutputKind kind = {};
 };
 
 /// Throws Error(usage), naming both, if two of the outputs are one file, by whatever paths or links: one of them would
@@ -28,11 +31,17 @@ void refuse_same_outputs(const std::vector<NamedPath>& outputs);
 bool lies_inside(const std::string& file, const std::string& folder);
 
 /// Throws Error(io), naming option, path and reason, if the file could not be written: its folder is missing, it is a
-/// folder itself, or permissions forbid it. Changes nothing. An empty path is good.
-void require_writable(const std::string& option, const std::string& path);
+/// folder itself, or permissions forbid it; or if a file that is there is not of the kind, and would be lost. Empty
+/// files are nobody's. Changes nothing. An empty path is good.
+void require_writable(const std::string& option, const std::string& path, const OutputKind& kind);
+
+/// Throws Error(usage), with the way out, for a folder to be made that is named like a file, as "part.stl": with
+/// letters and digits behind a dot, and no slash at its end. What is there may have any name.
+void refuse_file_name(const std::string& option, const std::string& folder);
 
 /// Opens a file to be written from its beginning. `fd:N`, /dev/stdout, /dev/stderr and /dev/fd/N are the process's own
-/// descriptors, which are written to where they stand, and stay open. Null with errno if it cannot be opened.
+/// descriptors, which are written to where they stand, and stay open. Null with errno if it cannot be opened; Error(io)
+/// for a pipe that nobody reads within 2 s.
 std::FILE* open_output(const std::string& path);
 
 /// Writes the file. One that exists is replaced as a whole, and only when all bytes are written, so that a full disk

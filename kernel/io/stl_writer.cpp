@@ -9,7 +9,7 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "geometry/triangle.h"
-#include "io/checked_file.h"
+#include "io/output_file.h"
 #include "io/stl_format.h"
 
 namespace kerf {
@@ -41,9 +41,7 @@ void write_stl(const std::string& path, const std::vector<Vec3>& vertices, const
         for (const std::int32_t v : t) append_point(bytes, vertices[v]);
         append(bytes, std::uint16_t{0});
     }
-    CheckedFile file(path, "wb");
-    file.write(bytes);
-    file.close();
+    write_output_file(path, bytes);
 }
 
 }  // namespace kerf

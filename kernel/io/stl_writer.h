@@ -12,7 +12,7 @@ namespace kerf {
 ///
 /// STL holds 32-bit floats: coordinates are rounded to 7 digits, so vertices that are closer than that coincide, and
 /// far from the origin that may close a narrow gap. The VTU has all digits. Requires fewer than 2^32 facets, with
-/// vertex numbers in range. Throws Error(io).
+/// vertex numbers in range. An older file is replaced as a whole (io/output_file.h). Throws Error(io).
 void write_stl(const std::string& path, const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 
 }  // namespace kerf

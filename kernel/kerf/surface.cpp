@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "io/output_file.h"
 #include "kerf/array_points.h"
 #include "kerf/kerf.h"
 #include "prepare/surface_file.h"
@@ -148,6 +149,7 @@ ClosedSurface surface_from_file(const std::string& path, const NamedOptions& opt
 void surface_to_file(const ClosedSurface& surface, const std::string& path) {
     const Complex& complex = surface.input().complex;
     require_surface_file("path", path, complex.region_count());
+    require_writable("path", path, output_kind::surface);
     write_surface(path, complex, surface.patch_names());
 }
 

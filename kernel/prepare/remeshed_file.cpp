@@ -8,7 +8,7 @@ namespace kerf {
 RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener) {
     require_surface_file("--output", output);
     refuse_to_overwrite(options.input, "--output", output);
-    require_writable("--output", output);
+    require_writable("--output", output, output_kind::surface);
     options.input_options.check();
     options.sizes.check();
     Input input = read_input(options.input, options.input_options, listener);

@@ -135,7 +135,15 @@ RunOptions with_sizes(RunOptions options, const SizeField& field) {
 }
 
 std::vector<NamedPath> RunOptions::output_files() const {
-    return {{"--trace", trace_file}, {"--events", events_file}, {"--report", report_file}};
+    return {{"--trace", trace_file, output_kind::trace},
+            {"--events", events_file, output_kind::events},
+            {"--report", report_file, output_kind::report}};
+}
+
+bool names_output(const std::string& option) {
+    const std::vector<NamedPath> outputs = RunOptions().output_files();
+    return std::any_of(outputs.begin(), outputs.end(),
+                       [&](const NamedPath& output) { return output.option == "--" + option; });
 }
 
 // Before any work, for all that can be known of the files by then.
@@ -146,12 +154,13 @@ void RunOptions::check_files() const {
         return std::any_of(folders.begin(), folders.end(),
                            [&](const std::string& folder) { return lies_inside(file, folder); });
     };
+    if (!folders.empty() && input_hash.empty()) refuse_file_name("--output", output);  // a resumed run has begun there
     if (is_in_the_way(input))
         throw Error(ErrorCode::io,
                     fmt::format("The input {} lies in the output folder {}, which is replaced as a whole "
                                 "when the run ends. Choose another output folder.",
                                 input, output));
-    for (const auto& [option, file] : output_files()) {
+    for (const auto& [option, file, kind] : output_files()) {
         if (file.empty() || file.starts_with("fd:")) continue;
         if (is_in_the_way(file))
             throw Error(ErrorCode::usage, fmt::format("{} is {}, which lies in the output folder {}. That is replaced "
@@ -159,7 +168,7 @@ void RunOptions::check_files() const {
                                                       option, file, output));
         refuse_to_overwrite(input, option, file);
         refuse_to_overwrite(sizes.field_file, option, file);
-        require_writable(option, file);
+        require_writable(option, file, kind);
     }
     refuse_same_outputs(output_files());
 }

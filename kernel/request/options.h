@@ -70,6 +70,9 @@ struct RunOptions {
     std::vector<NamedPath> output_files() const;
 };
 
+/// Whether an option, as "trace", names one of these files.
+bool names_output(const std::string& option);
+
 /// The options with what follows from others, K excepted, all of them checked. Throws Error(usage) naming option, value
 /// and range, Error(io) for a file that could not be written or would be lost.
 RunOptions resolved(RunOptions options, int cores_of_rank = 1);

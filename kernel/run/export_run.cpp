@@ -168,6 +168,7 @@ void check_request(const ExportRequest& request) {
         throw Error(ErrorCode::usage,
                     "--into makes pieces that are not the parts of the run. Name a folder for them: "
                     "--output.");
+    refuse_file_name("--output", request.output);
     if (!request.output.empty() && lies_inside(request.output, request.folder))
         throw Error(ErrorCode::usage,
                     fmt::format("--output is {}, which lies in the run {}. Leave it out to add the files to the run, "

@@ -6,6 +6,7 @@
 #include "solve/body_load_reader.h"
 #include "solve/case_table.h"
 #include "solve/material_reader.h"
+#include "solve/petsc_options.h"
 
 namespace kerf {
 
@@ -276,7 +277,10 @@ void CaseReader::read_solver(const toml::node& node) {
               solver.max_iterations = static_cast<int>(*most);
           }},
          {"inertia_relief", [&](const toml::node& n) { solver.inertia_relief = table.yes(n, "inertia_relief"); }},
-         {"petsc", [&](const toml::node& n) { solver.petsc = table.text(n, "petsc"); }}});
+         {"petsc", [&](const toml::node& n) {
+              solver.petsc = table.text(n, "petsc");
+              if (const std::string why = why_not_in_case(solver.petsc); !why.empty()) table.refuse(n, why);
+          }}});
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/version.h"
 #include "io/file_bytes.h"
 #include "io/json.h"
+#include "io/output_file.h"
 #include "io/path_text.h"
 #include "io/run_manifest.h"
 #include "io/text_file.h"
@@ -31,8 +32,9 @@ class StepFolders {
     std::string solution(std::int32_t step) const { return base(step) + "/solution"; }
     std::string report() const { return output_ + "/report.json"; }
 
-    /// Throws Error(io) if there is anything that no run of this kind makes.
+    /// Throws Error(io) if there is anything that no run of this kind makes, Error(usage) for the name of a file.
     void check() const {
+        refuse_file_name("--output", output_);
         std::error_code ignored;
         for (const fs::directory_entry& entry : fs::directory_iterator(output_, ignored)) {
             if (entry.path().filename().string().rfind("step_", 0) == 0) {
@@ -62,7 +64,8 @@ class StepFolders {
     std::string base(std::int32_t step) const { return is_adaptive_ ? step_folder(step) : output_; }
     static void require_own(const fs::path& path) {
         const std::string stem = path.filename().stem().string(), ending = path.extension().string();
-        const bool is_own = (stem == "mesh" || stem == "solution") && fs::is_directory(path) &&
+        std::error_code ignored;
+        const bool is_own = (stem == "mesh" || stem == "solution") && fs::is_directory(path, ignored) &&
                             (ending.empty() || ending == ".failed" || ending == ".kerf-partial");
         if (!is_own)
             throw Error(ErrorCode::io, fmt::format("{} is in the way of a mesh and its solution. Move it away, or "

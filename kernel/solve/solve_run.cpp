@@ -122,6 +122,7 @@ void SolveStages::read_request() {
                 fmt::format("{} ranks are more than the {} parts of {}, of which each rank takes whole ones. Start "
                             "fewer ranks, or mesh into more parts.",
                             ranks_.size(), parts, request.folder));
+        refuse_file_name("--output", request.output);
         if (lies_inside(request.output, request.folder) || lies_inside(request.folder, request.output))
             throw Error(ErrorCode::usage,
                         fmt::format("--output is {}, which holds the mesh or lies in it: {}. Choose another folder.",

@@ -106,7 +106,7 @@ TEST_F(Outputs, WhatCannotBeWrittenIsSaidBeforeTheWork) {
 }
 
 TEST_F(Outputs, LinksAreFollowedAndPipesAreWrittenTo) {
-    std::ofstream(file("older.json")) << "older";
+    std::ofstream(file("older.json")) << "{\n  \"schema\": 1,\n  \"kerf\": \"";
     fs::create_symlink("older.json", file("report"));
     fs::create_symlink("missing.json", file("other"));
     ASSERT_EQ(mesh({"--report", file("report")}).exit_code, 0);
@@ -119,6 +119,84 @@ TEST_F(Outputs, LinksAreFollowedAndPipesAreWrittenTo) {
     EXPECT_EQ(mesh({"--report", "/dev/full"}).exit_code, 7);
     const ChildResult piped = shell("$K mesh $I -o out -n 2 -q --report /dev/stdout | cat");
     EXPECT_EQ(test::output_of(piped), test::bytes_of_file(file("out/report.json"))) << piped.log;
+}
+
+// Each output over what each command writes, and over what none does.
+TEST_F(Outputs, FilesOfAnotherKindAreNotReplaced) {
+    ASSERT_EQ(mesh({}, "run").exit_code, 0);
+    const std::string run = file("run");
+    struct Output {
+        std::string name;
+        std::vector<std::string> command;  // the file follows
+    };
+    const std::vector<std::string> meshing = {"mesh", input_, "-o", file("out"), "-n", "2", "--workers", "1", "-q"};
+    std::vector<Output> outputs = {{"a.html", {"report", run, "-o"}},
+                                   {"b.svg", {"quality", run, "--picture"}},
+                                   {"c.vtu", {"check", input_, "--offenders"}},
+                                   {"d.stl", {"remesh", input_, "-q", "-o"}},
+                                   {"f.obj", {"repair", input_, "-o"}}};
+    for (const char* ending : {"msh", "mesh", "inp", "su2"})
+        outputs.push_back({std::string("merged.") + ending, {"merge", run, "-o"}});
+    for (const char* option : {"--report", "--trace", "--events"}) {
+        outputs.push_back({option + 2, meshing});
+        outputs.back().command.push_back(option);
+    }
+    const auto with_file = [&](const Output& output) {
+        std::vector<std::string> all = output.command;
+        all.push_back(file(output.name));
+        return all;
+    };
+    std::vector<std::string> contents = {"years of work"};
+    for (const Output& output : outputs)
+        for (const char* time : {"first", "again"}) {
+            const ChildResult result = test::run_kerf(with_file(output));
+            EXPECT_EQ(result.exit_code, 0) << time << ", " << output.name << result.log;
+        }
+    for (const Output& output : outputs) contents.push_back(test::bytes_of_file(file(output.name)));
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        for (const std::size_t other : {std::size_t{0}, (i + 1) % outputs.size() + 1}) {
+            std::ofstream(file(outputs[i].name), std::ios::binary) << contents[other];
+            expect_refused(with_file(outputs[i]), {outputs[i].name, "would be lost"});
+        }
+}
+
+TEST_F(Outputs, AConfigWritesNothingButARun) {
+    for (const std::string option : {"report", "trace", "events"}) {
+        std::ofstream(file("kerf.toml")) << "parts = 2\n" << option << " = \"" << file("elsewhere") << "\"\n";
+        const ChildResult result = mesh({"--config", file("kerf.toml")});
+        EXPECT_EQ(result.exit_code, 2) << result.log;
+        EXPECT_NE(result.log.find("line 2: '" + option + "'"), std::string::npos) << result.log;
+        EXPECT_EQ(test::output_of(test::run_kerf({"mesh", "--print-config"})).find("\n" + option), std::string::npos);
+    }
+    EXPECT_FALSE(fs::exists(file("elsewhere")) || fs::exists(file("out")));
+}
+
+TEST_F(Outputs, AFolderIsNotMadeWithTheNameOfAFile) {
+    ASSERT_EQ(mesh({}).exit_code, 0);
+    for (const std::string name : {"x.foo", "x.stl", "x.v2"}) {
+        for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+                 {"mesh", input_}, {"decompose", input_}, {"export", file("out"), "--format", "su2"}}) {
+            std::vector<std::string> all = command;
+            all.insert(all.end(), {"-o", file(name)});
+            const ChildResult result = test::run_kerf(all);
+            EXPECT_EQ(result.exit_code, 2) << result.log;
+            EXPECT_NE(result.log.find(name + "/"), std::string::npos) << result.log;
+        }
+        EXPECT_FALSE(fs::exists(file(name)));
+    }
+    EXPECT_EQ(mesh({}, "x.foo/").exit_code, 0);
+    EXPECT_EQ(mesh({}, "x.foo").exit_code, 0) << "the folder is there";
+    EXPECT_EQ(mesh({}, "size.0.5").exit_code, 0);
+}
+
+TEST_F(Outputs, NamesMayBeAsLongAsTheDiskAllows) {
+    const std::string longest = std::string(248, 'a') + ".stl";
+    fs::copy_file(input_, file(longest));
+    EXPECT_EQ(test::run_kerf({"check", file(longest)}).exit_code, 0);
+    for (const std::size_t length : {200, 250, 255}) {
+        const ChildResult result = mesh({}, std::string(length, 'b'));
+        EXPECT_EQ(result.exit_code, length == 200 ? 0 : 7) << result.log;
+    }
 }
 
 // What was in the file that the shell has opened stays, and what follows comes behind.

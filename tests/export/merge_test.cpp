@@ -62,7 +62,7 @@ TEST_F(Merge, NoFileOfTheRunIsWrittenOver) {
 TEST_F(Merge, OlderFilesAreReplacedAsAWhole) {
     std::filesystem::create_directory(folder_.file("elsewhere"));
     const std::string target = folder_.file("elsewhere/older.mesh"), link = folder_.file("link.mesh");
-    std::ofstream(target) << "older";
+    std::ofstream(target) << "MeshVersionFormatted 1\n";
     std::filesystem::permissions(target, std::filesystem::perms(0640));
     std::filesystem::create_symlink("elsewhere/older.mesh", link);
     EXPECT_EQ(merge(link).exit_code, 0);
@@ -74,10 +74,10 @@ TEST_F(Merge, OlderFilesAreReplacedAsAWhole) {
     std::filesystem::create_directory(folder_.file("folder.mesh"));
     expect_refused(folder_.file("folder.mesh"), 7, "folder.mesh");
     expect_refused(folder_.file("missing/new.mesh"), 7, "new.mesh");
-    std::ofstream(folder_.file("whole.node")) << "older";
+    std::ofstream(folder_.file("whole.node")) << "0 3 0 0\n";
     std::filesystem::create_directory(folder_.file("whole.ele"));
     expect_refused(folder_.file("whole.node"), 7, "whole.ele");
-    EXPECT_EQ(test::bytes_of_file(folder_.file("whole.node")), "older");
+    EXPECT_EQ(test::bytes_of_file(folder_.file("whole.node")), "0 3 0 0\n");
 }
 
 TEST_F(Merge, WhatIsNoFinishedRunIsRefused) {

@@ -254,6 +254,21 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
                    {"'-sub_pc_type nonsense'", "Correct them"});
 }
 
+// A case may come from anybody.
+TEST_F(KerfSolve, ACaseWritesNothingElsewhere) {
+    const std::string text = std::string(steel) +
+                             "[[support]]\npatch = \"face_0\"\nfixed = true\n[[load]]\npatch = \"face_1\"\n"
+                             "pressure = 1\n[solver]\npetsc = ";
+    const std::string file = own_.file("of_another");
+    for (const std::string& options : std::vector<std::string>{
+             "-ksp_view_solution ascii:" + file, "-ksp_monitor :" + file, "-ksp_view_mat\tascii:" + file,
+             "-log_view :" + file, "-options_file " + file, "-objects_dump " + file, "-ksp_view_rhs binary",
+             "-ksp_view draw", "-dll_append lib.so", "-prefix_push x_", "-ksp_type cg -info", "-log_view",
+             "-pc_type python", "-x_-log_view"})
+        expect_refused(2, text + "'" + options + "'", {"petsc "});
+    EXPECT_EQ(solve(text + "\"-ksp_type cg -ksp_rtol 1e-9 -ksp_max_it 300 -ksp_error_if_not_converged\"").exit_code, 0);
+}
+
 // PETSc may be told to call anything a solution: the residual decides.
 TEST_F(KerfSolve, WhatPetscCallsConvergedIsMeasured) {
     const std::string text =

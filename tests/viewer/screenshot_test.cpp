@@ -200,6 +200,26 @@ TEST(Screenshot, SaysWhatIsWrong) {
     EXPECT_EQ(unwritable.exit_code, 7) << unwritable.log;
 }
 
+// Each of several, too.
+TEST(Screenshot, ReplacesPicturesOfItsOwnAlone) {
+    const auto draw = [](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> all = {"screenshot",        asset_path("cube"), "-o",
+                                        folder().file(name), "--resolution",     "64x48"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_kerf(all);
+    };
+    for (const char* time : {"first", "again"}) EXPECT_EQ(draw("own.png", {}).exit_code, 0) << time;
+    std::string photo = bytes_of_file(folder().file("own.png"));
+    photo.replace(photo.find("Kerf"), 4, "Else");
+    std::ofstream(folder().file("photo.png")) << photo;
+    std::ofstream(folder().file("many_002.png")) << photo;
+    for (const ChildResult& result : {draw("photo.png", {}), draw("many.png", {"--frames", "2"})}) {
+        EXPECT_EQ(result.exit_code, 7) << result.log;
+        EXPECT_NE(result.log.find("would be lost"), std::string::npos) << result.log;
+    }
+    EXPECT_EQ(bytes_of_file(folder().file("photo.png")), photo);
+}
+
 // A run with a hole in it is no picture of the run.
 TEST(Screenshot, MissingAndCutPartFilesAreErrors) {
     const std::string run = folder().file("holed"), part = run + "/parts/part_0002.vtu";

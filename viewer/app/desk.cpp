@@ -14,11 +14,16 @@ namespace kerf::view {
 
 namespace {
 
+// The file with the view that a picture shows.
+std::string view_of(const std::string& picture) {
+    return std::filesystem::path(picture).replace_extension(".json").string();
+}
+
 std::string unused_picture(const std::string& folder) {
     for (int i = 1;; ++i) {
         const std::string path = fmt::format("{}/kerf-{:03}.png", folder, i);
         std::error_code ignored;
-        if (!std::filesystem::exists(path, ignored)) return path;
+        if (!std::filesystem::exists(path, ignored) && !std::filesystem::exists(view_of(path), ignored)) return path;
     }
 }
 
@@ -67,7 +72,7 @@ void Desk::save_picture(const Image& picture) {
         write_png(path, picture);
         ViewState state = view_.state;
         state.camera = view_.camera;
-        write_text_file(path.substr(0, path.size() - 4) + ".json", to_json(state, origin_of_picture()));
+        write_text_file(view_of(path), to_json(state, origin_of_picture()));
         view_.notify("saved as " + std::filesystem::path(path).lexically_normal().string() +
                      ", its view as .json beside it");
     } catch (const Error& error) {

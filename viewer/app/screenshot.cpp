@@ -138,7 +138,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
         throw Error(ErrorCode::usage,
                     fmt::format("--output is {}, but pictures are PNG files: name it {}.", command.output,
                                 std::filesystem::path(command.output).replace_extension(".png").string()));
-    require_writable("--output", command.output);
+    for (const std::string& picture : command.pictures()) require_writable("--output", picture, output_kind::picture);
     const auto context = make_offscreen_context(command.context);
     const ImGuiOwner imgui;
     ImGui::GetIO().DeltaTime = frame_seconds;

@@ -12,9 +12,7 @@ namespace kerf::view {
 namespace {
 
 // Files that a run writes besides the result are no business of the viewer.
-bool is_file(const OptionField& field) {
-    return field.name == "report" || field.name == "events" || field.name == "trace";
-}
+bool is_file(const OptionField& field) { return names_output(field.name); }
 
 // True when the value has changed.
 struct Editor {

@@ -277,7 +277,7 @@ TEST_F(ReportPageOfRun, SaysThatASurfaceIsCoarser) {
 }
 
 TEST_F(ReportPageOfRun, IsWrittenByTheCommandAndReplacesAnOlderOne) {
-    std::ofstream(path("page.html")) << "older";
+    std::ofstream(path("page.html")) << report_page(path("decompose")).html;
     const ChildResult written = test::run_kerf({"report", path("mesh"), "-o", path("page.html")});
     EXPECT_EQ(written.exit_code, 0) << written.log;
     EXPECT_NE(written.log.find("3 parts"), std::string::npos) << written.log;
@@ -291,7 +291,7 @@ TEST_F(ReportPageOfRun, RefusesWhatItCannotShow) {
     expect_refused({path("mesh"), "-o", path("nowhere/a.html")}, 7, "--output");
     std::filesystem::copy(path("mesh"), path("altered"), std::filesystem::copy_options::recursive);
     std::ofstream(path("altered/report.json"), std::ios::app) << " ";
-    expect_refused({path("altered"), "-o", path("a.html")}, 7, "is not as Kerf has written it");
+    expect_refused({path("altered"), "-o", path("a.html")}, 8, "is not as Kerf has written it");
     std::filesystem::copy_file(path("mesh/report.json"), path("altered/report.json"),
                                std::filesystem::copy_options::overwrite_existing);
     std::filesystem::remove(path("altered/parts/part_0006.surface.vtu"));
