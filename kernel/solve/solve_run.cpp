@@ -1,5 +1,6 @@
 #include "solve/solve_run.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -351,9 +352,11 @@ void SolveStages::solve_cases() {
 
 void SolveStages::find_all_modes() {
     progress("modes", 0, static_cast<std::size_t>(report_.request.modes));
-    FoundModes found = find_modes(problem_, report_.request.modes, [this](int, int so_many) {
+    int most = 0;  // measured anew, some have a little left to do
+    FoundModes found = find_modes(problem_, report_.request.modes, [this, &most](int, int so_many) {
+        most = std::max(most, so_many);
         if (listener_ && is_root())
-            listener_->on_progress("modes", static_cast<std::size_t>(so_many),
+            listener_->on_progress("modes", static_cast<std::size_t>(most),
                                    static_cast<std::size_t>(report_.request.modes));
     });
     modes_ = std::move(found.modes);
