@@ -131,10 +131,12 @@ std::vector<int> leaves_in_journal(const std::string& folder) {
 }
 
 // Where a leaf has its files in folders that hold one of each. A few hundred leaves have a folder of their own, named
-// by the first of them: disks that many hosts share are slow where one folder holds thousands.
+// by the first of them: disks that many hosts share are slow where one folder holds thousands. No leaf before has that
+// name for its file.
 std::string with_folder_of(int leaf, std::string name) {
     constexpr int leaves_without_folder = 2048, leaves_of_folder = 200;
-    return leaf < leaves_without_folder ? name : fmt::format("{}/{}", leaf - leaf % leaves_of_folder, name);
+    if (leaf < leaves_without_folder) return name;
+    return fmt::format("{}/{}", std::max(leaves_without_folder, leaf - leaf % leaves_of_folder), name);
 }
 
 // By which a run with failed parts is continued.

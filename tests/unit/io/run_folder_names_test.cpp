@@ -38,6 +38,14 @@ TEST(RunFolderNames, OfAThousandPartsLieInOneFolder) {
             EXPECT_EQ(std::count(name.begin(), name.end(), '/'), name.starts_with("work/") ? 2 : 1) << name;
 }
 
+// A tree of a thousand parts may have leaves on both sides of the first number that has a folder.
+TEST(RunFolderNames, NoFolderIsNamedAsAFileBesideIt) {
+    std::set<std::string> names;
+    for (int leaf = 1; leaf < 9000; ++leaf)
+        for (const std::string& name : names_of(leaf)) names.insert(name);
+    for (const std::string& name : names) EXPECT_FALSE(names.contains(fs::path(name).parent_path())) << name;
+}
+
 TEST(RunFolderNames, OfThousandsOfPartsNoFolderHoldsMoreThanAThousandNames) {
     for (const int parts : {4000, 4096}) {
         std::map<fs::path, int> count;
