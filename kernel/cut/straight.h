@@ -30,9 +30,9 @@ struct StraightCut {
 };
 
 /// Cuts along the first of straight_planes() that lies between bodies, or gives simple closed contours with the section
-/// inside and children free of self-intersections (exact). The interface lies in the plane and has no interior points yet: it is
-/// triangulated finely after the last cut that crosses it. Nothing if every plane was refused; `tries` tells why.
-/// `untested` (#F, or empty for none) are facets of `surface` that may intersect others; the rest must not.
+/// inside and children free of self-intersections (exact). The interface lies in the plane and has no interior points
+/// yet: it is triangulated finely after the last cut that crosses it. Nothing if every plane was refused; `tries` tells
+/// why. `untested` (#F, or empty for none) are facets of `surface` that may intersect others; the rest must not.
 std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, double fraction, const CutOptions& options,
                                         std::vector<CutTry>& tries, const std::vector<char>& untested = {});
 
