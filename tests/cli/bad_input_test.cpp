@@ -145,7 +145,8 @@ TEST_F(BadInput, UnknownChoice) { expect_refused(good_, 2, {"--balance", "luck",
 TEST_F(BadInput, UnitOfAFileThatHasNone) {
     for (const char* command : {"mesh", "decompose", "check", "remesh"}) {
         std::vector<std::string> arguments = {command, good_, "--unit", "mm"};
-        if (arguments[0] != "check") arguments.insert(arguments.end(), {"-o", folder_.file("out.obj")});
+        if (arguments[0] != "check")
+            arguments.insert(arguments.end(), {"-o", folder_.file(arguments[0] == "remesh" ? "out.obj" : "out")});
         expect_message(test::run_kerf(arguments), 2, {"hollow_box", "names no unit", "--scale 0.001"});
     }
     expect_refused(good_, 2, {"names no unit"}, {"--unit", "inch"});

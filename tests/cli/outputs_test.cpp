@@ -155,6 +155,7 @@ TEST_F(Outputs, FilesOfAnotherKindAreNotReplaced) {
     for (const Output& output : outputs) contents.push_back(test::bytes_of_file(file(output.name)));
     for (std::size_t i = 0; i < outputs.size(); ++i)
         for (const std::size_t other : {std::size_t{0}, (i + 1) % outputs.size() + 1}) {
+            SCOPED_TRACE(outputs[i].name + (other == 0 ? " for text" : " for " + outputs[other - 1].name));
             std::ofstream(file(outputs[i].name), std::ios::binary) << contents[other];
             expect_refused(with_file(outputs[i]), {outputs[i].name, "would be lost"});
         }

@@ -130,8 +130,7 @@ TEST_F(Patches, OfManyArePartsNamedByThoseThatTheyHaveAlone) {
     for (const Part& part : mesh(write("box.obj", test::to_obj(box)))) {
         EXPECT_FALSE(part.patch_names.is_whole());
         EXPECT_TRUE(part.patch_names.agrees_with(box.patch_names));
-        for (std::size_t f = 0; f < part.facets.size(); ++f)
-            EXPECT_EQ(part.patch[f], part.facet[f]);
+        for (std::size_t f = 0; f < part.facets.size(); ++f) EXPECT_EQ(part.patch[f], part.facet[f]);
         seen.insert(seen.end(), part.patch_names.numbers().begin(), part.patch_names.numbers().end());
     }
     std::sort(seen.begin(), seen.end());

@@ -22,6 +22,7 @@
 #include "support/places.h"
 #include "support/run_in_process.h"
 #include "support/run_laws.h"
+#include "support/sealed_run.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {
@@ -149,6 +150,7 @@ TEST_P(SecondOrder, CurvedNodesOfStoredPartsAreThoseOfTheFile) {
         curved.points.emplace_back(p[0], p[1], p[2]);
     }
     write_curved_nodes(file, curved);
+    test::seal_run(folder_.file("stored"));
     const RunParts of_run(folder_.file("stored"));
     EXPECT_EQ(nodes_of(of_run), nodes);
     EXPECT_EQ(nodes_of(JoinedParts(of_run, 2)), nodes);

@@ -10,14 +10,14 @@ for surface in "$folder"/*.stl; do
     stem=${surface%.stl}
     # shellcheck disable=SC2046 # the options are words
     "$kerf" mesh "$surface" -o "$stem" $(cat "$stem.args") -q
-    "$kerf" export "$stem" --format msh -o "$stem.parts"
+    "$kerf" export "$stem" --format msh -o "${stem}_parts"
     "$kerf" merge "$stem" -o "$stem.4.1.msh"
     "$kerf" merge "$stem" -o "$stem.2.2.msh" --msh-version 2.2
-    "$python" "$(dirname "$0")/read_msh.py" "$surface" "$stem" "$stem.parts" "$stem.4.1.msh" "$stem.2.2.msh"
+    "$python" "$(dirname "$0")/read_msh.py" "$surface" "$stem" "${stem}_parts" "$stem.4.1.msh" "$stem.2.2.msh"
 done
 # The same as text.
 stem=$folder/two_solids
-"$kerf" export "$stem" --format msh -o "$stem.text" --msh-ascii
+"$kerf" export "$stem" --format msh -o "${stem}_text" --msh-ascii
 "$kerf" merge "$stem" -o "$stem.4.1.text.msh" --msh-ascii
 "$kerf" merge "$stem" -o "$stem.2.2.text.msh" --msh-version 2.2 --msh-ascii
-"$python" "$(dirname "$0")/read_msh.py" "$stem.stl" "$stem" "$stem.text" "$stem.4.1.text.msh" "$stem.2.2.text.msh"
+"$python" "$(dirname "$0")/read_msh.py" "$stem.stl" "$stem" "${stem}_text" "$stem.4.1.text.msh" "$stem.2.2.text.msh"

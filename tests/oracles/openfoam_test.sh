@@ -36,8 +36,8 @@ on_all() {
 make() {
     local name=$1
     shift
-    "$kerf" mesh "$@" -o "$folder/$name.run" -q
-    "$kerf" export "$folder/$name.run" --format openfoam -o "$folder/$name"
+    "$kerf" mesh "$@" -o "$folder/${name}_run" -q
+    "$kerf" export "$folder/${name}_run" --format openfoam -o "$folder/$name"
 }
 
 # judge_case NAME: the laws of read_openfoam.py for the case as VTK reads it, as checkMesh finds it, and after joining it.
@@ -55,7 +55,7 @@ judge_case() {
         logged "$case/log.joined" checkMesh -constant -allTopology -case "$case"
         found+=(--check-joined "$case/log.joined")
     fi
-    "$python" "$judge" "$folder/$1.run" --case "$case" "${found[@]}" || { echo "in the case $1" && exit 1; }
+    "$python" "$judge" "$folder/${1}_run" --case "$case" "${found[@]}" || { echo "in the case $1" && exit 1; }
 }
 
 dictionary() {  # OBJECT CLASS: its header; the entries follow on the standard input
@@ -103,12 +103,12 @@ writeInterval 6;
 writeFormat binary;
 END
     on_all "$case" laplacianFoam
-    "$python" "$judge" "$folder/$1.run" --case "$case" --linear T
+    "$python" "$judge" "$folder/${1}_run" --case "$case" --linear T
     # A finished run of the mesh's own processors is joined like any other.
     logged "$folder/log" reconstructParMesh -constant -case "$case"
     logged "$folder/log" reconstructPar -case "$case"
     rm -r "$case"/processor*
-    "$python" "$judge" "$folder/$1.run" --case "$case" --linear T
+    "$python" "$judge" "$folder/${1}_run" --case "$case" --linear T
 }
 
 "$export_cases" "$folder"

@@ -72,8 +72,8 @@ def expected(folder):
         lies = patch >= 0
         for p, area in area_by_patch(mesh.points, mesh.cells_dict["triangle"][lies], patch[lies]).items():
             whole["areas"][p] = whole["areas"].get(p, 0.0) + area
-        whole["names"] = names_of(mesh)
     whole["parts"].sort()
+    whole["names"] = json.loads((folder / "report.json").read_text())["input"]["patches"]  # a part may have some alone
     return whole
 
 

@@ -257,7 +257,7 @@ TEST_F(KerfSolve, RefusesWhatCannotBe) {
 // A case may come from anybody.
 TEST_F(KerfSolve, ACaseWritesNothingElsewhere) {
     const std::string text = std::string(steel) +
-                             "[[support]]\npatch = \"face_0\"\nfixed = true\n[[load]]\npatch = \"face_1\"\n"
+                             "[[support]]\npatch = \"face_1\"\nfixed = true\n[[load]]\npatch = \"face_2\"\n"
                              "pressure = 1\n[solver]\npetsc = ";
     const std::string file = own_.file("of_another");
     for (const std::string& options : std::vector<std::string>{
