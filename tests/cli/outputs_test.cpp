@@ -130,11 +130,11 @@ TEST_F(Outputs, FilesOfAnotherKindAreNotReplaced) {
         std::vector<std::string> command;  // the file follows
     };
     const std::vector<std::string> meshing = {"mesh", input_, "-o", file("out"), "-n", "2", "--workers", "1", "-q"};
-    std::vector<Output> outputs = {{"a.html", {"report", run, "-o"}},
-                                   {"b.svg", {"quality", run, "--picture"}},
-                                   {"c.vtu", {"check", input_, "--offenders"}},
-                                   {"d.stl", {"remesh", input_, "-q", "-o"}},
-                                   {"f.obj", {"repair", input_, "-o"}}};
+    std::vector<Output> outputs = {{"a.obj", {"repair", input_, "-o"}},  // of one kind with the STL
+                                   {"b.html", {"report", run, "-o"}},
+                                   {"c.svg", {"quality", run, "--picture"}},
+                                   {"d.vtu", {"check", input_, "--offenders"}},
+                                   {"e.stl", {"remesh", input_, "-q", "-o"}}};
     for (const char* ending : {"msh", "mesh", "inp", "su2"})
         outputs.push_back({std::string("merged.") + ending, {"merge", run, "-o"}});
     for (const char* option : {"--report", "--trace", "--events"}) {
