@@ -54,6 +54,8 @@ class Run:
         report = json.loads((folder / "report.json").read_text())
         self.vertices = report["totals"]["vertices"]
         self.volume = report["input"]["volume"]
+        self.names = report["input"]["patches"]
+        self.areas = np.zeros(len(self.names))
         self.tets = self.points = self.inner_faces = self.patch_faces = 0
         for path in sorted((folder / "parts").glob("*.vtu")):
             if not path.name.endswith(".surface.vtu"):
@@ -65,10 +67,12 @@ class Run:
         reader.SetFileName(str(path))
         reader.Update()
         grid = reader.GetOutput()
-        names = vtk_to_numpy(grid.GetFieldData().GetArray("PatchNames")).tobytes()[:-1].decode().split("\0")
-        if self.tets == 0:
-            self.names, self.areas = names, np.zeros(len(names))
-        require(names == self.names, "all parts have the same patches")
+        fields = grid.GetFieldData()
+        names = fields.GetArray("PatchNames")
+        names = vtk_to_numpy(names).tobytes().decode().split("\0")[:-1] if names else []
+        numbers = fields.GetArray("PatchNumbers")  # of many patches a part has names of its own alone
+        numbers = vtk_to_numpy(numbers) if numbers else range(len(self.names))
+        require(names == [self.names[number] for number in numbers], f"{path} names patches as the report does")
         triangles, are_triangles = corners_of(grid, TRIANGLE)
         patches = vtk_to_numpy(grid.GetCellData().GetArray("Patch"))[are_triangles]
         for patch, area in zip(patches, areas(points_of(grid), triangles)):
