@@ -38,12 +38,12 @@ struct EigenPairs {
 using AfterEigenIteration = std::function<void(int iteration, int found)>;
 
 /// LOBPCG (knyazev2001) on the inverted problem B x = A x / lambda: vectors are orthonormal in A (hetmaniuk2006), and
-/// what depends on others is dropped (stathopoulos2002), so that no factorisation can fail
-/// and the lowest of eigenvalues that lie up to 1e14 apart are the most exact. Residuals in the norm of the inverse of
-/// A bound the relative error of a value by about their square; rounding in A, which is felt at the other end of its
-/// spectrum, hardly shows in them. `start`: a column for each vector of the block, more than the goal's count, since
-/// the last converge slowly. Collective; O(count) products and preconditionings each iteration. Bytes are the same for
-/// the same number of ranks.
+/// what depends on others is dropped (stathopoulos2002), so that no factorisation can fail and the lowest of
+/// eigenvalues that lie up to 1e14 apart are the most exact. Residuals in the norm of the inverse of A bound the
+/// relative error of a value by about their square; rounding in A, which is felt at the other end of its spectrum,
+/// hardly shows in them. `start`: a column for each vector of the block, more than the goal's count, since the last
+/// converge slowly. Collective; O(count) products and preconditionings each iteration. Bytes are the same for the same
+/// number of ranks.
 EigenPairs smallest_eigenpairs(const MpiRanks& ranks, const EigenProblem& problem, const EigenGoal& goal,
                                const Eigen::MatrixXd& start, const AfterEigenIteration& after_iteration = {});
 

@@ -15,7 +15,7 @@
 namespace kerf {
 namespace {
 
-constexpr int least = FacetTree::least_of_fan;
+constexpr int fan_size = FacetTree::least_of_fan;
 
 // Two fans over one rim.
 Soup bipyramid(int rim, double height) {
@@ -89,11 +89,11 @@ TEST(FacetTree, FindsWhatMeetsAtVerticesOfMany) {
         std::mt19937 random(seed);
         Soup soup;
         const Vec3 apex = seed % 2 == 0 ? Vec3(0, 0, 0) : Vec3(0.1, 0.2, 1e-3);
-        add_random_fan(soup, least, seed % 4 < 2, apex, random);
-        if (seed > 4) add_random_fan(soup, least + 50, seed % 3 == 0, Vec3(0.5, 0, 0), random);
+        add_random_fan(soup, fan_size, seed % 4 < 2, apex, random);
+        if (seed > 4) add_random_fan(soup, fan_size + 50, seed % 3 == 0, Vec3(0.5, 0, 0), random);
         add_random_facets(soup, 150, random);
         add_facets_through(soup, apex);
-        if (seed % 3 == 0) soup = test::join(soup, bipyramid(least, 0.5));
+        if (seed % 3 == 0) soup = test::join(soup, bipyramid(fan_size, 0.5));
         const IntersectingPairs expected = all_pairs(soup);
         ASSERT_GT(expected.size(), 100u);
         EXPECT_EQ(find_self_intersections(soup.vertices, soup.facets, 1'000'000), expected);
@@ -107,8 +107,8 @@ TEST(FacetTree, FindsWhatMeetsAtVerticesOfMany) {
 
 TEST(FacetTree, SharesOfUnitsGiveEachPairOnce) {
     std::mt19937 random(3);
-    Soup soup = bipyramid(2 * least, 1);
-    add_random_fan(soup, least, false, Vec3(0.2, 0, 0), random);
+    Soup soup = bipyramid(2 * fan_size, 1);
+    add_random_fan(soup, fan_size, false, Vec3(0.2, 0, 0), random);
     add_random_facets(soup, 100, random);
     const SelfIntersectionSearch search(soup.vertices, soup.facets);
     IntersectingPairs all;
