@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -70,11 +71,37 @@ void diagnose_named_walls(CheckedSoup& checked, const InputFiles& files, const D
     for (Defect& defect : checked.diagnosis.defects) name_by_walls(defect, checked.soup, files.walls);
 }
 
+// By patch. One that a repair has made, as a cap, is of the file with the first facet beside it.
+std::vector<std::int32_t> files_of_patches(const Soup& soup, const InputFiles& files) {
+    std::vector<std::int32_t> file_of_patch = files.file_of_patch;
+    const auto is_made = [&](std::int32_t patch) { return std::cmp_greater_equal(patch, files.file_of_patch.size()); };
+    std::map<UndirectedEdge, std::int32_t> made_beside;  // patches
+    const auto for_each_edge = [&](bool of_made, const auto& visit) {
+        for (std::size_t f = 0; f < soup.facets.size(); ++f)
+            if (is_made(soup.patch[f]) == of_made)
+                for (std::size_t i = 0; i < 3; ++i)
+                    visit(undirected(soup.facets[f][i], soup.facets[f][(i + 1) % 3]), soup.patch[f]);
+    };
+    for_each_edge(true, [&](const UndirectedEdge& edge, std::int32_t patch) { made_beside.try_emplace(edge, patch); });
+    file_of_patch.resize(std::max(soup.patch_names.size(), file_of_patch.size()), 0);
+    if (made_beside.empty()) return file_of_patch;
+    std::vector<char> is_known(file_of_patch.size(), 0);
+    for_each_edge(false, [&](const UndirectedEdge& edge, std::int32_t patch) {
+        const auto beside = made_beside.find(edge);
+        if (beside != made_beside.end() && is_known[beside->second] == 0) {
+            file_of_patch[beside->second] = file_of_patch[patch];
+            is_known[beside->second] = 1;
+        }
+    });
+    return file_of_patch;
+}
+
 // Files, or else patches that are closed by themselves. None: it is not known what the bodies are.
 GivenBodies known_bodies(const Soup& soup, const InputFiles& files) {
     if (files.names.empty()) return closed_patches(soup);
     GivenBodies bodies{{}, files.names};
-    for (const std::int32_t patch : soup.patch) bodies.of_facet.push_back(files.file_of_patch[patch]);
+    const std::vector<std::int32_t> file_of_patch = files_of_patches(soup, files);
+    for (const std::int32_t patch : soup.patch) bodies.of_facet.push_back(file_of_patch[patch]);
     return bodies;
 }
 
@@ -82,7 +109,8 @@ GivenBodies known_bodies(const Soup& soup, const InputFiles& files) {
 bool take_found_regions(CheckedSoup& checked, const InputFiles& files, const DiagnosisOptions& options) {
     if (files.names.empty() && !may_be_several_bodies(checked.diagnosis)) return false;
     Soup divided = checked.soup;
-    const bool is_given = !files.names.empty() && find_given_bodies(divided, files.file_of_patch, files.names);
+    const bool is_given =
+        !files.names.empty() && find_given_bodies(divided, files_of_patches(divided, files), files.names);
     if (!is_given && !find_touching_bodies(divided)) return false;
     const std::int64_t unused = drop_unused_vertices(divided);
     Diagnosis diagnosis = diagnose(divided, options);

@@ -304,7 +304,7 @@ TEST(FeaturePatches, AreTheSidesOfABoxTheFacesOfAPrismAndOneSphere) {
         Soup soup = c.soup;
         EXPECT_EQ(make_feature_patches(soup, c.angle_deg), c.patches) << c.soup.patch_names[0] << ' ' << c.angle_deg;
         ASSERT_EQ(soup.patch_names.size(), static_cast<std::size_t>(c.patches));
-        EXPECT_EQ(soup.patch_names.back(), "face_" + std::to_string(c.patches - 1));
+        EXPECT_EQ(soup.patch_names.back(), "face_" + std::to_string(c.patches));
         std::int32_t next = 0;
         for (const std::int32_t patch : soup.patch) {  // numbered by first facet
             EXPECT_LE(patch, next);
