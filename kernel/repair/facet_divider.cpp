@@ -31,8 +31,10 @@ struct PointNumber {
     std::int32_t value = -1;
 };
 
-// Of a face while pieces are collected: which facet has reached it, and of which facet its sides are bounds.
+// Of a face: its place among all before they are flipped; while pieces are collected, which facet has reached it, and
+// of which facet its sides are bounds.
 struct FaceMark {
+    std::int32_t place = -1;
     std::int32_t seen = -1;
     std::array<std::int32_t, 3> bounds = {-1, -1, -1};
 };
@@ -113,6 +115,7 @@ class PlaneDivision {
     bool is_flippable(FaceHandle face, int i) const;
     bool is_better_flipped(FaceHandle face, int i) const;
     void flip(FaceHandle face, int i);
+    std::vector<PlaneTriangulation::Edge> edges();
     std::int32_t rounded(const ExactPoint2& p);
     bool bound(std::int32_t member, VertexHandle from, VertexHandle to, std::vector<FaceHandle>& inner,
                std::vector<PointOnEdge>& on_edges);
@@ -262,10 +265,21 @@ void PlaneDivision::flip(FaceHandle face, int i) {
     }
 }
 
+// Each once, by the face that was made first: CGAL's own list takes that with the smaller address.
+std::vector<PlaneTriangulation::Edge> PlaneDivision::edges() {
+    std::int32_t count = 0;
+    for (const FaceHandle face : triangulation_.all_face_handles()) face->info().place = count++;
+    std::vector<PlaneTriangulation::Edge> edges;
+    for (const FaceHandle face : triangulation_.all_face_handles())
+        for (int i = 0; i < 3; ++i)
+            if (face->info().place < face->neighbor(i)->info().place && !triangulation_.is_infinite(face, i))
+                edges.emplace_back(face, i);
+    return edges;
+}
+
 // Towards the constrained Delaunay triangulation of the rounded points, by flips that are exact.
 void PlaneDivision::improve() {
-    std::vector<PlaneTriangulation::Edge> open;
-    for (const auto& edge : triangulation_.finite_edges()) open.push_back(edge);
+    std::vector<PlaneTriangulation::Edge> open = edges();
     for (std::size_t left = 20 * open.size(); !open.empty() && left > 0; --left) {
         const auto [face, i] = open.back();
         open.pop_back();
