@@ -1,5 +1,6 @@
 // kerf repair as a user sees it, and the same repairs as an option of other commands.
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -141,6 +142,22 @@ TEST_F(RepairCommand, WrongPlansAndOutputsAreRefusedBeforeTheWork) {
     const std::string itself = write(open_box(), "itself.obj"), bytes = test::bytes_of_file(itself);
     EXPECT_EQ(test::run_kerf({"repair", itself, "-o", itself}).exit_code, 7);
     EXPECT_EQ(test::bytes_of_file(itself), bytes);
+}
+
+// The C library lays blocks of memory elsewhere: facets that are crossed often are divided in many of them.
+TEST_F(RepairCommand, DoesNotDependOnAddresses) {
+    const Soup soup = test::join(test::box(Vec3(-1.2, -1.3, -0.1), Vec3(1.3, 1.2, 0.2)), test::uv_sphere(40, 60));
+    const std::string input = write(soup), run = folder_.file("run");
+    std::set<std::string> surfaces;
+    for (const int threshold : {131072, 16384, 4096, 1024}) {
+        const ChildResult result =
+            test::run_program("/usr/bin/env", {fmt::format("GLIBC_TUNABLES=glibc.malloc.mmap_threshold={}", threshold),
+                                               test::kerf_program(), "decompose", input, "--repair", "full",
+                                               "--surface", "keep", "-n", "1", "-o", run, "-q"});
+        ASSERT_EQ(result.exit_code, 0) << result.log;
+        surfaces.insert(test::bytes_of_file(run + "/surfaces.vtu"));
+    }
+    EXPECT_EQ(surfaces.size(), 1u);
 }
 
 TEST_F(RepairCommand, ARunWithRepairsReportsAndVerifiesThem) {
