@@ -131,6 +131,8 @@ RunParts::RunParts(std::string folder, std::string solution, const nlohmann::jso
     std::vector<NodeId> ids;
     std::int64_t interior = 0;
     boundary_vertices_ = outline_.vertices;  // until it is known how many there are
+    if (outline_.patch_names.empty())        // of an older version: each file has all
+        outline_.patch_names = read_part(surface_file(PartIndex()), PartContent::surface).patch_names.names();
     for (PartExtent& extent : outline_.parts) {
         const PartIndex index(ids.size());
         ids.push_back(extent.id);
@@ -143,8 +145,6 @@ RunParts::RunParts(std::string folder, std::string solution, const nlohmann::jso
         for (const std::int32_t v : surface.contact_vertices) held.push_back({surface.global_id[v], index});
         const std::vector<SharedEdges::Incidence> incidences_here = SharedEdges::incidences_of(surface);
         told.insert(told.end(), incidences_here.begin(), incidences_here.end());
-        if (outline_.patch_names.empty()) outline_.patch_names = surface.patch_names.names();
-        require_names(surface, outline_, files_.folder() + "/parts/" + part_surface_file_name(extent.id));
         first_interior_ids_.push_back(interior);
         interior += extent.vertices - surface.mesh.boundary_vertex_count;
     }

@@ -316,16 +316,6 @@ std::vector<PartValues> read_value_names(const std::string& path) {
     return names;
 }
 
-// Files with all names have no numbers of these.
-NameTable read_name_table(PartArraysFile& file, const char* array, const char* numbers_array) {
-    std::vector<std::string> names = read_names(file, array);
-    if (!file.header().find(numbers_array)) return names;
-    file.open<std::int32_t>(numbers_array, std::ssize(names));
-    const auto numbers = file.take<std::int32_t>(std::ssize(names));
-    if (!NameTable::can_be(numbers)) file.fail(fmt::format("its {} do not rise from 0", numbers_array));
-    return {numbers, std::move(names)};
-}
-
 std::vector<PartValues> read_values(const std::string& path) {
     const std::int64_t tets = read_cell_counts(path).tets;
     CheckedFile file(path, "rb");

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "io/file_bytes.h"
 #include "part/run_parts.h"
@@ -13,6 +14,7 @@
 #include "support/assets.h"
 #include "support/program.h"
 #include "support/run_laws.h"
+#include "support/sealed_run.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
@@ -116,6 +118,20 @@ TEST_F(Patches, FeatureAngleMakesASideOfACubeAPatch) {
 TEST_F(Patches, FeatureAngleLeavesThePatchesOfTheFile) {
     const Soup box = test::box(Vec3::Zero(), Vec3(1, 2, 3), 6);
     expect_patches(mesh(write("box.obj", test::to_obj(box)), {"--feature-angle", "40"}), box.patch, box.patch_names);
+}
+
+// Their reports do not say the names, of which each of their files has all.
+TEST_F(Patches, OfRunsOfOlderVersionsAreReadFromTheirParts) {
+    const Soup box = test::box(Vec3::Zero(), Vec3(1, 2, 3), 6);
+    mesh(write("box.obj", test::to_obj(box)));
+    const std::string out = folder_.file("out"), report = out + "/report.json";
+    nlohmann::json json = nlohmann::json::parse(read_file(report));
+    EXPECT_EQ(json["input"].erase("patches"), 1u);
+    std::ofstream(report) << json;
+    test::seal_run(out);
+    const RunParts parts(out);
+    EXPECT_EQ(parts.outline().patch_names, box.patch_names);
+    EXPECT_EQ(parts.load(PartIndex()).patch_names, NameTable(box.patch_names));
 }
 
 // A patch for each facet of a box with more than a part lists all of.
