@@ -81,10 +81,45 @@ void check_mpi(int result, const char* call) {
                 fmt::format("{} has failed: {}. Check the hosts and their network.", call, text.data()));
 }
 
-// What a rank that leaves says to the others: of a size that needs no memory where there may be none.
-struct MpiRanks::LastWords {
-    std::int32_t code = 0;
-    std::array<char, 1020> message{};
+// Messages whose ends nobody waits for any more: MPI may read or write them until the process ends, and so long they
+// live.
+std::list<MpiRanks::OnTheWay>& MpiRanks::abandoned() {
+    static auto* const all = new std::list<OnTheWay>;
+    return *all;
+}
+
+// Messages of this rank while MPI sends or receives them. Those that are on their way when it ends, because an error
+// has ended the wait for them, are abandoned. All memory for that is there before the first of them leaves.
+class MpiRanks::Transfer {
+ public:
+    explicit Transfer(std::vector<Bytes> messages, std::size_t most_requests) : own_(1) {
+        own_.front().messages = std::move(messages);
+        own_.front().requests.reserve(most_requests);
+    }
+    explicit Transfer(Bytes message) : own_(1) {
+        own_.front().messages.push_back(std::move(message));
+        own_.front().requests.reserve(1);
+    }
+    Transfer(const Transfer&) = delete;
+    Transfer& operator=(const Transfer&) = delete;
+    ~Transfer() {
+        const std::vector<MPI_Request>& all = requests();
+        if (std::any_of(all.begin(), all.end(), [](MPI_Request request) { return request != MPI_REQUEST_NULL; }))
+            abandoned_.splice(abandoned_.end(), own_);
+    }
+
+    std::vector<Bytes>& messages() { return own_.front().messages; }
+    Bytes& message() { return messages().front(); }
+    std::vector<MPI_Request>& requests() { return own_.front().requests; }
+    MPI_Request& new_request() { return requests().emplace_back(MPI_REQUEST_NULL); }
+    void wait_for_all() {
+        check_mpi(MPI_Waitall(static_cast<int>(requests().size()), requests().data(), MPI_STATUSES_IGNORE),
+                  "MPI_Waitall");
+    }
+
+ private:
+    std::list<OnTheWay> own_;
+    std::list<OnTheWay>& abandoned_ = abandoned();
 };
 
 MpiRanks::MpiRanks(MPI_Comm comm) {
@@ -98,7 +133,10 @@ MpiRanks::MpiRanks(MPI_Comm comm) {
     leaving_.assign(sent_to_.size(), MPI_REQUEST_NULL);
 }
 
-MpiRanks::~MpiRanks() { MPI_Comm_free(&comm_); }
+MpiRanks::~MpiRanks() {
+    abandoned().splice(abandoned().end(), posted_);
+    MPI_Comm_free(&comm_);
+}
 
 MPI_Op MpiRanks::operation_of(Reduction reduction) {
     if (reduction == Reduction::sum) return MPI_SUM;
@@ -107,18 +145,24 @@ MPI_Op MpiRanks::operation_of(Reduction reduction) {
 
 // Every collective begins with a number of each rank: how much it brings, or that it has left.
 void MpiRanks::begin_collective(std::uint64_t own_size) {
+    if (is_over_) throw_last_words();
     check_mpi(MPI_Allgather(&own_size, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
     if (std::find(sizes_.begin(), sizes_.end(), has_left) == sizes_.end()) return;
-    LastWords words;
-    end_together(words);
-    throw Error(static_cast<ErrorCode>(words.code), words.message.data());
+    end_together({});
+    throw_last_words();
 }
 
-// The words of the first rank that has left, on all ranks; no message stays under way.
-void MpiRanks::end_together(LastWords& words) {
+void MpiRanks::throw_last_words() const {
+    throw RankHasLeft(static_cast<ErrorCode>(last_words_.code), last_words_.message.data());
+}
+
+// The words of the first rank that has left, on all ranks; no posted message stays under way.
+void MpiRanks::end_together(const StageStatus& why) {
     is_over_ = true;
+    if (why.code != 0) last_words_.code = why.code;
+    why.message.copy(last_words_.message.data(), last_words_.message.size() - 1);
     const auto speaker = std::find(sizes_.begin(), sizes_.end(), has_left) - sizes_.begin();
-    check_mpi(MPI_Bcast(&words, sizeof words, MPI_BYTE, static_cast<int>(speaker), comm_), "MPI_Bcast");
+    check_mpi(MPI_Bcast(&last_words_, sizeof last_words_, MPI_BYTE, static_cast<int>(speaker), comm_), "MPI_Bcast");
     for (int r = 0; r < size_; ++r)
         if (r != rank_ && sizes_[static_cast<std::size_t>(r)] == has_left)
             check_mpi(MPI_Recv(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
@@ -126,7 +170,7 @@ void MpiRanks::end_together(LastWords& words) {
     try {
         take_messages();
     } catch (const std::bad_alloc&) {
-        MPI_Abort(comm_, words.code);
+        MPI_Abort(comm_, last_words_.code);
     }
 }
 
@@ -134,14 +178,12 @@ void MpiRanks::end_together(LastWords& words) {
 void MpiRanks::leave(const StageStatus& why) {
     if (is_over_) return;
     const FailureDeadline deadline(why.code, why.message);
-    LastWords words{why.code, {}};
-    why.message.copy(words.message.data(), words.message.size() - 1);
     for (int r = 0; r < size_; ++r)
         if (r != rank_)
             check_mpi(MPI_Isend(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, &leaving_[static_cast<std::size_t>(r)]),
                       "MPI_Isend");
     check_mpi(MPI_Allgather(&has_left, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
-    end_together(words);
+    end_together(why);
 }
 
 std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
@@ -197,28 +239,31 @@ std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
     const auto own = static_cast<std::size_t>(rank_);
     for (std::size_t r = 0; r < sent_.size(); ++r) sent_[r] = r == own ? 0 : to_rank[r].size();
     check_mpi(MPI_Alltoall(sent_.data(), 1, MPI_UINT64_T, expected_.data(), 1, MPI_UINT64_T, comm_), "MPI_Alltoall");
-    std::vector<Bytes> got;
-    std::vector<MPI_Request> requests;
+    std::optional<Transfer> sent, got;
     require_room(has_room_for([&] {
-        std::size_t pieces = 0;
+        std::vector<Bytes> from_rank;
+        std::size_t pieces_sent = 0, pieces_expected = 0;
         for (std::size_t r = 0; r < sent_.size(); ++r) {
-            got.emplace_back(expected_[r]);
-            pieces += count_pieces(sent_[r]) + count_pieces(expected_[r]);
+            from_rank.emplace_back(expected_[r]);
+            pieces_sent += count_pieces(sent_[r]);
+            pieces_expected += count_pieces(expected_[r]);
         }
-        requests.reserve(pieces);
+        sent.emplace(std::move(to_rank), pieces_sent);
+        got.emplace(std::move(from_rank), pieces_expected);
     }));
-    got[own] = std::move(to_rank[own]);
+    got->messages()[own] = std::move(sent->messages()[own]);
     for (int step = 1; step < size_; ++step) {  // each rank begins with another one
         const int r = (rank_ + step) % size_;
-        for_pieces(got[static_cast<std::size_t>(r)], [&](char* piece, int size) {
-            check_mpi(MPI_Irecv(piece, size, MPI_BYTE, r, exchange_tag, comm_, &requests.emplace_back()), "MPI_Irecv");
+        for_pieces(got->messages()[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+            check_mpi(MPI_Irecv(piece, size, MPI_BYTE, r, exchange_tag, comm_, &got->new_request()), "MPI_Irecv");
         });
-        for_pieces(to_rank[static_cast<std::size_t>(r)], [&](char* piece, int size) {
-            check_mpi(MPI_Isend(piece, size, MPI_BYTE, r, exchange_tag, comm_, &requests.emplace_back()), "MPI_Isend");
+        for_pieces(sent->messages()[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+            check_mpi(MPI_Isend(piece, size, MPI_BYTE, r, exchange_tag, comm_, &sent->new_request()), "MPI_Isend");
         });
     }
-    check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
-    return got;
+    got->wait_for_all();
+    sent->wait_for_all();
+    return std::move(got->messages());
 }
 
 void MpiRanks::sum(std::span<std::uint64_t> words) {
@@ -240,61 +285,77 @@ bool MpiRanks::is_done(MPI_Request& request) const {
     }
 }
 
-void MpiRanks::send_piece(const void* data, int size, int rank, int tag) {
-    MPI_Request request = MPI_REQUEST_NULL;
-    check_mpi(MPI_Isend(data, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Isend");
-    if (is_done(request)) return;
-    check_mpi(MPI_Request_free(&request), "MPI_Request_free");
-    begin_collective(0);  // throws, when nobody receives any more
+// Its message, piece by piece, and that of a sender into it. What is sent to nobody any more cannot be called back.
+void MpiRanks::send(Transfer& transfer, int rank, int tag) {
+    for_pieces(transfer.message(), [&](char* piece, int size) {
+        transfer.requests().clear();
+        MPI_Request& request = transfer.new_request();
+        check_mpi(MPI_Isend(piece, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Isend");
+        if (!is_done(request)) begin_collective(0);  // throws, when nobody receives any more
+    });
 }
 
-void MpiRanks::receive_piece(void* data, int size, int rank, int tag) {
-    MPI_Request request = MPI_REQUEST_NULL;
-    check_mpi(MPI_Irecv(data, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Irecv");
-    if (is_done(request)) return;
-    check_mpi(MPI_Cancel(&request), "MPI_Cancel");
-    check_mpi(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
-    begin_collective(0);  // throws
+void MpiRanks::receive(Transfer& transfer, int rank, int tag) {
+    for_pieces(transfer.message(), [&](char* piece, int size) {
+        transfer.requests().clear();
+        MPI_Request& request = transfer.new_request();
+        check_mpi(MPI_Irecv(piece, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Irecv");
+        if (is_done(request)) return;
+        check_mpi(MPI_Cancel(&request), "MPI_Cancel");
+        check_mpi(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
+        begin_collective(0);  // throws
+    });
 }
 
 // The receiver answers the size by whether it has room.
-void MpiRanks::send(int rank, const Bytes& message) {
-    const std::uint64_t size = message.size();
-    std::int32_t has_room = 0;
-    send_piece(&size, sizeof size, rank, send_tag);
-    receive_piece(&has_room, sizeof has_room, rank, answer_tag);
-    if (!has_room) return;
-    for_pieces(message, [&](const char* piece, int piece_size) { send_piece(piece, piece_size, rank, send_tag); });
+void MpiRanks::send(int rank, Bytes message) {
+    if (is_over_) throw_last_words();
+    Transfer size(to_bytes(std::uint64_t{message.size()})), has_room(Bytes(sizeof(std::int32_t)));
+    Transfer whole(std::move(message));
+    send(size, rank, send_tag);
+    receive(has_room, rank, answer_tag);
+    if (from_bytes<std::int32_t>(has_room.message())) send(whole, rank, send_tag);
 }
 
 Bytes MpiRanks::receive(int rank) {
-    std::uint64_t size = 0;
-    receive_piece(&size, sizeof size, rank, send_tag);
-    Bytes message;
-    const std::int32_t has_room = has_room_for([&] { message.resize(size); });
-    send_piece(&has_room, sizeof has_room, rank, answer_tag);
+    if (is_over_) throw_last_words();
+    Transfer size(Bytes(sizeof(std::uint64_t))), yes(to_bytes(std::int32_t{1})), no(to_bytes(std::int32_t{0}));
+    receive(size, rank, send_tag);
+    std::optional<Transfer> whole;
+    const bool has_room = has_room_for([&] { whole.emplace(Bytes(from_bytes<std::uint64_t>(size.message()))); });
+    send(has_room ? yes : no, rank, answer_tag);
     if (!has_room) throw std::bad_alloc();
-    for_pieces(message, [&](char* piece, int piece_size) { receive_piece(piece, piece_size, rank, send_tag); });
-    return message;
+    receive(*whole, rank, send_tag);
+    return std::move(whole->message());
+}
+
+// For who looks for messages that never come then.
+void MpiRanks::end_if_one_has_left() {
+    int has_rank_left = is_over_;
+    if (!is_over_)
+        check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm_, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
+    if (has_rank_left) begin_collective(0);  // throws
 }
 
 std::optional<Bytes> MpiRanks::receive_any() {
     int arrived = 0;
     MPI_Status status;
     check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, send_tag, comm_, &arrived, &status), "MPI_Iprobe");
-    if (!arrived) return {};
-    return receive(status.MPI_SOURCE);
+    if (arrived) return receive(status.MPI_SOURCE);
+    end_if_one_has_left();
+    return {};
 }
 
 void MpiRanks::post(int rank, const Bytes& message) {
-    posted_.remove_if([](Posted& posted) {
+    if (is_over_) return;
+    posted_.remove_if([](OnTheWay& posted) {
         int left = 0;
-        check_mpi(MPI_Test(&posted.request, &left, MPI_STATUS_IGNORE), "MPI_Test");
+        check_mpi(MPI_Test(posted.requests.data(), &left, MPI_STATUS_IGNORE), "MPI_Test");
         return left != 0;
     });
-    Posted& posted = posted_.emplace_back(Posted{message});
-    check_mpi(MPI_Isend(posted.message.data(), static_cast<int>(message.size()), MPI_BYTE, rank, post_tag, comm_,
-                        &posted.request),
+    OnTheWay& posted = posted_.emplace_back(OnTheWay{{message}, {MPI_REQUEST_NULL}});
+    check_mpi(MPI_Isend(posted.messages.front().data(), static_cast<int>(message.size()), MPI_BYTE, rank, post_tag,
+                        comm_, posted.requests.data()),
               "MPI_Isend");
     ++sent_to_[static_cast<std::size_t>(rank)];
 }
@@ -312,9 +373,13 @@ std::optional<Bytes> MpiRanks::poll() {
     int arrived = 0;
     MPI_Status status;
     check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, post_tag, comm_, &arrived, &status), "MPI_Iprobe");
-    if (!arrived) return {};
+    if (!arrived) {
+        end_if_one_has_left();
+        return {};
+    }
+    Bytes message = receive(status);
     ++received_;
-    return receive(status);
+    return message;
 }
 
 void MpiRanks::drop_messages() {
@@ -332,7 +397,7 @@ void MpiRanks::take_messages() {
         check_mpi(MPI_Probe(MPI_ANY_SOURCE, post_tag, comm_, &status), "MPI_Probe");
         receive(status);
     }
-    for (Posted& posted : posted_) check_mpi(MPI_Wait(&posted.request, MPI_STATUS_IGNORE), "MPI_Wait");
+    for (OnTheWay& posted : posted_) check_mpi(MPI_Wait(posted.requests.data(), MPI_STATUS_IGNORE), "MPI_Wait");
     posted_.clear();
     sent_to_.assign(sent_to_.size(), 0);
     received_ = 0;

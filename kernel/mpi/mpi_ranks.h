@@ -1,6 +1,7 @@
 // The ranks of an MPI job, and what values that are distributed over them need. The only place that knows MPI.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <list>
 #include <span>
@@ -63,7 +64,7 @@ class MpiRanks : public Communicator {
     Bytes broadcast(Bytes of_root, int root) override;
     std::vector<Bytes> exchange(std::vector<Bytes> to_rank) override;
     void sum(std::span<std::uint64_t> words) override;
-    void send(int rank, const Bytes& message) override;
+    void send(int rank, Bytes message) override;
     Bytes receive(int rank) override;
     std::optional<Bytes> receive_any() override;
     void post(int rank, const Bytes& message) override;
@@ -116,27 +117,37 @@ class MpiRanks : public Communicator {
     void broadcast_bytes(std::span<char> bytes, int root) const;
     void require_room(bool has_room) const;
     void begin_collective(std::uint64_t own_size);
-    struct LastWords;
-    void end_together(LastWords& words);
+    void end_together(const StageStatus& why);
+    [[noreturn]] void throw_last_words() const;
+    void end_if_one_has_left();
     void take_messages();
     bool is_done(MPI_Request& request) const;
-    void send_piece(const void* data, int size, int rank, int tag);
-    void receive_piece(void* data, int size, int rank, int tag);
+    class Transfer;
+    void send(Transfer& transfer, int rank, int tag);
+    void receive(Transfer& transfer, int rank, int tag);
 
-    // A message on its way, which MPI reads until it has left.
-    struct Posted {
-        Bytes message;
-        MPI_Request request = MPI_REQUEST_NULL;
+    // Messages on their way, which MPI reads or writes until all requests are done.
+    struct OnTheWay {
+        std::vector<Bytes> messages;
+        std::vector<MPI_Request> requests;
+    };
+    static std::list<OnTheWay>& abandoned();
+
+    // What a rank that leaves says to the others: of a size that needs no memory where there may be none.
+    struct LastWords {
+        std::int32_t code = static_cast<std::int32_t>(ErrorCode::internal);
+        std::array<char, 1020> message{};
     };
     MPI_Comm comm_ = MPI_COMM_NULL;
     int rank_ = 0, size_ = 1;
-    std::list<Posted> posted_;
+    std::list<OnTheWay> posted_;
     std::vector<int> sent_to_;  // messages to each rank since drop_messages()
     int received_ = 0;
     std::vector<std::uint64_t> sizes_;            // of what the ranks bring to a collective
     std::vector<std::uint64_t> sent_, expected_;  // bytes to and from each rank in an exchange
     std::vector<MPI_Request> leaving_;            // to each rank, that this one leaves
-    bool is_over_ = false;                        // a rank has left
+    bool is_over_ = false;                        // a rank has left,
+    LastWords last_words_;                        // and has said this
 };
 
 }  // namespace kerf

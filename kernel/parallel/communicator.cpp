@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 
 #include "core/out_of_memory.h"
 #include "parallel/failure_deadline.h"
 
 namespace kerf {
 
-StageStatus status_of_exception() {
+namespace {
+
+StageStatus told_status_of_exception() {
     try {
         throw;
     } catch (const Error& e) {
@@ -17,6 +20,17 @@ StageStatus status_of_exception() {
         if (is_out_of_memory(e))
             return {static_cast<int>(ErrorCode::memory), "Out of memory. Use more parts, fewer workers or more hosts."};
         return {static_cast<int>(ErrorCode::internal), e.what()};
+    }
+}
+
+}  // namespace
+
+// The short words lie in the string itself.
+StageStatus status_of_exception() noexcept {
+    try {
+        return told_status_of_exception();
+    } catch (const std::bad_alloc&) {
+        return {static_cast<int>(ErrorCode::memory), "Out of memory."};
     }
 }
 

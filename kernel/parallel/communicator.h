@@ -33,11 +33,18 @@ struct StageStatus {
     }
 };
 
-/// The status of the exception that is being handled.
-StageStatus status_of_exception();
+/// The status of the exception that is being handled; where there is no memory for its words, that there is none.
+StageStatus status_of_exception() noexcept;
+
+/// The error of a rank that has left: from now on the ranks agree on nothing else.
+class RankHasLeft : public Error {
+ public:
+    using Error::Error;
+};
 
 /// Ranks that run the same stages in the same order. Every collective throws Error(memory) on all ranks if one has no
-/// memory for it, and the error of a rank that has left.
+/// memory for it. Where a rank has left, every call that waits or looks for something of others throws RankHasLeft,
+/// again and again.
 class Communicator {
  public:
     virtual ~Communicator() = default;
@@ -55,22 +62,25 @@ class Communicator {
 
     /// Sends another rank a message of any size, and waits until it is taken there. No collective; but if a rank leaves
     /// meanwhile, its error is thrown here, as in receive().
-    virtual void send(int rank, const Bytes& message) = 0;
+    virtual void send(int rank, Bytes message) = 0;
     /// Waits for the next message that the other rank sends to this one. Throws std::bad_alloc where there is no memory
     /// for it: it is lost then, and its sender goes on.
     virtual Bytes receive(int rank) = 0;
     /// The next message that some rank sends to this one; nothing if none is on its way. Throws as receive().
     virtual std::optional<Bytes> receive_any() = 0;
 
-    /// Sends a message of a few kilobytes to another rank and does not wait for it to arrive.
+    /// Sends a message of a few kilobytes to another rank and does not wait for it to arrive. Without effect where a
+    /// rank has left.
     virtual void post(int rank, const Bytes& message) = 0;
     /// A message that was posted to this rank, those of one sender in their order; nothing if none has arrived yet.
+    /// Throws RankHasLeft where no message will come because a rank has left: who polls until one comes ends with it.
     virtual std::optional<Bytes> poll() = 0;
-    /// Collective: takes all messages that were posted before and not polled out of the way.
+    /// Collective: takes all messages that were posted before and not polled out of the way. Without effect where a
+    /// rank has left: then there are none.
     virtual void drop_messages() = 0;
 
-    /// This rank meets an error that the others may know nothing of: the next collective of theirs throws it, without
-    /// its elements. No rank calls another collective after that. Without effect where that has already happened.
+    /// This rank meets an error that the others may know nothing of: the next collective of theirs, and whatever they
+    /// wait in, throws it, without its elements. Returns when all know. Without effect where that has already happened.
     virtual void leave(const StageStatus& why) = 0;
 };
 
@@ -83,7 +93,7 @@ class SingleRank : public Communicator {
     Bytes broadcast(Bytes of_root, int) override { return of_root; }
     std::vector<Bytes> exchange(std::vector<Bytes> to_rank) override { return to_rank; }
     void sum(std::span<std::uint64_t>) override {}
-    void send(int, const Bytes&) override {}  // there is no other rank
+    void send(int, Bytes) override {}  // there is no other rank
     Bytes receive(int) override { return {}; }
     std::optional<Bytes> receive_any() override { return {}; }
     void post(int, const Bytes&) override {}  // there is no other rank
@@ -167,6 +177,19 @@ auto in_agreement(Communicator& ranks, Stage stage) -> std::invoke_result_t<Stag
         throw_first_error(ranks, status);
         return std::move(value.front());
     }
+}
+
+/// Calls tell(), which posts what other ranks wait for or have to know. Where it throws, they would wait for ever: this
+/// rank leaves then, because of `why`, or of what was thrown where that is good. Returns in any case.
+template <class Tell>
+void tell_or_leave(Communicator& ranks, const StageStatus& why, Tell tell) {
+    StageStatus untold;
+    try {
+        return tell();
+    } catch (const std::exception&) {
+        untold = status_of_exception();
+    }
+    ranks.leave(why.code != 0 ? why : untold);
 }
 
 /// Runs what all ranks run, with its collectives and agreements. An exception that leaves it on one rank ends all of

@@ -3,7 +3,8 @@
 //
 // A rank is done when the leaves of its range are there, or are known to be of a part of others that stays whole, and
 // its halves are sent. It tells the first rank, which tells all when the last of them is done: no
-// rank leaves before, so that nobody sends to one that has left. The first error goes the same way and stops all.
+// rank leaves before, so that nobody sends to one that has left. The first error goes the same way and stops all. Who
+// cannot tell, because that fails, leaves: polling, all others learn of it.
 #include "run/cuts_on_ranks.h"
 
 #include <algorithm>
@@ -145,7 +146,7 @@ void CutsOnRanks::tell(int rank, Kind kind, std::int32_t leaves) {
     if (rank == ranks_.rank())
         hear({kind, leaves});
     else
-        ranks_.post(rank, to_bytes(CutNote{kind, leaves}));
+        tell_or_leave(ranks_, status_, [&] { ranks_.post(rank, to_bytes(CutNote{kind, leaves})); });
 }
 
 void CutsOnRanks::tell_others(Kind kind) {
@@ -233,8 +234,8 @@ bool CutsOnRanks::pass_on() {
     for (Half& half : halves) {
         TravellingBranch leaving{half.branch, half.surface.arrays(), partners_of(half.surface)};
         half.surface = Surface();
-        const Bytes message = to_bytes(std::exchange(leaving, {}));
-        ranks_.send(rank_in_range(options_.parts, half.branch.first_leaf, ranks_), message);
+        Bytes message = to_bytes(std::exchange(leaving, {}));
+        ranks_.send(rank_in_range(options_.parts, half.branch.first_leaf, ranks_), std::move(message));
     }
     return !halves.empty();
 }
@@ -286,6 +287,9 @@ Decomposition CutsOnRanks::cut(Complex& complex) {
     const auto guarded = [this](const auto& body) {
         try {
             return body();
+        } catch (const RankHasLeft&) {
+            is_stopped_ = true;  // what is being cut is for nobody
+            throw;
         } catch (const std::exception&) {
             fail();
             return true;
@@ -300,7 +304,7 @@ Decomposition CutsOnRanks::cut(Complex& complex) {
             patience.reset();
         else
             patience.pause();
-    if (is_stopped_) ranks_.drop_messages();
+    ranks_.drop_messages();  // one that fails now has others that know nothing of it, and its note on the way to them
     throw_first_error(ranks_, status_);
     return in_order();
 }

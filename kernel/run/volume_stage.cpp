@@ -239,7 +239,8 @@ MeshedParts VolumeStage::mesh(const std::vector<PartReport>& parts) {
             try {
                 mesh_share();
             } catch (...) {
-                if (!was_told_to_stop) post_to_others({VolumeMessage::Kind::stop, -1, {}});
+                const auto stop_others = [&] { post_to_others({VolumeMessage::Kind::stop, -1, {}}); };
+                if (!was_told_to_stop) tell_or_leave(ranks_, status_of_exception(), stop_others);
                 throw;
             }
         });

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mixed_bits.h"
-#include "parallel/communicator.h"
+#include "parallel/on_root.h"
 
 namespace kerf::test {
 
@@ -113,6 +113,11 @@ struct Waiting {
     std::function<void(Communicator&)> wait;
 };
 
+template <class HasCome>
+void wait_until(HasCome has_come) {
+    for (Patience patience; !has_come();) patience.pause();
+}
+
 inline std::vector<Waiting> ways_to_wait() {
     const auto large = [] { return Bytes(std::size_t{1} << 18, 'a'); };
     return {{"all_gather", [=](Communicator& ranks) { ranks.all_gather(large()); }},
@@ -125,6 +130,13 @@ inline std::vector<Waiting> ways_to_wait() {
             {"agreement", [](Communicator& ranks) { in_agreement(ranks, [] {}); }},
             {"drop_messages", [](Communicator& ranks) { ranks.drop_messages(); }},
             {"receive", [](Communicator& ranks) { ranks.receive(ranks.size() - 1); }},
+            {"receive_any", [](Communicator& ranks) { wait_until([&] { return ranks.receive_any().has_value(); }); }},
+            {"poll", [](Communicator& ranks) { wait_until([&] { return ranks.poll().has_value(); }); }},
+            {"bytes_of_root",
+             [](Communicator& ranks) {
+                 bytes_of_root(
+                     ranks, [] { return Bytes(1); }, [] {});
+             }},
             {"send",
              [=](Communicator& ranks) {
                  ranks.send(ranks.size() - 1, large());
@@ -152,6 +164,22 @@ inline void expect_that_leaving_ends_all(Communicator& ranks, const Waiting& wai
         EXPECT_STREQ(error.what(), "The disk is full.") << waiting.name;
     }
     ranks.leave({static_cast<int>(ErrorCode::internal), "This has happened already."});
+    ranks.post(0, Bytes(1));
+    ranks.drop_messages();
+    const auto expect_end = [&](const char* call, const auto& look) {
+        try {
+            look();
+            ADD_FAILURE() << call << " after " << waiting.name << ": nothing was thrown";
+        } catch (const RankHasLeft& error) {
+            EXPECT_EQ(error.code(), ErrorCode::io) << call << " after " << waiting.name;
+            EXPECT_STREQ(error.what(), "The disk is full.") << call << " after " << waiting.name;
+        }
+    };
+    expect_end("sum", [&] { sum_of(ranks, 1); });
+    expect_end("poll", [&] { ranks.poll(); });
+    expect_end("receive_any", [&] { ranks.receive_any(); });
+    expect_end("receive", [&] { ranks.receive(0); });
+    expect_end("send", [&] { ranks.send(0, Bytes(1)); });
 }
 
 }  // namespace kerf::test

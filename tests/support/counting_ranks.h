@@ -60,9 +60,9 @@ class CountingRanks : public Communicator {
         count(bytes, bytes, depth());
         ranks_.sum(words);
     }
-    void send(int rank, const Bytes& message) override {
+    void send(int rank, Bytes message) override {
         count(std::ssize(message), 0, 1);
-        ranks_.send(rank, message);
+        ranks_.send(rank, std::move(message));
     }
     Bytes receive(int rank) override {
         Bytes message = ranks_.receive(rank);

@@ -23,7 +23,7 @@ class MeetingPoint {
  public:
     explicit MeetingPoint(int size) : size_(size), given_(size), leaving_(size), posted_(size) {}
 
-    // Of a rank that leaves: with the reason. For all others that is an Error.
+    // Of a rank that leaves: with the reason. For all of them that is the error of the first that does.
     std::vector<Bytes> meet(int rank, const Bytes& contribution, const StageStatus* why = nullptr) {
         std::unique_lock lock(mutex_);
         given_[rank] = contribution;
@@ -37,15 +37,15 @@ class MeetingPoint {
         }
         change_.notify_all();
         change_.wait(lock, [&] { return round_ != round; });
-        if (has_ended_ && !why)
-            throw std::find_if(leaving_.begin(), leaving_.end(), [](auto& w) { return w.has_value(); })
-                ->value()
-                .error();
+        if (has_ended_) {
+            const auto left = std::find_if(leaving_.begin(), leaving_.end(), [](auto& w) { return w.has_value(); });
+            throw RankHasLeft(static_cast<ErrorCode>((*left)->code), (*left)->message);
+        }
         return result_;
     }
-    void send(int from, int to, const Bytes& message) {
+    void send(int from, int to, Bytes message) {
         const std::lock_guard lock(mutex_);
-        sent_[{from, to}].push_back(message);
+        sent_[{from, to}].push_back(std::move(message));
         change_.notify_all();
     }
     Bytes receive(int from, int to) {
@@ -60,18 +60,18 @@ class MeetingPoint {
     }
     // The first message that waits for this rank.
     std::optional<Bytes> take_any(int to) {
-        const std::lock_guard lock(mutex_);
+        std::unique_lock lock(mutex_);
         for (auto& [ends, queue] : sent_)
             if (ends.second == to && !queue.empty()) return take_first(queue);
-        return {};
+        return nothing(to, lock);
     }
     void post(int to, const Bytes& message) {
         const std::lock_guard lock(mutex_);
         posted_[to].push_back(message);
     }
     std::optional<Bytes> poll(int rank) {
-        const std::lock_guard lock(mutex_);
-        if (posted_[rank].empty()) return {};
+        std::unique_lock lock(mutex_);
+        if (posted_[rank].empty()) return nothing(rank, lock);
         return take_first(posted_[rank]);
     }
     void drop_messages(int rank) {
@@ -89,6 +89,13 @@ class MeetingPoint {
         Bytes first = std::move(queue.front());
         queue.pop_front();
         return first;
+    }
+    std::optional<Bytes> nothing(int rank, std::unique_lock<std::mutex>& lock) {
+        if (is_anybody_leaving()) {
+            lock.unlock();
+            meet(rank, {});  // throws
+        }
+        return {};
     }
     bool is_anybody_leaving() const {
         return std::any_of(leaving_.begin(), leaving_.end(), [](const auto& why) { return why.has_value(); });
@@ -127,34 +134,46 @@ class ThreadRank : public Communicator {
             for (std::size_t i = 0; i < words.size(); ++i) words[i] += added[i];
         }
     }
-    void send(int rank, const Bytes& message) override { meeting_.send(rank_, rank, message); }
+    void send(int rank, Bytes message) override {
+        or_over([&] { meeting_.send(rank_, rank, std::move(message)); });
+    }
     Bytes receive(int rank) override {
         return or_over([&] { return meeting_.receive(rank, rank_); });
     }
-    std::optional<Bytes> receive_any() override { return meeting_.take_any(rank_); }
-    void post(int rank, const Bytes& message) override { meeting_.post(rank, message); }
-    std::optional<Bytes> poll() override { return meeting_.poll(rank_); }
+    std::optional<Bytes> receive_any() override {
+        return or_over([&] { return meeting_.take_any(rank_); });
+    }
+    void post(int rank, const Bytes& message) override {
+        if (!over_) meeting_.post(rank, message);
+    }
+    std::optional<Bytes> poll() override {
+        return or_over([&] { return meeting_.poll(rank_); });
+    }
     void drop_messages() override {
-        if (!is_over_) or_over([&] { meeting_.drop_messages(rank_); });
+        if (!over_) or_over([&] { meeting_.drop_messages(rank_); });
     }
     void leave(const StageStatus& why) override {
-        if (!std::exchange(is_over_, true)) meeting_.meet(rank_, {}, &why);
+        try {
+            if (!over_) or_over([&] { meeting_.meet(rank_, {}, &why); });
+        } catch (const RankHasLeft&) {  // now all know
+        }
     }
 
  private:
     template <class Meet>
     std::invoke_result_t<Meet> or_over(Meet meet) {
+        if (over_) throw RankHasLeft(*over_);
         try {
             return meet();
-        } catch (const Error&) {
-            is_over_ = true;
+        } catch (const RankHasLeft& left) {
+            over_ = left;
             throw;
         }
     }
 
     MeetingPoint& meeting_;
     int rank_;
-    bool is_over_ = false;  // a rank has left
+    std::optional<RankHasLeft> over_;  // since a rank has left
 };
 
 /// Calls body(communicator) on so many ranks, and returns when all have ended.

@@ -9,6 +9,7 @@
 #include "parallel/shares.h"
 #include "support/collective_laws.h"
 #include "support/counting_ranks.h"
+#include "support/failing_ranks.h"
 #include "support/thread_ranks.h"
 
 namespace kerf {
@@ -118,6 +119,43 @@ TEST(Collectives, EndWhenARankLeaves) {
     for (const int size : {2, 5})
         for (const test::Waiting& waiting : test::ways_to_wait())
             test::run_ranks(size, [&](Communicator& ranks) { test::expect_that_leaving_ends_all(ranks, waiting); });
+}
+
+// The code of the error by which all ranks end, of which each runs body(ranks).
+template <class Body>
+void expect_end(int size, ErrorCode expected, Body body) {
+    test::run_ranks(size, [&](Communicator& ranks) {
+        try {
+            run_together(ranks, [&] { body(ranks); });
+            ADD_FAILURE() << "rank " << ranks.rank() << " of " << size << " has not failed";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), expected) << "rank " << ranks.rank() << " of " << size;
+        }
+    });
+}
+
+TEST(BytesOfRoot, AreAnErrorWhereTheRootHasLeft) {
+    for (const int size : {2, 5})
+        expect_end(size, ErrorCode::io, [](Communicator& ranks) {
+            if (ranks.rank() == 0) throw Error(ErrorCode::io, "The disk is full.");
+            bytes_of_root(
+                ranks, [] { return Bytes(1); }, [] {});
+        });
+}
+
+// The first error counts, if there is one.
+TEST(BytesOfRoot, AreAnErrorWhereTheRootCannotTellThatItHasThem) {
+    for (const int size : {2, 5})
+        for (const int good_posts : {0, size - 2})
+            for (const bool fails : {false, true})
+                expect_end(size, fails ? ErrorCode::io : ErrorCode::memory, [&](Communicator& ranks) {
+                    test::FailingPosts failing(ranks, good_posts);
+                    const auto stage = [&] {
+                        if (fails) throw Error(ErrorCode::io, "The disk is full.");
+                        return Bytes(1);
+                    };
+                    bytes_of_root(failing, stage, [] {});
+                });
 }
 
 TEST(Shares, AreRangesThatFollowEachOther) {

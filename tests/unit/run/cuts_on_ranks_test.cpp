@@ -11,6 +11,7 @@
 #include "run/range_of_rank.h"
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
+#include "support/failing_ranks.h"
 #include "support/thread_ranks.h"
 #include "support/voxel_regions.h"
 #include "support/voxels.h"
@@ -151,6 +152,59 @@ TEST(CutsOnRanks, AnyRankCanEndAll) {
         for (const int rank : {0, 1, size - 1})
             EXPECT_EQ(codes_of(size, complex, 0, rank), std::vector<ErrorCode>(size, ErrorCode::cancelled))
                 << size << " ranks, " << rank << " is stopped";
+}
+
+// The codes by which ranks end, 0 for a good end, where each cuts by means of what made(ranks) makes of it.
+template <class Made>
+std::vector<int> codes_with(int size, const Complex& complex, NodeId failing_node, Made made) {
+    std::vector<int> codes(static_cast<std::size_t>(size));
+    test::run_ranks(size, [&](Communicator& ranks) {
+        const auto rank = static_cast<std::size_t>(ranks.rank());
+        Disturber disturber;
+        disturber.failing_node = failing_node;
+        Complex own = rank == 0 ? complex : Complex();
+        try {
+            auto with = made(ranks);
+            run_together(ranks, [&] { decompose_on_ranks(with, own, test::in_parts(8), &disturber); });
+        } catch (const Error& error) {
+            codes[rank] = static_cast<int>(error.code());
+        }
+    });
+    return codes;
+}
+
+// Whatever it is that it cannot tell: that it is done, that it or another one has failed, that all are done.
+TEST(CutsOnRanks, ARankThatCannotTellEndsAll) {
+    const Complex complex(test::asset_surface("cylinder"));
+    for (const int size : {2, 5})
+        for (const int rank : {0, 1, size - 1})
+            for (int good_posts = 0; good_posts < size; ++good_posts)
+                for (const NodeId node : {0, 1, 2}) {
+                    const std::vector<int> codes = codes_with(size, complex, node, [&](Communicator& ranks) {
+                        return test::FailingPosts(ranks, ranks.rank() == rank ? good_posts : 1000);
+                    });
+                    SCOPED_TRACE(testing::Message() << size << " ranks, " << rank << " fails after " << good_posts
+                                                    << " posts, node " << node);
+                    EXPECT_EQ(codes, std::vector<int>(codes.size(), codes[0]));
+                    EXPECT_TRUE(codes[0] != 0 || (node == 0 && good_posts > 0));
+                }
+}
+
+// One has no memory when it hears that all are done: the others are no more at the cuts then.
+TEST(CutsOnRanks, AFailureAtTheEndIsThatOfAll) {
+    constexpr std::int32_t end_of_all = 3;
+    const auto is_end = [](const Bytes& note) {
+        return from_bytes<std::int32_t>(std::span(note).first(4)) == end_of_all;
+    };
+    const Complex complex(test::asset_surface("cylinder"));
+    for (const int size : {2, 5})
+        EXPECT_EQ(codes_with(size, complex, 0,
+                             [&](Communicator& ranks) {
+                                 const bool is_last = ranks.rank() == size - 1;
+                                 return test::FailingPoll(ranks,
+                                                          [=](const Bytes& note) { return is_last && is_end(note); });
+                             }),
+                  std::vector<int>(static_cast<std::size_t>(size), static_cast<int>(ErrorCode::memory)));
 }
 
 TEST(CutsOnRanks, ListenersHearOfEachCutOnce) {
