@@ -33,8 +33,8 @@ py::object defect_of(const py::object& type, const SurfaceDefect& defect) {
 
 SurfaceCheck check_path(const std::string& path, double needle_angle, const py::kwargs& options) {
     const NamedOptions named = named_options(options);
-    const py::gil_scoped_release released;
-    return kerf::check_file(path, named, needle_angle);
+    Watch watch{py::none()};
+    return without_lock(watch, [&] { return kerf::check_file(path, named, needle_angle, watch.is_cancelled()); });
 }
 
 SurfaceCheck check_given(const py::object& points, const py::object& triangles, const py::object& patches,
@@ -42,9 +42,11 @@ SurfaceCheck check_given(const py::object& points, const py::object& triangles, 
                          double needle_angle, const py::kwargs& options) {
     const SurfaceArguments all = surface_arguments(points, triangles, patches, names, sides, regions);
     const NamedOptions named = named_options(options);
-    const py::gil_scoped_release released;
-    return kerf::check_arrays(all.points, all.triangles, all.sides, all.regions, all.patches, all.names, named,
-                              needle_angle);
+    Watch watch{py::none()};
+    return without_lock(watch, [&] {
+        return kerf::check_arrays(all.points, all.triangles, all.sides, all.regions, all.patches, all.names, named,
+                                  needle_angle, watch.is_cancelled());
+    });
 }
 
 }  // namespace

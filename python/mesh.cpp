@@ -4,6 +4,7 @@
 
 #include "python/arrays.h"
 #include "python/options.h"
+#include "python/pickling.h"
 #include "python/sizes.h"
 #include "python/surface_object.h"
 
@@ -41,10 +42,48 @@ auto measured(const MeshArrays& mesh, Measure measure) {
     return measure(mesh);
 }
 
+py::list as_bytes(const std::vector<std::string>& names) {
+    py::list list;
+    for (const std::string& name : names) list.append(py::bytes(name));
+    return list;
+}
+
+// Of a pickle: arrays by names, which numpy knows in any version.
+py::dict state_of(const py::object& self) {
+    using namespace py::literals;
+    const MeshArrays& mesh = self.cast<MeshArrays&>();
+    return py::dict("points"_a = view(mesh.vertices, self), "tetrahedra"_a = view(mesh.tets, self),
+                    "part"_a = view(mesh.part, self), "region"_a = view(mesh.region, self),
+                    "triangles"_a = view(mesh.triangles, self), "patch"_a = view(mesh.patch, self),
+                    "sides"_a = view(mesh.sides, self), "tetra10"_a = view(mesh.quadratic_tets, self),
+                    "triangle6"_a = view(mesh.quadratic_triangles, self), "edge_nodes"_a = mesh.edge_nodes,
+                    "patch_names"_a = as_bytes(mesh.patch_names), "region_names"_a = as_bytes(mesh.region_names),
+                    "report"_a = py::bytes(mesh.report));
+}
+
+std::shared_ptr<MeshArrays> mesh_of_state(const py::dict& state) {
+    const auto names = [&](const char* name) { return state[name].cast<std::vector<std::string>>(); };
+    return std::make_shared<MeshArrays>(
+        MeshArrays{.vertices = rows_of_state<double, 3>(state, "points"),
+                   .tets = rows_of_state<std::int64_t, 4>(state, "tetrahedra"),
+                   .part = numbers_of_state<std::int32_t>(state, "part"),
+                   .triangles = rows_of_state<std::int64_t, 3>(state, "triangles"),
+                   .patch = numbers_of_state<std::int32_t>(state, "patch"),
+                   .patch_names = names("patch_names"),
+                   .region = numbers_of_state<std::int32_t>(state, "region"),
+                   .region_names = names("region_names"),
+                   .sides = rows_of_state<std::int32_t, 2>(state, "sides"),
+                   .report = state["report"].cast<std::string>(),
+                   .edge_nodes = state["edge_nodes"].cast<std::int64_t>(),
+                   .quadratic_tets = rows_of_state<std::int64_t, 10>(state, "tetra10"),
+                   .quadratic_triangles = rows_of_state<std::int64_t, 6>(state, "triangle6")});
+}
+
 }  // namespace
 
 void register_mesh(py::module_& module) {
     py::class_<MeshArrays, std::shared_ptr<MeshArrays>>(module, "Mesh")
+        .def(py::pickle(&state_of, &mesh_of_state))
         .def_property_readonly("points", array_of(&MeshArrays::vertices))
         .def_property_readonly("tetrahedra", array_of(&MeshArrays::tets))
         .def_property_readonly("order", [](const MeshArrays& self) { return self.quadratic_tets.empty() ? 1 : 2; })

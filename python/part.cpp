@@ -6,6 +6,7 @@
 
 #include "part/part.h"
 #include "python/arrays.h"
+#include "python/pickling.h"
 
 namespace kerf::python {
 
@@ -87,10 +88,44 @@ py::dict values_of(const py::object& self, PartValues::Of of) {
     return values;
 }
 
+// Of a part all but its solution, in their order; of order 2 the edges follow from the tetrahedra.
+template <class Archive, class AnyPart>
+void archive_mesh(Archive& a, AnyPart& part) {
+    a(part.id, part.mesh.vertices, part.mesh.boundary_vertex_count, part.mesh.tets, part.mesh.neighbours, part.facets,
+      part.patch, part.facet, part.neighbour, part.tet_at_facet, part.global_id, part.patch_names, part.region_names,
+      part.regions, part.contact_vertices, part.contact_edges, part.shared, part.shared_edges, part.edge_nodes.points,
+      part.edge_nodes.global_id);
+}
+
+void write_part(ByteWriter& writer, const Part& part) {
+    archive_mesh(writer, part);
+    writer(std::uint64_t{part.values.size()});
+    for (const PartValues& each : part.values) {
+        writer(each.name, each.of, std::int32_t{each.components}, std::int32_t{each.is_double()});
+        std::visit([&](const auto& numbers) { writer(numbers); }, each.numbers);
+    }
+}
+
+void read_part(ByteReader& reader, Part& part) {
+    archive_mesh(reader, part);
+    if (!part.edge_nodes.points.empty()) part.edge_nodes.edges = EdgeTable(part.mesh.tets, part.mesh.vertices.size());
+    std::uint64_t count = 0;
+    for (reader(count); count > 0; --count) {
+        PartValues each;
+        std::int32_t components = 0, is_double = 0;
+        reader(each.name, each.of, components, is_double);
+        each.components = components;
+        if (is_double) each.numbers.emplace<std::vector<double>>();
+        std::visit([&](auto& numbers) { reader(numbers); }, each.numbers);
+        part.values.push_back(std::move(each));
+    }
+}
+
 }  // namespace
 
 void register_part(py::module_& module) {
     py::class_<Part, std::shared_ptr<Part>>(module, "Part")
+        .def(pickled_as_bytes<Part>(&write_part, &read_part))
         .def_readonly("number", &Part::id)
         .def_property_readonly("points", &points_of_part)
         .def_property_readonly("boundary_points", [](const Part& self) { return self.mesh.boundary_vertex_count; })

@@ -26,14 +26,17 @@ std::shared_ptr<SurfaceObject> make_surface(const py::object& points, const py::
                                             const py::object& regions, const py::kwargs& options) {
     const SurfaceArguments all = surface_arguments(points, triangles, patches, names, sides, regions);
     const NamedOptions named = named_options(options);
-    const py::gil_scoped_release released;
-    return made(surface_of_regions(all.points, all.triangles, all.sides, all.regions, all.patches, all.names, named));
+    Watch watch{py::none()};
+    return without_lock(watch, [&] {
+        return made(surface_of_regions(all.points, all.triangles, all.sides, all.regions, all.patches, all.names, named,
+                                       watch.is_cancelled()));
+    });
 }
 
 std::shared_ptr<SurfaceObject> read(const std::string& path, const py::kwargs& options) {
     const NamedOptions named = named_options(options);
-    const py::gil_scoped_release released;
-    return made(surface_from_file(path, named));
+    Watch watch{py::none()};
+    return without_lock(watch, [&] { return made(surface_from_file(path, named, watch.is_cancelled())); });
 }
 
 std::shared_ptr<SurfaceObject> remesh(const SurfaceObject& self, const py::object& progress,

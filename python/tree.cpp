@@ -5,6 +5,7 @@
 #include "kerf/cut_tree.h"
 #include "python/arrays.h"
 #include "python/options.h"
+#include "python/pickling.h"
 #include "python/surface_object.h"
 #include "report/tree_text.h"
 
@@ -118,6 +119,7 @@ void register_parts(py::module_& module) {
         return [get](const py::object& self) { return view(get(self.cast<PartJob&>()), self); };
     };
     py::class_<PartJob>(module, "PartSurface")
+        .def(pickled_as_bytes<PartJob>())
         .def_readonly("id", &PartJob::part)
         .def_property_readonly("region", [](const PartJob& self) { return self.region.value(); })
         .def_property_readonly("points", shared<PartJob>([](const auto& p) -> auto& { return p.surface.vertices; }))

@@ -109,7 +109,7 @@ ClosedSurface remeshed_as(const ClosedSurface& surface, const RunOptions& option
     const ClosedSurface result(std::make_shared<const Input>(std::move(sized.input)));
     const std::vector<std::string> regions = result.region_names();
     return surface_of_regions(result.vertices(), result.facets(), regions.empty() ? Sides() : result.sides(), regions,
-                              result.patches(), result.patch_names());
+                              result.patches(), result.patch_names(), {}, is_cancelled);
 }
 
 }  // namespace

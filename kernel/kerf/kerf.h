@@ -30,6 +30,10 @@ const char* library_version();
 /// Options by their names and values on the command line: {{"radius-edge", "1.2"}, {"voids", "parity"}}.
 using NamedOptions = std::vector<std::pair<std::string, std::string>>;
 
+/// Asked often while a call goes on, from any thread, also where there is nothing to tell of; ends it with
+/// Error(cancelled) by returning true. Must not throw, and should be quick.
+using IsCancelled = std::function<bool()>;
+
 struct Input;
 
 /// A closed surface that can be meshed. Copies share their data, which never changes.
@@ -82,11 +86,12 @@ class SurfaceError : public Error {
 /// number, or empty. `options`: those of the surface, as "weld", "voids", "fill-holes" (docs/options.md).
 ///
 /// Everything is checked. Throws Error(usage) for sizes that do not fit, SurfaceError for a row that is wrong and for a
-/// surface that is not closed or intersects itself: elements() has the numbers of vertices and facets.
+/// surface that is not closed or intersects itself: elements() has the numbers of vertices and facets. `is_cancelled`
+/// ends repairs and wraps.
 ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
                                   std::span<const std::array<std::int32_t, 3>> facets,
                                   std::span<const std::int32_t> patches = {}, std::vector<std::string> patch_names = {},
-                                  const NamedOptions& options = {});
+                                  const NamedOptions& options = {}, const IsCancelled& is_cancelled = {});
 
 /// The facets of several bodies that share walls, each facet once. `sides`: of each facet the regions behind it and in
 /// front of it, where its corners are counter-clockwise, as numbers of `region_names`, or -1: outside. The others as
@@ -96,10 +101,12 @@ ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices
                                  std::span<const std::array<std::int32_t, 3>> facets,
                                  std::span<const std::array<std::int32_t, 2>> sides,
                                  std::vector<std::string> region_names, std::span<const std::int32_t> patches = {},
-                                 std::vector<std::string> patch_names = {}, const NamedOptions& options = {});
+                                 std::vector<std::string> patch_names = {}, const NamedOptions& options = {},
+                                 const IsCancelled& is_cancelled = {});
 
 /// The surface of a file of any format that `kerf mesh` reads. Throws Error(io) and as surface_from_arrays() does.
-ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options = {});
+ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options = {},
+                                const IsCancelled& is_cancelled = {});
 
 /// Writes an .obj with patches, of several regions with a closed group for each instead, or an .stl, whose coordinates
 /// have 7 digits. Throws Error(usage) for another ending, and for regions in an .stl, Error(io).
@@ -116,7 +123,8 @@ using FileCheck = SurfaceCheck;
 
 /// Of a file. `needle_angle`: degrees below which a facet is a needle, 0 to 60. Throws Error(io) for a file that cannot
 /// be opened, Error(usage) for options out of range.
-SurfaceCheck check_file(const std::string& path, const NamedOptions& options = {}, double needle_angle = 1);
+SurfaceCheck check_file(const std::string& path, const NamedOptions& options = {}, double needle_angle = 1,
+                        const IsCancelled& is_cancelled = {});
 
 /// Of arrays as surface_of_regions() takes them; `sides` and `region_names` empty: as surface_from_arrays() does.
 /// Throws Error(usage) for sizes that do not fit, and options out of range.
@@ -125,15 +133,11 @@ SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
                           std::span<const std::array<std::int32_t, 2>> sides = {},
                           std::vector<std::string> region_names = {}, std::span<const std::int32_t> patches = {},
                           std::vector<std::string> patch_names = {}, const NamedOptions& options = {},
-                          double needle_angle = 1);
+                          double needle_angle = 1, const IsCancelled& is_cancelled = {});
 
 /// Is told of the stages of a call, with steps that are done of all, 0 if nobody knows how many; ends it with
 /// Error(cancelled) by returning false. Must not throw.
 using Progress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
-
-/// Asked often while a call goes on, from any thread, also where there is nothing to tell of; ends it with
-/// Error(cancelled) by returning true. Must not throw, and should be quick.
-using IsCancelled = std::function<bool()>;
 
 /// A surface with triangles worth meshing, nowhere farther than `deviation` from the given one, 0: a twentieth of
 /// `size`. `size`: wanted edge length, 0: as long as the deviation allows. Both in units of the surface. Patches stay.

@@ -6,6 +6,7 @@
 #include "io/output_file.h"
 #include "kerf/array_points.h"
 #include "kerf/kerf.h"
+#include "kerf/progress_listener.h"
 #include "prepare/surface_file.h"
 #include "report/file_diagnosis.h"
 #include "request/options.h"
@@ -105,6 +106,8 @@ ClosedSurface surface_of(const Make& make, const Diagnose& diagnose) {
     }
 }
 
+const Progress untold;  // of who makes a surface, or checks one
+
 Soup to_soup(std::span<const std::array<double, 3>> vertices, std::span<const std::array<std::int32_t, 3>> facets,
              std::span<const std::array<std::int32_t, 2>> sides, std::vector<std::string> region_names,
              std::span<const std::int32_t> patches, std::vector<std::string> patch_names) {
@@ -121,29 +124,35 @@ Soup to_soup(std::span<const std::array<double, 3>> vertices, std::span<const st
 ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertices,
                                   std::span<const std::array<std::int32_t, 3>> facets,
                                   std::span<const std::int32_t> patches, std::vector<std::string> patch_names,
-                                  const NamedOptions& options) {
-    return surface_of_regions(vertices, facets, {}, {}, patches, std::move(patch_names), options);
+                                  const NamedOptions& options, const IsCancelled& is_cancelled) {
+    return surface_of_regions(vertices, facets, {}, {}, patches, std::move(patch_names), options, is_cancelled);
 }
 
 ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices,
                                  std::span<const std::array<std::int32_t, 3>> facets,
                                  std::span<const std::array<std::int32_t, 2>> sides,
                                  std::vector<std::string> region_names, std::span<const std::int32_t> patches,
-                                 std::vector<std::string> patch_names, const NamedOptions& options) {
+                                 std::vector<std::string> patch_names, const NamedOptions& options,
+                                 const IsCancelled& is_cancelled) {
     const InputOptions wanted = input_options(options);
+    ProgressListener listener(untold, is_cancelled);
+    const std::function<void()> poll = poll_of(&listener);
     const auto soup_of_all = [&] { return to_soup(vertices, facets, sides, region_names, patches, patch_names); };
     return surface_of(
         [&] {
             Soup soup = soup_of_all();
             return make_input(std::move(soup.vertices), std::move(soup.facets), std::move(soup.sides),
-                              std::move(soup.region_names), std::move(soup.patch), std::move(soup.patch_names), wanted);
+                              std::move(soup.region_names), std::move(soup.patch), std::move(soup.patch_names), wanted,
+                              poll);
         },
-        [&] { return diagnose_arrays(soup_of_all(), wanted); });
+        [&] { return diagnose_arrays(soup_of_all(), wanted, 1, poll); });
 }
 
-ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options) {
+ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options, const IsCancelled& is_cancelled) {
     const InputOptions wanted = input_options(options);
-    return surface_of([&] { return read_input(path, wanted); }, [&] { return diagnose_file(path, wanted); });
+    ProgressListener listener(untold, is_cancelled);
+    return surface_of([&] { return read_input(path, wanted, &listener); },
+                      [&] { return diagnose_file(path, wanted, 1, poll_of(&listener)); });
 }
 
 void surface_to_file(const ClosedSurface& surface, const std::string& path) {
@@ -153,18 +162,21 @@ void surface_to_file(const ClosedSurface& surface, const std::string& path) {
     write_surface(path, complex, surface.patch_names());
 }
 
-SurfaceCheck check_file(const std::string& path, const NamedOptions& options, double needle_angle) {
-    return surface_check(diagnose_file(path, input_options(options), needle_angle));
+SurfaceCheck check_file(const std::string& path, const NamedOptions& options, double needle_angle,
+                        const IsCancelled& is_cancelled) {
+    ProgressListener listener(untold, is_cancelled);
+    return surface_check(diagnose_file(path, input_options(options), needle_angle, poll_of(&listener)));
 }
 
 SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
                           std::span<const std::array<std::int32_t, 3>> facets,
                           std::span<const std::array<std::int32_t, 2>> sides, std::vector<std::string> region_names,
                           std::span<const std::int32_t> patches, std::vector<std::string> patch_names,
-                          const NamedOptions& options, double needle_angle) {
+                          const NamedOptions& options, double needle_angle, const IsCancelled& is_cancelled) {
+    ProgressListener listener(untold, is_cancelled);
     return surface_check(
         diagnose_arrays(to_soup(vertices, facets, sides, std::move(region_names), patches, std::move(patch_names)),
-                        input_options(options), needle_angle));
+                        input_options(options), needle_angle, poll_of(&listener)));
 }
 
 }  // namespace kerf

@@ -249,11 +249,11 @@ void check_given(Soup& soup) {
     check_rows(soup);
 }
 
-Input input_of_arrays(Soup soup, const InputOptions& options) {
+Input input_of_arrays(Soup soup, const InputOptions& options, const std::function<void()>& poll) {
     check_given(soup);
     const std::string hash = hash_of(soup);
     scale(soup, options.scale);
-    Input input = to_input(check_soup(std::move(soup), options), name_of_arrays, options, "");
+    Input input = to_input(check_soup(std::move(soup), options, 1, poll), name_of_arrays, options, "");
     input.file_hash = hash;
     input.is_ready = true;
     return input;
@@ -289,18 +289,21 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     return checked;
 }
 
-CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg) {
-    return check_files(read_input_files(path, options), options, needle_angle_deg);
+CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg,
+                        const std::function<void()>& poll) {
+    return check_files(read_input_files(path, options), options, needle_angle_deg, poll);
 }
 
-CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg) {
-    return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg);
+CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg,
+                       const std::function<void()>& poll) {
+    return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg, poll);
 }
 
-CheckedSoup check_arrays(Soup soup, const InputOptions& options, double needle_angle_deg) {
+CheckedSoup check_arrays(Soup soup, const InputOptions& options, double needle_angle_deg,
+                         const std::function<void()>& poll) {
     check_given(soup);
     scale(soup, options.scale);
-    return check_soup(std::move(soup), options, needle_angle_deg);
+    return check_soup(std::move(soup), options, needle_angle_deg, poll);
 }
 
 Complex make_complex(Soup soup) {
@@ -346,17 +349,18 @@ Input read_input(const std::string& path, const InputOptions& options, StageList
 }
 
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch,
-                 std::vector<std::string> patch_names, const InputOptions& options) {
-    return input_of_arrays({std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)}, options);
+                 std::vector<std::string> patch_names, const InputOptions& options, const std::function<void()>& poll) {
+    return input_of_arrays({std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)}, options,
+                           poll);
 }
 
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
                  std::vector<std::string> region_names, std::vector<std::int32_t> patch,
-                 std::vector<std::string> patch_names, const InputOptions& options) {
+                 std::vector<std::string> patch_names, const InputOptions& options, const std::function<void()>& poll) {
     Soup soup{std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)};
     soup.sides = std::move(sides);
     soup.region_names = std::move(region_names);
-    return input_of_arrays(std::move(soup), options);
+    return input_of_arrays(std::move(soup), options, poll);
 }
 
 std::vector<double> region_volumes(const Input& input) {

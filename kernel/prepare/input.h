@@ -129,13 +129,15 @@ struct Input {
 };
 
 /// Reads (several files and CAD files, too: prepare/input_files.h), repairs, diagnoses. Throws Error only for a file
-/// that cannot be read.
-CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
+/// that cannot be read. `poll`: as of check_files().
+CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1,
+                        const std::function<void()>& poll = {});
 
 /// Checks what a reader returned. Where facets do not say what they bound, their regions are found
 /// (surface/region_finder.h): by points, or because several bodies touch. Throws Error(input) for points that are
 /// misplaced, and Error(usage) for points where there are regions already.
-CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1,
+                       const std::function<void()>& poll = {});
 
 /// Checks files that have been read: each is a body of its own, and those of several are regions. `poll`: as repair()
 /// and wrap() call it.
@@ -170,7 +172,8 @@ inline constexpr const char* name_of_arrays = "surface in memory";
 
 /// Checks arrays as make_input() takes them, `soup`: nothing but its vertices, facets, patches, names and sides. Throws
 /// as that does, but not for a surface that cannot be meshed.
-CheckedSoup check_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+CheckedSoup check_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1,
+                         const std::function<void()>& poll = {});
 
 /// The input that read_input() makes of a file, of arrays. `patch`: a number from 0 for each facet, or empty: one
 /// patch. `patch_names`: a name for each number, or empty: "patch_0", "patch_1", ... Vertices of equal coordinates are
@@ -178,15 +181,18 @@ CheckedSoup check_arrays(Soup soup, const InputOptions& options = {}, double nee
 ///
 /// All is checked, in every build. Throws Error(usage) for sizes that do not fit, WrongRow for a coordinate that is not
 /// finite, a corner that is no vertex, a facet with a repeated corner, and a patch without a name, and Error(input) for
-/// all that read_input() refuses: the message names the first row, Error::elements() all of them. O(#F log #F).
+/// all that read_input() refuses: the message names the first row, Error::elements() all of them. `poll`: as of
+/// check_files(). O(#F log #F).
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch = {},
-                 std::vector<std::string> patch_names = {}, const InputOptions& options = {});
+                 std::vector<std::string> patch_names = {}, const InputOptions& options = {},
+                 const std::function<void()>& poll = {});
 
 /// The same for several regions. `sides`: what lies on the sides of each facet, by numbers of `region_names`; each
 /// facet is given once. Throws as above, and Error(input) for what a Complex refuses.
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
                  std::vector<std::string> region_names, std::vector<std::int32_t> patch = {},
-                 std::vector<std::string> patch_names = {}, const InputOptions& options = {});
+                 std::vector<std::string> patch_names = {}, const InputOptions& options = {},
+                 const std::function<void()>& poll = {});
 
 /// check_input() and apply_repairs(), then builds the surface. Throws UnfitSurface, naming the file, the
 /// first offenders and what to do, if the surface has errors; Error::elements() has all. Throws Error(usage) if the

@@ -167,14 +167,16 @@ int FileDiagnosis::exit_code() const {
     return can_be_meshed() ? 0 : static_cast<int>(ErrorCode::input);
 }
 
-FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg) {
+FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg,
+                            const std::function<void()>& poll) {
     require_good(options, needle_angle_deg);
-    return diagnosed(path, [&] { return check_input(path, options, needle_angle_deg); });
+    return diagnosed(path, [&] { return check_input(path, options, needle_angle_deg, poll); });
 }
 
-FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double needle_angle_deg) {
+FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double needle_angle_deg,
+                              const std::function<void()>& poll) {
     require_good(options, needle_angle_deg);
-    return diagnosed(name_of_arrays, [&] { return check_arrays(std::move(soup), options, needle_angle_deg); });
+    return diagnosed(name_of_arrays, [&] { return check_arrays(std::move(soup), options, needle_angle_deg, poll); });
 }
 
 // By kind, and the errors of a kind before what is repaired.

@@ -1,6 +1,7 @@
 // What is wrong with a surface file, as values, text and JSON.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,11 +36,13 @@ struct FileDiagnosis {
 
 /// Reads and diagnoses a file. A reader stops at the first thing that it does not understand, or of which it cannot
 /// make a surface: the file is refused then. Throws Error for a file that cannot be opened, and Error(usage) for
-/// options out of range.
-FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1);
+/// options out of range. `poll`: as of check_files(); what it throws must be no Error(input).
+FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1,
+                            const std::function<void()>& poll = {});
 
 /// The same of arrays, see check_arrays(). Throws Error(usage) for sizes that do not fit, too.
-FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1);
+FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1,
+                              const std::function<void()>& poll = {});
 
 /// What it is, where, and what to do about it, in one sentence.
 std::string defect_text(const Defect& defect, const Soup& soup);

@@ -30,10 +30,13 @@ if TYPE_CHECKING:
 
 
 class Mesh:
-    """A mesh in memory. Its arrays are read-only views; nothing changes them."""
+    """A mesh in memory. Its arrays are read-only views; nothing changes them. It can be pickled and copied."""
 
     def __init__(self, native: _kerf.Mesh) -> None:
         self._native = native
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Mesh, (self._native,)  # what is found when it is first asked for is found again
 
     @property
     def points(self) -> np.ndarray:

@@ -40,6 +40,9 @@ class Run:
         self._folder = os.path.abspath(os.fspath(folder))
         self._native = _kerf.Run(self._folder)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Run, (self._folder,)
+
     @property
     def folder(self) -> str:
         """Absolute path."""

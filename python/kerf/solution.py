@@ -65,6 +65,10 @@ class SolvedPart(Fields):
     def __init__(self, native: _kerf.Part, suffix: str) -> None:
         super().__init__(lambda name, of_points: _array(native, name + suffix, of_points))
         self._native = native
+        self._suffix = suffix
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return SolvedPart, (self._native, self._suffix)
 
     @property
     def number(self) -> int:
@@ -99,6 +103,9 @@ class LoadCase(Fields):
         self._solution = solution
         self._suffix = suffix
         self.report = report
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return LoadCase, (self._solution, self.report, self._suffix)
 
     @property
     def name(self) -> str:
@@ -197,6 +204,15 @@ class Solution:
         with open(os.path.join(found, "report.json"), encoding="utf-8") as file:
             #: report.json, as docs/output.md has it
             self.report: dict[str, Any] = json.load(file)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._owner is not None:
+            raise TypeError("This solution is in a temporary folder, which goes when it does. Give solve() an output, "
+                            "or pickle its arrays.")
+        return Solution, (os.path.abspath(self.folder),)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Solution:
+        return self  # nothing changes it
 
     @property
     def cases(self) -> list[LoadCase]:

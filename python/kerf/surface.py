@@ -68,17 +68,28 @@ class Surface:
     options    those of the surface: scale, weld, fill_holes, keep_largest, voids, ... (kerf.options() lists them)
 
     Everything is copied and checked; points of equal coordinates become one. Its own arrays are read-only views: they
-    may have fewer rows than what was given. Raises TypeError or ValueError, naming the argument, for arrays with wrong
+    may have fewer rows than what was given. It can be pickled and copied; that checks the arrays again. Raises TypeError or ValueError, naming the argument, for arrays with wrong
     dtypes, shapes or lengths; UsageError for options; InputError, naming the row, for corners out of range, points that
     are not finite, and triangles that have a corner twice; and InputError for a surface that is not closed, intersects
     itself or bounds no body: its `defects` has all of them, as check() does. Cost: O(m log m), 0.4 M triangles in 4 s.
     """
+
+    _made: Optional[tuple[str, Optional[dict[str, Any]]]] = None
 
     def __init__(self, points: ArrayLike, triangles: ArrayLike, patches: Optional[ArrayLike] = None,
                  names: Optional[Sequence[str]] = None, sides: Optional[ArrayLike] = None,
                  regions: Optional[Sequence[str]] = None, **options: object) -> None:
         self._native = _kerf.Surface(points, triangles, patches, encoded_names("names", names), sides,
                                      encoded_names("regions", regions), **options)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        of_regions = self.regions or None
+        return _unpickled, (self.points, self.triangles, self.patches, self.names, self.sides if of_regions else None,
+                            of_regions, *self._told())
+
+    def _told(self) -> tuple[str, Optional[dict[str, Any]]]:
+        """What was repaired, and of a wrap its distances: no arrays tell that."""
+        return self._made if self._made is not None else (self._native.repairs, self._native.wrapped)
 
     @classmethod
     def _of(cls, native: _kerf.Surface) -> Surface:
@@ -181,12 +192,12 @@ class Surface:
     @property
     def repairs(self) -> list[Repair]:
         """What the option `repair`, or kerf.repair(), has done when this surface was made; empty: nothing was wrong."""
-        return repairs_of(self._native.repairs)
+        return repairs_of(self._told()[0])
 
     @property
     def wrapped(self) -> Optional[Wrapping]:
         """How far from the input it is, if kerf.wrap() has made this surface; None: it is no wrap, or was remeshed."""
-        report = self._native.wrapped
+        report = self._told()[1]
         return None if report is None else Wrapping(**report)
 
     def check(self, needle_angle: float = 1) -> Check:
@@ -233,6 +244,13 @@ class Surface:
         rows = {"points": len(self.points), "triangles": len(self.triangles), "patches": len(self.names),
                 "regions": max(1, len(self.regions)), "volume": self.volume, "area": self.area}
         return html_of(self, "kerf.Surface", rows, len(self.triangles))
+
+
+def _unpickled(points: np.ndarray, triangles: np.ndarray, patches: np.ndarray, names: list[str],
+               sides: Optional[np.ndarray], regions: Optional[list[str]], *told: Any) -> Surface:
+    surface = Surface(points, triangles, patches, names, sides, regions)
+    surface._made = cast("tuple[str, Optional[dict[str, Any]]]", told)
+    return surface
 
 
 def read(path: Union[Path, Sequence[Path]], **options: object) -> Surface:

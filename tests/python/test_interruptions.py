@@ -57,6 +57,33 @@ def test_control_c_ends_a_call_and_its_workers(temporary):
     assert not any(os.path.exists(f"/proc/{worker}") for worker in workers)
 
 
+# Minutes with so narrow a gap: once with a file, once with arrays.
+LONG_WRAP = """
+import os, sys, kerf
+surface = path = os.path.join(os.environ["KERF_ASSETS"], "pipe_with_holes.stl")
+if sys.argv[1] == "arrays":
+    surface = kerf.read(path)
+print("begun", flush=True)
+try:
+    kerf.wrap(surface, gap="0.6%")
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+@pytest.mark.parametrize("given", ["file", "arrays"])
+def test_control_c_ends_a_wrap(temporary, given):
+    call = subprocess.Popen([sys.executable, "-c", LONG_WRAP, given], stdout=subprocess.PIPE, text=True)
+    assert call.stdout.readline() == "begun\n"
+    time.sleep(0.2)
+    call.send_signal(signal.SIGINT)
+    try:
+        assert call.communicate(timeout=30)[0] == "interrupted\n"
+    finally:
+        call.kill()
+    assert call.returncode == 0
+
+
 def test_progress_ends_a_call(cube, temporary):
     with pytest.raises(kerf.Cancelled):
         kerf.mesh(kerf.Surface(*cube), size=0.1, progress=lambda stage, done, total: False)
