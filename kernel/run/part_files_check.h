@@ -33,6 +33,7 @@ struct InterfaceFacet {
 /// What a part tells of itself, and what has to be compared with others.
 struct PartFindings {
     std::string file;                           ///< path in the folder
+    bool is_whole = true;                       ///< false: of order 2, and nobody knows its nodes on edges
     std::vector<std::string> differences = {};  ///< as FolderVerification::differences
     RunVerification laws = {};                  ///< the counts that a part alone can break
     std::int64_t tets = 0;
@@ -51,8 +52,8 @@ struct PartFindings {
 class PartFilesCheck {
  public:
     /// `order` of the run; `is_of_this_version`: else headers may be others; `file_hashes`: of the files by their
-    /// paths, as they are now; `stored`: of order 2 without VTU files, the parts with their nodes on edges, else null.
-    /// All of them must outlive the check.
+    /// paths, as they are now; `stored`: of order 2 without VTU files, the parts with their nodes on edges, else null,
+    /// and where they cannot be read. All of them must outlive the check.
     PartFilesCheck(const std::string& folder, int order, bool is_of_this_version,
                    const std::map<std::string, std::string>& file_hashes, const RunParts* stored)
         : folder_(folder),

@@ -11,6 +11,7 @@
 #include <optional>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,7 @@ std::string read_report(const std::string& folder) {
 
 struct ComparedFiles {
     std::vector<std::string> differences;
+    std::vector<std::string> other_files;       // paths of those that are missing or changed
     std::map<std::string, std::string> hashes;  // by path: as the files are now
 };
 
@@ -60,7 +62,10 @@ struct ComparedFiles {
 ComparedFiles compare_files(const std::string& folder, const std::string& report_text) {
     ComparedFiles compared;
     const auto differs = [&](std::string what) { compared.differences.push_back(std::move(what)); };
-    if (!is_sealed(report_text)) differs("report.json is not as the run has written it");
+    if (!is_sealed(report_text)) {
+        differs("report.json is not as the run has written it");
+        compared.other_files.push_back("report.json");
+    }
     const std::vector<std::string> present = list_files(folder);
     const std::vector<RunFile> listed = files_of_report(parse_json(report_text));
     std::vector<std::optional<RunFile>> found(listed.size());
@@ -72,10 +77,9 @@ ComparedFiles compare_files(const std::string& folder, const std::string& report
     for (std::size_t i = 0; i < listed.size(); ++i) {
         const RunFile& file = listed[i];
         known.push_back(file.path);
-        if (!found[i])
-            differs(file.path + " is missing");
-        else if (found[i]->bytes != file.bytes || found[i]->hash != file.hash)
-            differs(file.path + " is not as the run has written it");
+        const bool is_other = !found[i] || found[i]->bytes != file.bytes || found[i]->hash != file.hash;
+        if (is_other) differs(file.path + (found[i] ? " is not as the run has written it" : " is missing"));
+        if (is_other) compared.other_files.push_back(file.path);
         if (found[i]) compared.hashes[file.path] = found[i]->hash;
     }
     std::sort(known.begin(), known.end());
@@ -84,6 +88,29 @@ ComparedFiles compare_files(const std::string& folder, const std::string& report
             !(file.starts_with("work/") && is_named_like_run_file(file)))  // a kill may have left it
             differs(file + " is no file of the run");
     return compared;
+}
+
+// Whether a file cannot be read because it is not what the run has written, whatever its hash says.
+bool is_damage(const Error& error) { return error.code() == ErrorCode::io || error.code() == ErrorCode::verification; }
+
+struct CheckedPart {
+    std::optional<PartFindings> found;
+    std::string why_not = {};  // it cannot be read
+};
+
+CheckedPart checked_part(const PartFilesCheck& check, const nlohmann::json& of_report) {
+    try {
+        return {check(of_report)};
+    } catch (const Error& error) {
+        if (!is_damage(error)) throw;
+        return {{}, error.what()};
+    }
+}
+
+// How the paths of all files of a part begin.
+std::string stem_of_part_files(NodeId part) {
+    const std::string name = part_file_name(part);
+    return "parts/" + name.substr(0, name.rfind('.') + 1);
 }
 
 class FolderVerifier {
@@ -100,13 +127,15 @@ class FolderVerifier {
     FolderVerification run() {
         check_files();
         check_parts();
-        check_pvtu();
-        check_shared_vertices();
-        check_interfaces();
-        check_numbering();
-        check_edge_nodes();
-        if (!options_.without_input) check_input();
-        summarise();
+        if (unread_parts_ == 0) {
+            check_pvtu();
+            check_shared_vertices();
+            check_interfaces();
+            check_numbering();
+            check_edge_nodes();
+            if (!options_.without_input) check_input();
+            summarise();
+        }
         return std::move(result_);
     }
 
@@ -114,6 +143,8 @@ class FolderVerifier {
     void differs(std::string what) { result_.differences.push_back(std::move(what)); }
     void check_files();
     void check_parts();
+    std::unique_ptr<const RunParts> stored_parts();
+    void cannot_read(const std::vector<std::string>& files, const std::string& why);
     void take(PartFindings found);
     void end_if_cancelled() const;
     void check_pvtu();
@@ -142,6 +173,8 @@ class FolderVerifier {
     RunNames names_;
     std::vector<PartHash> hashes_;                    // in the order of the report
     std::map<std::string, std::string> file_hashes_;  // by path: as the files are now
+    std::vector<std::string> other_files_;            // paths of those that are missing or changed
+    std::int64_t unread_parts_ = 0;
     EdgeNodeCheck edge_nodes_;
 };
 
@@ -149,6 +182,7 @@ void FolderVerifier::check_files() {
     ComparedFiles compared = compare_files(folder_, report_text_);
     result_.differences = std::move(compared.differences);
     file_hashes_ = std::move(compared.hashes);
+    other_files_ = std::move(compared.other_files);
 }
 
 void FolderVerifier::end_if_cancelled() const {
@@ -156,27 +190,55 @@ void FolderVerifier::end_if_cancelled() const {
         throw Error(ErrorCode::cancelled, "The verification was cancelled.");
 }
 
+// What cannot be read is one of the differences, if that does not follow from another one. `files`: how the paths of
+// those begin that are needed for it.
+void FolderVerifier::cannot_read(const std::vector<std::string>& files, const std::string& why) {
+    const auto is_needed = [&](const std::string& path) {
+        return std::any_of(files.begin(), files.end(), [&](const std::string& file) { return path.starts_with(file); });
+    };
+    if (std::none_of(other_files_.begin(), other_files_.end(), is_needed)) differs(why);
+}
+
+// Of order 2 without VTU: who knows the nodes on edges. Null for others, and where files that it takes are damaged.
+std::unique_ptr<const RunParts> FolderVerifier::stored_parts() {
+    const nlohmann::json& parts = report_.at("parts");
+    const auto is_stored = [&](const auto& part) { return path_of_part(folder_, part.at("id")).ends_with(".part"); };
+    if (order_ != 2 || std::none_of(parts.begin(), parts.end(), is_stored)) return nullptr;
+    try {
+        return std::make_unique<RunParts>(folder_);
+    } catch (const Error& error) {
+        if (!is_damage(error)) throw;
+        cannot_read({"report.json", "parts/"}, error.what());
+        return nullptr;
+    }
+}
+
 // Each part by itself, on threads; what is found is taken in the order of the report, as soon as that can be.
 void FolderVerifier::check_parts() {
     const nlohmann::json& parts = report_.at("parts");
-    const auto is_stored = [&](const auto& part) { return path_of_part(folder_, part.at("id")).ends_with(".part"); };
-    std::unique_ptr<const RunParts> stored;  // of order 2 without VTU: who knows the nodes on edges
-    if (order_ == 2 && std::any_of(parts.begin(), parts.end(), is_stored)) stored = std::make_unique<RunParts>(folder_);
+    const std::unique_ptr<const RunParts> stored = stored_parts();
     const PartFilesCheck check(folder_, order_, is_of_this_version_, file_hashes_, stored.get());
     const auto caller = std::this_thread::get_id();  // the only one that may ask who waits
     std::mutex mutex;
-    std::vector<std::optional<PartFindings>> found(parts.size());
+    std::vector<std::optional<CheckedPart>> checked(parts.size());
     std::size_t next = 0;
     for_each_on_threads(parts.size(), [&](std::size_t i) {
         if (std::this_thread::get_id() == caller) end_if_cancelled();
-        PartFindings of_part = check(parts[i]);
+        CheckedPart of_part = checked_part(check, parts[i]);
         const std::lock_guard lock(mutex);
-        found[i] = std::move(of_part);
-        for (; next < found.size() && found[next]; ++next) {
-            take(std::move(*found[next]));
-            found[next].reset();
+        checked[i] = std::move(of_part);
+        for (; next < checked.size() && checked[next]; ++next) {
+            CheckedPart here = *std::exchange(checked[next], {});
+            unread_parts_ += !here.found || !here.found->is_whole;
+            if (here.found)
+                take(*std::move(here.found));
+            else
+                cannot_read({stem_of_part_files(parts[next].at("id"))}, here.why_not);
         }
     });
+    if (unread_parts_ > 0)
+        differs(fmt::format("{} of {} parts cannot be read: laws of the whole were not checked", unread_parts_,
+                            parts.size()));
 }
 
 void FolderVerifier::take(PartFindings found) {
@@ -362,7 +424,9 @@ FolderVerification verify_folder(const std::string& folder, const VerifyOptions&
             return verify_solution(*solution, options);
         return FolderVerifier(folder, options).run();
     } catch (const nlohmann::json::exception& e) {
-        throw Error(ErrorCode::io, fmt::format("{}/report.json is damaged: {}.", folder, e.what()));
+        throw Error(ErrorCode::verification,
+                    fmt::format("{}/report.json is damaged: {}. Copy the run again, or run kerf mesh again.", folder,
+                                e.what()));
     }
 }
 

@@ -40,7 +40,9 @@ struct FolderVerification {
 /// EdgeNodeCheck. Every file must have the hash that the report has for it, and the report its own; what follows from
 /// the mesh (quality, headers, surfaces, mesh.pvtu, totals, the hash of the mesh) is computed again and compared.
 /// Memory follows the surface, not the mesh. Of a solution the files are compared with their hashes, and the run that
-/// it stands on is verified. Throws Error(io) for a folder that is no finished run, a missing or unreadable part.
+/// it stands on is verified. Parts that are missing or cannot be read are differences, too: the others are checked, but
+/// not what needs all of them. Throws Error(io) for a folder that is no finished run, Error(verification) for a report
+/// that is no such text.
 FolderVerification verify_folder(const std::string& folder, const VerifyOptions& options = {});
 
 /// Lines for people: counts, a line for each law that does not hold, the verdict.
