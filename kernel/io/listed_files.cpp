@@ -5,11 +5,25 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "io/file_bytes.h"
+#include "io/json.h"
 
 namespace kerf {
+
+namespace {
+
+std::vector<RunFile> files_or_fail(const std::string& folder, const nlohmann::json& report) {
+    try {
+        return files_of_report(report);
+    } catch (const nlohmann::json::exception& error) {
+        fail_damaged_report(folder, error.what());
+    }
+}
+
+}  // namespace
 
 std::string read_sealed_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
@@ -27,6 +41,24 @@ std::string read_sealed_report(const std::string& folder) {
                                 path));
     return text;
 }
+
+nlohmann::json read_report_json(const std::string& folder) {
+    try {
+        return parse_json(read_sealed_report(folder));
+    } catch (const nlohmann::json::exception& error) {
+        fail_damaged_report(folder, error.what());
+    }
+}
+
+void fail_damaged_report(const std::string& folder, const std::string& what) {
+    throw Error(ErrorCode::verification,
+                fmt::format("{}/report.json is damaged: {}. Copy the folder again, or make it again by kerf mesh or "
+                            "kerf solve.",
+                            folder, what));
+}
+
+ListedFiles::ListedFiles(std::string folder, const nlohmann::json& report)
+    : ListedFiles(folder, files_or_fail(folder, report)) {}
 
 ListedFiles::ListedFiles(std::string folder, const std::vector<RunFile>& files) : folder_(std::move(folder)) {
     for (const RunFile& file : files) listed_[file.path] = file;

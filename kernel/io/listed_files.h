@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "io/run_manifest.h"
 
 namespace kerf {
@@ -14,6 +16,12 @@ namespace kerf {
 /// The text of FOLDER/report.json. Throws Error(io) where there is none, and Error(verification) where it is not as
 /// sealed() has returned it; both say the way out.
 std::string read_sealed_report(const std::string& folder);
+
+/// The same as JSON. Throws Error(verification) for what is none, too: somebody may have computed the hash again.
+nlohmann::json read_report_json(const std::string& folder);
+
+/// Throws Error(verification): the folder's report is none that a run has left, for `what`; with the way out.
+[[noreturn]] void fail_damaged_report(const std::string& folder, const std::string& what);
 
 /// The files that a report names. Throws nlohmann::json::exception if it has no such list.
 template <class Json>
@@ -31,6 +39,8 @@ class ListedFiles {
  public:
     /// `files`: those of the run in the folder.
     ListedFiles(std::string folder, const std::vector<RunFile>& files);
+    /// Those of its report. Throws Error(verification) if that has no such list.
+    ListedFiles(std::string folder, const nlohmann::json& report);
     ListedFiles(ListedFiles&& other) noexcept;
 
     const std::string& folder() const { return folder_; }

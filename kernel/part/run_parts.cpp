@@ -9,8 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/json.h"
 #include "io/run_folder.h"
 #include "io/run_manifest.h"
 #include "mesh/verification.h"
@@ -25,29 +23,6 @@
 namespace kerf {
 
 namespace {
-
-[[noreturn]] void fail_damaged_report(const std::string& folder, const std::string& what) {
-    throw Error(ErrorCode::verification, fmt::format("{}/report.json is damaged: {}. Copy the run again, or run kerf "
-                                                     "mesh again.",
-                                                     folder, what));
-}
-
-// Of a text that carries its own hash; somebody may have computed that again.
-nlohmann::json read_report(const std::string& folder) {
-    try {
-        return parse_json(read_sealed_report(folder));
-    } catch (const nlohmann::json::exception& e) {
-        fail_damaged_report(folder, e.what());
-    }
-}
-
-ListedFiles listed_files(const std::string& folder, const nlohmann::json& report) {
-    try {
-        return {folder, files_of_report(report)};
-    } catch (const nlohmann::json::exception& e) {
-        fail_damaged_report(folder, e.what());
-    }
-}
 
 // In the order of the tree, with numbers that can be.
 void require_parts(const std::string& folder, const MeshOutline& outline) {
@@ -117,12 +92,12 @@ void require_edges(const EdgeTable& edges, const PartExtent& told, const Part& p
 }  // namespace
 
 RunParts::RunParts(std::string folder, std::string solution)
-    : RunParts(folder, std::move(solution), read_report(folder)) {}
+    : RunParts(folder, std::move(solution), read_report_json(folder)) {}
 
 RunParts::RunParts(std::string folder, std::string solution, const nlohmann::json& report)
-    : files_(listed_files(folder, report)), outline_(outline_of(folder, report)) {
+    : files_(folder, report), outline_(outline_of(folder, report)) {
     if (!solution.empty()) {
-        solution_files_.emplace(listed_files(solution, read_report(solution)));
+        solution_files_.emplace(solution, read_report_json(solution));
         outline_.values = read_value_names(part_file(PartIndex()));
         outline_.order = read_point_counts(part_file(PartIndex())).order;
     }

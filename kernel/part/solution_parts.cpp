@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "io/json.h"
 #include "io/listed_files.h"
 #include "io/path_text.h"
 #include "io/run_folder.h"
@@ -24,13 +23,7 @@ using Json = nlohmann::json;
 Json report_of(const fs::path& folder) {
     std::error_code ignored;
     if (!fs::exists(folder / "report.json", ignored)) return nullptr;
-    try {
-        return parse_json(read_sealed_report(folder.string()));
-    } catch (const Json::exception& error) {
-        throw Error(ErrorCode::verification,
-                    fmt::format("{}/report.json is damaged: {}. Copy the folder again, or make it again.",
-                                folder.string(), error.what()));
-    }
+    return read_report_json(folder.string());
 }
 
 std::string path_beside(const fs::path& folder, const Json& name) {

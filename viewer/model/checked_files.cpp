@@ -8,8 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/json.h"
 #include "io/listed_files.h"
 
 namespace kerf::view {
@@ -17,14 +15,6 @@ namespace kerf::view {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::shared_ptr<const ListedFiles> read_list(const std::string& folder) {
-    try {
-        return std::make_shared<const ListedFiles>(folder, files_of_report(parse_json(read_sealed_report(folder))));
-    } catch (const nlohmann::json::exception& error) {
-        throw Error(ErrorCode::verification, folder + "/report.json is damaged: " + error.what() + ".");
-    }
-}
 
 // The lists of the folders that were asked for, so that a part costs no look at the report of all.
 class Lists {
@@ -35,7 +25,8 @@ class Lists {
         if (error) return nullptr;
         const std::lock_guard lock(mutex_);
         Known& known = known_[folder];
-        if (!known.files || known.written != written) known = {written, read_list(folder)};
+        if (!known.files || known.written != written)
+            known = {written, std::make_shared<const ListedFiles>(folder, read_report_json(folder))};
         return known.files;
     }
 
