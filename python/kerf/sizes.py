@@ -37,6 +37,10 @@ class SizeField:
     def __init__(self, points: ArrayLike, tetrahedra: ArrayLike, sizes: ArrayLike) -> None:
         self._native = _kerf.SizeField(points, tetrahedra, sizes)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        told = {"error": self.error, "samples": self.samples}
+        return SizeField, (self.points, self.tetrahedra, self.sizes), told
+
     @property
     def points(self) -> np.ndarray:
         """(n, 3) float64."""

@@ -85,6 +85,13 @@ def test_parts_of_runs(tmp_path, order):
                 [(s.parts, s.points.tolist()) for s in part.shared]
 
 
+def test_size_fields():
+    surface = two_boxes()
+    field = kerf.sample_sizes(lambda points: 0.2 + 0.1 * points[:, 2], surface)
+    assert field.samples > 0
+    assert_same(field, ["points", "tetrahedra", "sizes", "error", "samples"])
+
+
 def test_parts_of_trees():
     for part in kerf.decompose(two_boxes(), parts=4).parts:
         assert_same(part.surface, PART_SURFACE)
