@@ -2,6 +2,7 @@
 // Where nothing helps, a cell waits for the next round: its neighbours may have changed.
 #include "improve/improve.h"
 
+#include <array>
 #include <queue>
 
 #include "core/check.h"
@@ -20,8 +21,11 @@ constexpr int first_round_with_vertices = 2;         // before, much is mended w
 constexpr double first_least_made_deg = 8, later_least_made_deg = 3;  // of cells around a new vertex
 constexpr double much_better = 3;            // in squared cotangents: what a vertex must make of a cell that is worse
 constexpr double share_for_vertices = 0.25;  // of all; more only for ...
-constexpr double angle_of_a_useless_cell_deg = 3;       // ... cells with a smaller one
-constexpr double angle_of_no_volume_deg = 0.01;         // of cells whose volume is lost in rounding
+constexpr double angle_of_a_useless_cell_deg = 3;  // ... cells with a smaller one
+constexpr double angle_of_no_volume_deg = 0.01;    // of cells whose volume is lost in rounding
+// Where a vertex under a facet may begin, in lengths of an edge: the first for useless cells, all for those without
+// volume, which long facets of a thin body may have.
+constexpr std::array depths_below_facets = {0.3, 0.1, 0.03};
 constexpr double least_share_of_a_round = 0.1;          // of the bad cells, or there is no other round
 constexpr std::int64_t evaluations_of_any_mesh = 1000;  // beside those for each of its cells
 constexpr int cells_between_questions = 1024;           // whether it is cancelled
@@ -175,7 +179,9 @@ class Improver {
                                  : std::min(badness - least_gain_of_a_move * (1 + badness),
                                             std::max(square_from_degrees(least_made_deg), badness / much_better));
         evaluations_for_vertices_ -= mesh_.evaluations();
-        const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit, badness > useless_);
+        std::span<const double> depths = depths_below_facets;
+        if (badness <= without_volume_) depths = depths.first(badness > useless_ ? 1 : 0);
+        const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit, depths);
         evaluations_for_vertices_ += mesh_.evaluations();
         if (cavity.empty()) return false;
         is_settled_.push_back(0);
@@ -204,10 +210,14 @@ class Improver {
 
 }  // namespace
 
+void Improvement::add_operations(const Improvement& again) {
+    removed_edges += again.removed_edges;
+    moved_vertices += again.moved_vertices;
+    new_vertices += again.new_vertices;
+}
+
 void Improvement::add(const Improvement& other) {
-    removed_edges += other.removed_edges;
-    moved_vertices += other.moved_vertices;
-    new_vertices += other.new_vertices;
+    add_operations(other);
     bad_cells_before += other.bad_cells_before;
     bad_cells_after += other.bad_cells_after;
     rounds = std::max(rounds, other.rounds);

@@ -32,6 +32,8 @@ struct Improvement {
 
     /// Adds what was done to another mesh.
     void add(const Improvement& other);
+    /// Adds what was done to the same mesh once more, but for its bad cells, which may be by another threshold.
+    void add_operations(const Improvement& again);
     /// Whether there was a mesh.
     bool is_empty() const { return smallest_before.count() == 0; }
 

@@ -8,7 +8,6 @@ namespace kerf {
 namespace {
 constexpr std::size_t most_cavity_cells = 40;
 constexpr int most_moves = 4;
-constexpr double depth_below_facets = 0.3;  // in lengths of the edge
 }  // namespace
 
 bool VertexInsertion::contains(std::int32_t cell) const {
@@ -112,13 +111,13 @@ void VertexInsertion::try_all_edges(const EditedMesh& mesh, std::int32_t cell, c
 }
 
 std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int32_t cell, double limit,
-                                                      bool may_begin_below) {
+                                                      std::span<const double> depths) {
     best_ = {Vec3::Zero(), limit};
     best_cavity_.clear();
     try_all_edges(mesh, cell, Vec3::Zero());
-    if (best_cavity_.empty() && may_begin_below)
-        if (const Vec3 inwards = away_from_boundary(mesh, cell); inwards != Vec3::Zero())
-            try_all_edges(mesh, cell, depth_below_facets * inwards);
+    if (const Vec3 inwards = away_from_boundary(mesh, cell); inwards != Vec3::Zero())
+        for (std::size_t i = 0; i < depths.size() && best_cavity_.empty(); ++i)
+            try_all_edges(mesh, cell, depths[i] * inwards);
     if (best_cavity_.empty()) return {};
     cavity_ = best_cavity_;
     find_sides(mesh);

@@ -13,10 +13,12 @@ namespace kerf {
 /// gained). Every corner of the cavity stays on its boundary.
 class VertexInsertion {
  public:
-    /// `may_begin_below`: below the facets of the cell, too, as where those around it are as flat as it is.
-    /// The cells that the new ones replace; empty if there is no vertex whose worst cell is better than `limit`, and
-    /// nothing has changed. The vertex has been added, and cells() are those around it.
-    std::span<const std::int32_t> insert(EditedMesh& mesh, std::int32_t cell, double limit, bool may_begin_below);
+    /// `depths`: how far below the facets of the cell the vertex may begin, too, in lengths of an edge and in this
+    /// order until one does, as where those around it are as flat as it is. Returns the cells that the new ones
+    /// replace; none if there is no vertex whose worst cell is better than `limit`, and nothing has changed. The vertex
+    /// has been added, and cells() are those around it.
+    std::span<const std::int32_t> insert(EditedMesh& mesh, std::int32_t cell, double limit,
+                                         std::span<const double> depths);
     const std::vector<Tetrahedron>& cells() const { return cells_; }
 
  private:

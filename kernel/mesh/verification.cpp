@@ -170,7 +170,7 @@ class CompensatedSum {
 
 // What is known of all cells.
 struct Cells {
-    std::int64_t inverted = 0;
+    std::int64_t inverted = 0, without_volume = 0;
     double volume = 0, volume_error = 0;
     BoundaryChain boundary;
 };
@@ -188,7 +188,11 @@ Cells sum_cells(const TetMesh& mesh) {
         const Vec3 u = b - a, v = c - a, w = d - a;
         const double det = u.cross(v).dot(w);
         const double largest = u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff() * w.cwiseAbs().maxCoeff();
-        if (!(det > doubt * largest + underflow)) cells.inverted += orientation(a, b, c, d) <= 0;
+        if (!(det > doubt * largest + underflow)) {
+            const bool is_inverted = orientation(a, b, c, d) <= 0;
+            cells.inverted += is_inverted;
+            cells.without_volume += !is_inverted && det <= 0 && largest > underflow;
+        }
         volume.add(det);
         sum_of_largest += largest;
         cells.boundary.add(tet);
@@ -233,6 +237,7 @@ MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface, FaceProo
     const Cells cells = sum_cells(mesh);
     MeshLaws laws;
     laws.inverted_tets = cells.inverted;
+    laws.tets_without_volume = cells.without_volume;
     laws.moved_vertices = count_moved_vertices(mesh, surface);
     laws.volume = cells.volume;
     const BoundedVolume enclosed = bounded_volume(surface.vertices, surface.facets);

@@ -19,6 +19,9 @@ struct MeshLaws {
     double volume = 0;                       ///< sum over the tetrahedra
     double surface_volume = 0;               ///< enclosed by the surface
     double volume_error = 0;                 ///< what rounding may have made of their difference, at most
+    /// Tetrahedra whose orientation is positive and whose volume is not, as doubles have it. No law of a filling, which
+    /// they do not break, but of a mesh that somebody computes with.
+    std::int64_t tets_without_volume = 0;
 
     /// True if every count of mesh_laws is zero and the volumes differ by no more than rounding can make of two that
     /// are the same.
@@ -43,7 +46,7 @@ inline constexpr std::array<MeshLaw, 5> mesh_laws = {
 template <class Archive>
 void MeshLaws::archive(Archive& a) {
     for (const MeshLaw& law : mesh_laws) a(this->*law.count);
-    a(volume, surface_volume, volume_error);
+    a(volume, surface_volume, volume_error, tets_without_volume);
 }
 
 /// How the faces of a mesh without neighbours are told to be those of the surface.

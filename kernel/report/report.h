@@ -60,8 +60,9 @@ struct RunVerification {
     std::int64_t unmatched_interface_faces = 0;  ///< not once on each side, with the same keys in opposite order
     std::int64_t wrong_neighbours = 0;           ///< interface triangles that do not name the part on the other side
     std::int64_t inverted_tets = 0;
-    std::int64_t tets_zero_parts = 0;  ///< parts without a tetrahedron
-    std::int64_t moved_vertices = 0;   ///< vertices whose coordinates differ between parts, or from the input
+    std::int64_t tets_without_volume = 0;  ///< as MeshLaws has it
+    std::int64_t tets_zero_parts = 0;      ///< parts without a tetrahedron
+    std::int64_t moved_vertices = 0;       ///< vertices whose coordinates differ between parts, or from the input
     std::int64_t misnumbered = 0;      ///< global numbers that are missing, or used by two interior vertices or edges
     std::int64_t changed_volumes = 0;  ///< as count_changed_volumes() has it
     std::int64_t unequal_edge_nodes = 0;    ///< of order 2: edges whose nodes differ between parts
@@ -80,7 +81,7 @@ struct RunLaw {
 };
 /// The laws that are counts, in the order in which they are told. A new one is a count of RunVerification and a row
 /// here; reports and kerf verify have it then, and whoever sees it counts.
-inline constexpr std::array<RunLaw, 11> run_laws = {
+inline constexpr std::array<RunLaw, 12> run_laws = {
     {{"input_faces_missing", &RunVerification::input_faces_missing, "facets of the input missing"},
      {"extra_boundary_faces", &RunVerification::extra_boundary_faces,
       "boundary faces that are neither input nor interface"},
@@ -89,6 +90,7 @@ inline constexpr std::array<RunLaw, 11> run_laws = {
      {"wrong_neighbours", &RunVerification::wrong_neighbours, "interface triangles that name the wrong neighbour",
       true},
      {"inverted_tets", &RunVerification::inverted_tets, "tetrahedra that are not positively oriented"},
+     {"tets_without_volume", &RunVerification::tets_without_volume, "tetrahedra whose volume rounds to nothing"},
      {"tets_zero_parts", &RunVerification::tets_zero_parts, "parts without tetrahedra"},
      {"changed_volumes", &RunVerification::changed_volumes, "regions whose volume is not that of the file"},
      {"moved_vertices", &RunVerification::moved_vertices,

@@ -57,6 +57,7 @@ RunVerification verify_parts(const RunReport& report) {
     for (const PartReport& part : report.parts) {
         const MeshLaws& laws = part.result.laws;
         v.inverted_tets += laws.inverted_tets;
+        v.tets_without_volume += laws.tets_without_volume;
         v.input_faces_missing += laws.missing_facets;
         v.extra_boundary_faces += laws.extra_boundary_faces;
         if (!report.options.volume) continue;

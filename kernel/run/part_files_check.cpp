@@ -73,6 +73,7 @@ void keep_interior(const Part& part, PartFindings& found) {
 
 void add_laws(const MeshLaws& of_mesh, RunVerification& laws) {
     laws.inverted_tets += of_mesh.inverted_tets;
+    laws.tets_without_volume += of_mesh.tets_without_volume;
     laws.input_faces_missing += of_mesh.missing_facets;
     laws.extra_boundary_faces += of_mesh.extra_boundary_faces + of_mesh.mismatched_neighbours;
 }

@@ -1,9 +1,12 @@
 // Checks the options and hands the surface to the mesher that they name.
 #include "volume/mesher.h"
 
+#include <algorithm>
+
 #include "core/check.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "geometry/tetrahedron.h"
 #include "volume/meshers.h"
 
 namespace kerf {
@@ -12,6 +15,30 @@ void check_mesher_options(const MesherOptions& options) {
     require_in(radius_edge_range, "radius-edge", options.radius_edge);
     find_mesher(options.name).check(options);
 }
+
+namespace {
+
+bool has_cell_without_volume(const TetMesh& mesh) {
+    return std::any_of(mesh.tets.begin(), mesh.tets.end(),
+                       [&](const Tetrahedron& tet) { return six_volumes_of(mesh.vertices, tet) <= 0; });
+}
+
+// A cell that is not inverted may be so thin that it has no volume as doubles have it: behind two facets in one plane,
+// for instance, whose corners are rounded. Who computes with it divides by zero, so that others are put in its place,
+// also where cells stay as they are otherwise. Where nothing else helps, those around it change, too.
+void replace_cells_without_volume(Filling& filling, const MesherOptions& options) {
+    for (const double threshold_deg : {0.001, 1.0, ImproveOptions().threshold_deg}) {
+        if (!has_cell_without_volume(filling.mesh)) return;
+        const Stopwatch stopwatch;
+        const Improvement again =
+            improve(filling.mesh,
+                    {.threshold_deg = threshold_deg, .max_size = options.size, .frozen_cells = filling.core_tets});
+        filling.improvement.add_operations(again);
+        filling.improve_seconds += stopwatch.seconds();
+    }
+}
+
+}  // namespace
 
 void improve_filling(Filling& filling, const MesherOptions& options, double threshold_deg) {
     if (!options.improve || !options.tetgen.switches.empty()) return;
@@ -26,7 +53,9 @@ void improve_filling(Filling& filling, const MesherOptions& options, double thre
 Filling mesh_volume(const SurfaceArrays& surface, const MesherOptions& options) {
     KERF_CHECK(is_well_formed(surface) && !surface.facets.empty());
     check_mesher_options(options);
-    return find_mesher(options.name).fill(surface, options);
+    Filling filling = find_mesher(options.name).fill(surface, options);
+    replace_cells_without_volume(filling, options);
+    return filling;
 }
 
 }  // namespace kerf

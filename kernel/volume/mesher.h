@@ -22,7 +22,8 @@ struct MesherOptions {
     SizeField size = {};        ///< of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where
                                 ///< it improved the shape afterwards
     double radius_edge = 1.4;   ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
-    bool improve = true;        ///< the cells, within `size`, see improve(); never those of TetGen's own switches
+    /// The cells, within `size`, see improve(); never those of TetGen's own switches, but for what has no volume.
+    bool improve = true;
     TetgenOptions tetgen = {};  ///< also for meshers that ask TetGen where they fail
 
     template <class Archive>
@@ -51,6 +52,9 @@ void check_mesher_options(const MesherOptions& options);
 /// Fills the closed surface, which must be well-formed, with tetrahedra; every facet of it is kept and none is added.
 /// It may touch itself at vertices and along edges, which are there once then (joined_by_key(), surface/touching.h): no
 /// two vertices lie at the same place.
+///
+/// Cells have a volume also as doubles have it, wherever the surface has room for such: where the mesher leaves others
+/// they are replaced, with new vertices inside if it takes them (MeshLaws::tets_without_volume counts what is left).
 ///
 /// The result's boundary vertices are those of the surface, bit for bit and in its order. Throws Error(subdomain) with
 /// the mesher's reason, Error(memory) if that is memory, Error(usage) for options out of range. A mesher may also

@@ -43,6 +43,13 @@ std::string broken_laws(const MeshLaws& laws) {
                               laws.volume, laws.volume - laws.surface_volume, laws.volume_error);
 }
 
+std::string without_volume(std::int64_t count) {
+    return fmt::format(
+        "{} of the mesher have no volume but for rounding: the surface has facets or walls that are as thin. Use "
+        "--surface remesh, or join what lies so near with kerf repair.",
+        count == 1 ? "1 tetrahedron" : fmt::format("{} tetrahedra", count));
+}
+
 }  // namespace
 
 ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality& after) {
@@ -135,6 +142,8 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         mesh.neighbours = {};  // parts are stored without
         timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface, FaceProof::sum); });
         if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
+        if (result.laws.tets_without_volume > 0)
+            throw Error(ErrorCode::subdomain, without_volume(result.laws.tets_without_volume));
         result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
         result.interior_vertices = mesh.interior_vertex_count();
         result.tets = static_cast<std::int64_t>(mesh.tets.size());

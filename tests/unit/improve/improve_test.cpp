@@ -14,6 +14,7 @@
 #include "improve/edited_mesh.h"
 #include "mesh/adjacency.h"
 #include "mesh/verification.h"
+#include "shell/shell.h"
 #include "support/shapes.h"
 #include "volume/mesher.h"
 
@@ -181,10 +182,7 @@ TEST(Improve, LeavesNoCellWithoutVolumeBetweenShells) {
         soup = test::join(std::move(soup), i % 2 ? test::inside_out(sphere) : sphere);
     }
     const SurfaceArrays surface = test::to_arrays(soup);
-    MesherOptions options;
-    options.name = "lattice";
-    options.improve = false;
-    TetMesh mesh = mesh_volume(surface, options).mesh;
+    TetMesh mesh = fill_shell(surface, {}, {SizeField(), 1.4}).mesh;
     ASSERT_LT(angles_of(mesh).smallest.min(), 1e-6);
     const Improvement improvement = improve(mesh);
     EXPECT_GT(improvement.new_vertices, 0);

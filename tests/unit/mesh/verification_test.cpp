@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 
 #include "core/elements.h"
+#include "geometry/predicates.h"
+#include "geometry/tetrahedron.h"
 #include "mesh/adjacency.h"
 #include "mesh/boundary_chain.h"
 #include "support/shapes.h"
@@ -95,19 +97,19 @@ MeshedSurface meshed_cube() {
 }
 
 struct Counts {
-    std::int64_t inverted = 0, missing = 0, extra = 0, mismatched = 0, moved = 0;
+    std::int64_t inverted = 0, missing = 0, extra = 0, mismatched = 0, moved = 0, without_volume = 0;
     bool operator==(const Counts&) const = default;
 };
 
 std::ostream& operator<<(std::ostream& out, const Counts& c) {
     return out << "inverted " << c.inverted << ", missing " << c.missing << ", extra " << c.extra << ", mismatched "
-               << c.mismatched << ", moved " << c.moved;
+               << c.mismatched << ", moved " << c.moved << ", without volume " << c.without_volume;
 }
 
 Counts counts(const MeshedSurface& m) {
     const MeshLaws laws = laws_of(m);
-    return {laws.inverted_tets, laws.missing_facets, laws.extra_boundary_faces, laws.mismatched_neighbours,
-            laws.moved_vertices};
+    return {laws.inverted_tets,         laws.missing_facets, laws.extra_boundary_faces,
+            laws.mismatched_neighbours, laws.moved_vertices, laws.tets_without_volume};
 }
 
 int boundary_faces(const TetMesh& mesh, std::int32_t t) {
@@ -316,6 +318,36 @@ TEST(Verification, OrientationIsExact) {
     EXPECT_EQ(changes, 1);
     EXPECT_EQ(inverted(1.2), 0);
     EXPECT_EQ(inverted(1.0), 1);
+}
+
+// Points in the plane of three others but for rounding: some cells are positive, and have no volume as doubles have it.
+TEST(Verification, CellsWithoutVolumeByRoundingAreCounted) {
+    const unsigned seed = 7;
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(0, 1);
+    const auto point = [&] { return Vec3(coordinate(random), coordinate(random), coordinate(random)); };
+    int positive = 0, without_volume = 0;
+    for (int i = 0; i < 2000; ++i) {
+        MeshedSurface one;
+        const Vec3 a = point(), b = point(), c = point(),
+                   d = a + coordinate(random) * (b - a) + coordinate(random) * (c - a);
+        one.mesh.vertices = {a, b, c, d};
+        one.mesh.tets = {{0, 1, 2, 3}};
+        one.mesh.neighbours = {{-1, -1, -1, -1}};
+        const bool is_positive = orientation(a, b, c, d) > 0, has_volume = six_volumes_of(a, b, c, d) > 0;
+        EXPECT_EQ(counts(one).inverted, !is_positive) << i;
+        EXPECT_EQ(counts(one).without_volume, is_positive && !has_volume) << i;
+        positive += is_positive && has_volume;
+        without_volume += is_positive && !has_volume;
+    }
+    EXPECT_GT(positive, 100);
+    EXPECT_GT(without_volume, 100) << "or this shows nothing";
+    // Where products underflow only the sign is known, and it counts.
+    MeshedSurface tiny = meshed_cube();
+    for (Vec3& p : tiny.mesh.vertices) p *= 1e-110;
+    tiny.surface.vertices = tiny.mesh.vertices;
+    EXPECT_EQ(counts(tiny), Counts());
 }
 
 TEST(Verification, VolumesMustAgree) {

@@ -45,6 +45,7 @@ void expect_laws(const TetMesh& mesh, const SurfaceArrays& surface) {
     const MeshLaws laws = verify_mesh(mesh, surface);
     EXPECT_GT(mesh.tets.size(), 0u);
     EXPECT_EQ(laws.inverted_tets, 0);
+    EXPECT_EQ(laws.tets_without_volume, 0);
     EXPECT_EQ(laws.missing_facets, 0);
     EXPECT_EQ(laws.extra_boundary_faces, 0);
     EXPECT_EQ(laws.mismatched_neighbours, 0);
@@ -92,6 +93,21 @@ TEST_P(EachMesher, ObeysTheLaws) {
                 options.size = SizeField(max_volume);
                 const TetMesh mesh = mesh_volume(surface, options).mesh;
                 expect_laws(mesh, surface);
+            }
+}
+
+// Behind two facets in one plane, as those of a quadrangle are but for rounding, a cell may be positive and have no
+// volume as doubles have it. Such cells are replaced also where cells stay as they are otherwise.
+TEST(LatticeMesher, LeavesNoCellWithoutVolume) {
+    for (const int around : {12, 20, 32, 48})
+        for (const int across : {8, 11, 14})
+            for (const double thickness : {0.2, 0.6, 0.9}) {
+                SCOPED_TRACE(testing::Message() << around << " by " << across << ", thickness " << thickness);
+                MesherOptions options = of_mesher("lattice");
+                options.radius_edge = 0;
+                options.improve = false;
+                const SurfaceArrays surface = test::to_arrays(test::torus(2, thickness, around, across));
+                expect_laws(mesh_volume(surface, options).mesh, surface);
             }
 }
 

@@ -50,7 +50,7 @@ TEST(PartJob, SaysHowMuchBetterItsCellsHaveBecome) {
     unimproved.options.improve = false;
     for (const bool cut_first : {false, true}) {
         call.cut_first = unimproved.cut_first = cut_first;
-        const PartJob job = job_of(test::torus(3, 1, 30, 20));
+        const PartJob job = job_of(test::icosphere(3));
         const PartResult raw = run_part_job(job, unimproved, folder.file("raw"));
         const PartResult better = run_part_job(job, call, folder.file("better"));
         EXPECT_FALSE(raw.angles.known());
