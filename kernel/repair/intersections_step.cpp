@@ -1,9 +1,11 @@
 // All facets are divided where they cross; then what bounds the inside stays.
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "geometry/box.h"
 #include "geometry/triangle.h"
 #include "geometry/union_find.h"
 #include "repair/arrangement.h"
@@ -29,13 +31,10 @@ class CrossingResolver {
     void run() {
         const bool is_finite =
             std::all_of(soup_.vertices.begin(), soup_.vertices.end(), [](const Vec3& p) { return p.allFinite(); });
-        if (!is_finite) {
-            RepairAction refused{"surface", "surfaces", "",
-                                 1,         {},         "it has coordinates that are not finite; clean first"};
-            refused.changes_surface = false;
-            report_.actions.push_back(std::move(refused));
-            return;
-        }
+        if (!is_finite) return refuse("it has coordinates that are not finite; clean first", {});
+        if (const std::optional<RepairPlace> far_out = find_far_out())
+            return refuse("doubles as large as a coordinate there are coarser than most facets; leave these facets out",
+                          *far_out);
         if (keeps_all()) return divide_walls();
         turned_ = find_turned_facets(soup_.vertices, soup_.facets, request_.poll);
         Soup turned_soup = soup_;
@@ -56,6 +55,35 @@ class CrossingResolver {
     }
 
  private:
+    void refuse(const char* reason, const std::optional<RepairPlace>& place) {
+        RepairAction refused{"surface", "surfaces"};
+        refused.refused_because = reason;
+        refused.changes_surface = false;
+        if (place)
+            refused.add(*place);
+        else
+            refused.count = 1;
+        report_.actions.push_back(std::move(refused));
+    }
+    // The corner with the largest coordinate, if doubles next to it are farther apart than half of the facets are long.
+    // Roundings would lose what those facets are divided into, and its exact points have fractions of many digits.
+    std::optional<RepairPlace> find_far_out() const {
+        const auto size_of = [](const Vec3& p) { return p.cwiseAbs().maxCoeff(); };
+        std::vector<double> lengths;
+        RepairPlace place;
+        for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
+            lengths.push_back(box_around(soup_.vertices, soup_.facets[f]).sizes().maxCoeff());
+            for (const std::int32_t v : soup_.facets[f])
+                if (size_of(soup_.vertices[v]) > size_of(place.where))
+                    place = {soup_.vertices[v], {static_cast<std::int32_t>(f)}};
+        }
+        if (place.facets.empty()) return {};
+        const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        std::nth_element(lengths.begin(), middle, lengths.end());
+        if (*middle >= std::numeric_limits<double>::epsilon() * size_of(place.where)) return {};
+        place.facets = soup_.file_facets(place.facets);
+        return place;
+    }
     Vec3 centroid(std::size_t piece) const {
         const auto& [a, b, c] = pieces_.facets[piece];
         return (pieces_.vertices[a] + pieces_.vertices[b] + pieces_.vertices[c]) / 3;

@@ -56,6 +56,8 @@ bool has_walls(const Soup& soup, const StepRequest& request);
 /// Says that nothing is done to a surface that has facets with a repeated vertex, or without finite coordinates.
 void refuse_odd_facets(StepReport& report);
 
+/// intersections_step() refuses, and says, surfaces whose coordinates are not finite, and those of which half of the
+/// facets are shorter than doubles as large as the largest coordinate are apart: divided facets would not be theirs.
 ApplyStep weld_step, clean_step, stitch_step, orient_step, manifold_step, specks_step, caps_step, holes_step,
     thicken_step, snap_step, intersections_step, renew_step;
 

@@ -226,6 +226,34 @@ TEST(Intersections, KeepWhatCrossesNothing) {
     }
 }
 
+TEST(Intersections, AreRefusedWhereDoublesAreCoarserThanMostFacets) {
+    test::SeededNumbers random(11);
+    for (const double far : {1e3, 1e9, 1e17, 1e25, 1e38}) {
+        Soup soup = soup_of(random_boxes(3, random));
+        Soup needle;
+        needle.vertices = {Vec3(0.5, 0.5, -1), Vec3(0.25, far, far / 2), Vec3(-far / 3, 0.5, 1)};
+        needle.facets = {{0, 1, 2}};
+        needle.patch = {0};
+        needle.patch_names = {"needle"};
+        soup = test::join(std::move(soup), needle);
+        const auto vertices = soup.vertices;
+        const auto facets = soup.facets;
+        const StepReport report = resolve(soup);
+        const auto refused = std::find_if(report.actions.begin(), report.actions.end(), [](const RepairAction& action) {
+            return action.one == std::string("surface") && !action.places.empty();
+        });
+        EXPECT_EQ(refused != report.actions.end(), far > 1e16) << far;
+        if (refused == report.actions.end()) continue;
+        ASSERT_EQ(refused->places.size(), 1u);
+        EXPECT_EQ(refused->places[0].where, needle.vertices[1]);
+        EXPECT_EQ(refused->places[0].facets, std::vector<std::int32_t>{static_cast<std::int32_t>(facets.size()) - 1});
+        EXPECT_STRNE(refused->refused_because, "");
+        EXPECT_FALSE(report.changed());
+        EXPECT_EQ(soup.vertices, vertices);
+        EXPECT_EQ(soup.facets, facets);
+    }
+}
+
 TEST(Intersections, TellShellsInsideOfOthers) {
     Soup soup = test::join(test::icosphere(3, 2), test::icosphere(2, 1));
     const StepReport report = resolve(soup);
