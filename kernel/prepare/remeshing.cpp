@@ -364,7 +364,9 @@ Input remesh_where_asked(Input input, const RunOptions& options, StageListener* 
     const BadFacets bad = find_bad_facets(input);
     const SurfaceChange change = change_of(input, bad, options);
     if (change != SurfaceChange::remeshing)
-        if (const std::string note = sliver_note(bad.slivers, input.path); !note.empty()) input.notes.push_back(note);
+        if (const std::string note = sliver_note(bad.slivers, input.path.empty() ? "" : "--surface remesh");
+            !note.empty())
+            input.notes.push_back(note);
     if (change == SurfaceChange::none) return input;
     const SurfaceArrays before = input.complex.arrays();
     if (change == SurfaceChange::division) return divided(std::move(input), before, options, listener);

@@ -62,11 +62,10 @@ std::vector<char> facets_away_from_slivers(const SurfaceArrays& surface) {
     return stays;
 }
 
-std::string sliver_note(const Slivers& slivers, const std::string& path) {
+std::string sliver_note(const Slivers& slivers, const std::string& remedy) {
     if (!slivers.spoil_cells()) return "";
     return fmt::format("{:.2g} % of the facets have angles below 10 degrees, and cells will be no better.{}",
-                       100 * slivers.share(),
-                       path.empty() ? "" : fmt::format(" kerf mesh {} --surface remesh cures that.", path));
+                       100 * slivers.share(), remedy.empty() ? "" : fmt::format(" {} cures that.", remedy));
 }
 
 }  // namespace kerf

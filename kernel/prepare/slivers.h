@@ -28,7 +28,8 @@ Slivers find_slivers(const Complex& complex);
 /// is less than half of them. O(#F).
 std::vector<char> facets_away_from_slivers(const SurfaceArrays& surface);
 
-/// One sentence with the command that cures it, unless `path` is empty; empty if they spoil nothing.
-std::string sliver_note(const Slivers& slivers, const std::string& path);
+/// A sentence on what they do to the cells, and one that `remedy`, a command or an option, cures that, unless it is
+/// empty. Returns nothing if they spoil nothing.
+std::string sliver_note(const Slivers& slivers, const std::string& remedy);
 
 }  // namespace kerf

@@ -108,7 +108,8 @@ TEST(Advice, IsTheOptionThatATextNames) {
 
 TEST(Advice, IsInWhatProblemsSay) {
     const Soup bad = test::prism(60, 1, 20);
-    const auto of_slivers = advised_option(sliver_note(find_slivers(bad.vertices, bad.facets), "/a--b/c.stl"));
+    const auto of_slivers =
+        advised_option(sliver_note(find_slivers(bad.vertices, bad.facets), "kerf mesh /a--b/c.stl --surface remesh"));
     ASSERT_TRUE(of_slivers);
     EXPECT_EQ(words_of(*of_slivers), "Remesh the surface");
     EXPECT_FALSE(is_set(RunOptions(), *of_slivers));

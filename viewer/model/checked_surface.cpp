@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "prepare/slivers.h"
 #include "request/options.h"
 #include "viewer/model/node_surface.h"
@@ -28,7 +30,9 @@ OrientedSurface orient_copy(CheckedSoup checked) {
 // Surfaces of CAD models are remeshed without being asked.
 std::string note_of_slivers(const CheckedSoup& checked, const std::string& path) {
     const Soup& soup = checked.soup;
-    return soup.is_of_model ? "" : sliver_note(find_slivers(soup.vertices, soup.facets), path);
+    return soup.is_of_model ? ""
+                            : sliver_note(find_slivers(soup.vertices, soup.facets),
+                                          fmt::format("kerf mesh {} --surface remesh", path));
 }
 
 // Coordinates that are no numbers are equal to themselves here.
