@@ -201,6 +201,11 @@ std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& op
            table;
 }
 
+std::string plan_text(double seconds, std::int64_t peak_rss_bytes) {
+    return fmt::format("{:<11} {} to read and to cut, {:.0f} MB on the first rank\n", "before", seconds_text(seconds),
+                       static_cast<double>(peak_rss_bytes) / (1 << 20));
+}
+
 std::string plan_text(const FoundSize& found) { return fmt::format("{:<11} {}\n", "cells", found_size_text(found)); }
 
 RunningForecast::RunningForecast(const std::vector<PartReport>& parts, const RunOptions& options, int ranks)

@@ -48,6 +48,10 @@ void check_budget(const RunOptions& options, double facets, double volume, Facet
 std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part,
                       double pace = 1);
 
+/// One line on what the first rank has taken up to here to read the surface and to cut it: wall clock, and the most
+/// memory that was resident at once. A run has both in front of what the parts take.
+std::string plan_text(double seconds, std::int64_t peak_rss_bytes);
+
 /// One line on the size that was found for a number of tetrahedra.
 std::string plan_text(const FoundSize& found);
 

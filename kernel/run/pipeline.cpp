@@ -99,7 +99,8 @@ void keep_folder(const RunContext& run, RunFolder& folder) {
 }
 
 // What is ahead.
-void announce_parts(const RunContext& run, const std::vector<PartReport>& parts, double read_seconds) {
+void announce_parts(const RunContext& run, const std::vector<PartReport>& parts, double read_seconds,
+                    const Stopwatch& whole) {
     // Where reading was reading alone, it has shown how fast the machine is.
     const bool shows_pace = !run.input.is_cad && !run.input.remeshed;
     const double pace = shows_pace ? pace_of_reading(read_seconds, static_cast<double>(run.input.facets)) : 1;
@@ -107,6 +108,7 @@ void announce_parts(const RunContext& run, const std::vector<PartReport>& parts,
         if (run.listener && run.is_root() && run.options.volume)
             run.listener->on_parts(parts,
                                    (run.found_size ? plan_text(*run.found_size) : "") +
+                                       (run.options.dry_run ? plan_text(whole.seconds(), own_peak_rss_bytes()) : "") +
                                        plan_text(parts, run.options, run.ranks.size(), run.options.dry_run, pace));
     });
 }
@@ -368,7 +370,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
         report.verification.input_faces_missing = prepared.missing_input_facets;
         report.parts = gather_reports(ranks, prepared.own);
         if (options.dry_run) {
-            announce_parts(run, report.parts, seconds.read);
+            announce_parts(run, report.parts, seconds.read, whole);
             return report;
         }
         std::optional<VolumeStage> volume;
@@ -376,7 +378,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
         report.parts = timed(ranks, seconds.prepare, [&] {
             return hand_over_parts(run, *folder, report.parts, std::move(prepared.own), volume ? &*volume : nullptr);
         });
-        announce_parts(run, report.parts, seconds.read);
+        announce_parts(run, report.parts, seconds.read, whole);
         if (volume) {
             MeshedParts meshed = timed(ranks, seconds.mesh, [&] { return volume->mesh(report.parts); });
             report.parts = std::move(meshed.parts);

@@ -109,6 +109,11 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
     }
 }
 
+TEST(PlanText, SaysWhatTheFirstRankHasTaken) {
+    EXPECT_EQ(plan_text(12.34, 878 << 20), "before      12 s to read and to cut, 878 MB on the first rank\n");
+    EXPECT_EQ(plan_text(0.01, 30 << 20), "before      less than 0.1 s to read and to cut, 30 MB on the first rank\n");
+}
+
 TEST(PaceOfReading, IsThatOfTheMachineWithinBounds) {
     EXPECT_NEAR(pace_of_reading(0.203, 1e5), 1, 1e-9);
     EXPECT_NEAR(pace_of_reading(1.015, 1e5), 5, 1e-9) << "busy with others";
