@@ -8,9 +8,12 @@
 // no "endfacet", some no blank behind "endsolid".
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/hash.h"
@@ -56,6 +59,26 @@ bool holds_claimed_facets(std::string_view bytes) {
                                       ". Export it again.");
 }
 
+// Where a byte was put in between, or lost, those behind it are read as other numbers, some of them of any size.
+void refuse_shifted_records(std::string_view bytes, const std::string& path) {
+    constexpr double largest = 1e20;
+    const std::size_t count = claimed_stl_facets(bytes);
+    const std::size_t padding = bytes.size() - stl_header_size - stl_facet_size * count;
+    if (padding == 0) return;
+    for (std::size_t f = 0; f < count; ++f)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double coordinate =
+                read_corner(bytes.data() + stl_header_size + f * stl_facet_size + 12 * (i + 1)).cwiseAbs().maxCoeff();
+            if (!(coordinate >= largest && std::isfinite(coordinate))) continue;
+            throw Error(
+                ErrorCode::input,
+                fmt::format("{}: the binary STL is damaged: it has {} more than its {} facets take, and from "
+                            "about facet {} (counted from 0) on its numbers are none of a surface ({:.2g}). "
+                            "Export or copy it again.",
+                            path, padding == 1 ? "1 byte" : fmt::format("{} bytes", padding), count, f, coordinate));
+        }
+}
+
 void add_facets(std::string_view bytes, SoupBuilder& builder) {
     constexpr std::size_t most = 64;
     std::vector<Vec3> corners;
@@ -72,6 +95,7 @@ void read_binary(std::string_view bytes, const std::string& path, SoupBuilder& b
     const std::size_t count = claimed_stl_facets(bytes), size = stl_facet_size * count;
     builder.announce_facets(static_cast<std::int64_t>(count));
     if (!holds_claimed_facets(bytes)) refuse_size(bytes, path);
+    refuse_shifted_records(bytes, path);
     builder.reserve_separate_facets(count);
     add_facets(bytes.substr(stl_header_size, size), builder);
     builder.note_ignored(static_cast<std::int64_t>(bytes.size() - stl_header_size - size), "byte behind the last facet",

@@ -118,6 +118,27 @@ TEST_F(BinaryStlFile, IsReadByBlocksOnlyIfItIsNothingElse) {
     for (const std::string& other : others) EXPECT_FALSE(read_binary_stl_file(write(other))) << other.substr(0, 10);
 }
 
+// A file that was copied as text has a byte more for each line end, for instance. An even number may leave coordinates
+// whole, of other corners.
+TEST_F(BinaryStlFile, WithBytesPutInBetweenIsRefusedWithTheirPlace) {
+    const std::string bytes = test::to_binary_stl(test::icosphere(3));
+    const std::size_t facets = (bytes.size() - 84) / 50;
+    const unsigned seed = 3;
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 50; ++i) {
+        const std::size_t facet = random() % (facets - 100), more = 1 + 2 * (random() % 25);
+        std::string longer = bytes;
+        longer.insert(84 + 50 * facet, more, '\r');
+        const std::string message = message_of(longer);
+        EXPECT_NE(message.find("damaged: it has " + std::to_string(more) + " byte"), std::string::npos) << message;
+        const std::size_t at = message.find("about facet ");
+        ASSERT_NE(at, std::string::npos) << message;
+        EXPECT_NEAR(std::strtod(message.c_str() + at + 12, nullptr), static_cast<double>(facet), 60);
+        EXPECT_EQ(message_of(bytes + std::string(more, '\r')), "") << "padding";
+    }
+}
+
 TEST_F(BinaryStlFile, CutAnywhereSaysTheSameAsItsBytesInMemory) {
     const std::string bytes = test::to_binary_stl(test::tetrahedron());
     for (std::size_t size = 0; size < bytes.size(); ++size) {
