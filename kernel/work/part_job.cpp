@@ -45,9 +45,9 @@ std::string broken_laws(const MeshLaws& laws) {
 
 std::string without_volume(std::int64_t count) {
     return fmt::format(
-        "{} of the mesher have no volume but for rounding: the surface has facets or walls that are as thin. Use "
-        "--surface remesh, or join what lies so near with kerf repair.",
-        count == 1 ? "1 tetrahedron" : fmt::format("{} tetrahedra", count));
+        "{} no volume but for rounding: facets or walls of the surface are as thin. Use --surface remesh, or join what "
+        "lies so near with kerf repair.",
+        count == 1 ? "1 tetrahedron has" : fmt::format("{} tetrahedra have", count));
 }
 
 }  // namespace
