@@ -19,6 +19,7 @@
 #include "core/check.h"
 #include "core/elements.h"
 #include "geometry/predicates.h"
+#include "geometry/tetrahedron.h"
 #include "mesh/boundary_chain.h"
 #include "mesh/faces.h"
 #include "surface/mass_properties.h"
@@ -188,11 +189,9 @@ Cells sum_cells(const TetMesh& mesh) {
         const Vec3 u = b - a, v = c - a, w = d - a;
         const double det = u.cross(v).dot(w);
         const double largest = u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff() * w.cwiseAbs().maxCoeff();
-        if (!(det > doubt * largest + underflow)) {
-            const bool is_inverted = orientation(a, b, c, d) <= 0;
-            cells.inverted += is_inverted;
-            cells.without_volume += !is_inverted && det <= 0 && largest > underflow;
-        }
+        const bool is_inverted = !(det > doubt * largest + underflow) && orientation(a, b, c, d) <= 0;
+        cells.inverted += is_inverted;
+        cells.without_volume += !is_inverted && !has_volume_in_any_order(a, b, c, d);
         volume.add(det);
         sum_of_largest += largest;
         cells.boundary.add(tet);

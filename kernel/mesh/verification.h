@@ -19,8 +19,8 @@ struct MeshLaws {
     double volume = 0;                       ///< sum over the tetrahedra
     double surface_volume = 0;               ///< enclosed by the surface
     double volume_error = 0;                 ///< what rounding may have made of their difference, at most
-    /// Tetrahedra whose orientation is positive and whose volume is not, as doubles have it. No law of a filling, which
-    /// they do not break, but of a mesh that somebody computes with.
+    /// Tetrahedra whose orientation is positive and whose volume is not, as doubles have it in some order of their
+    /// corners. No law of a filling, which they do not break, but of a mesh that somebody computes with.
     std::int64_t tets_without_volume = 0;
 
     /// True if every count of mesh_laws is zero and the volumes differ by no more than rounding can make of two that

@@ -19,8 +19,10 @@ void check_mesher_options(const MesherOptions& options) {
 namespace {
 
 bool has_cell_without_volume(const TetMesh& mesh) {
-    return std::any_of(mesh.tets.begin(), mesh.tets.end(),
-                       [&](const Tetrahedron& tet) { return six_volumes_of(mesh.vertices, tet) <= 0; });
+    const std::vector<Vec3>& p = mesh.vertices;
+    return !std::all_of(mesh.tets.begin(), mesh.tets.end(), [&](const Tetrahedron& tet) {
+        return has_volume_in_any_order(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]);
+    });
 }
 
 // A cell that is not inverted may be so thin that it has no volume as doubles have it: behind two facets in one plane,

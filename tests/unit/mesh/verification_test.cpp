@@ -335,7 +335,7 @@ TEST(Verification, CellsWithoutVolumeByRoundingAreCounted) {
         one.mesh.vertices = {a, b, c, d};
         one.mesh.tets = {{0, 1, 2, 3}};
         one.mesh.neighbours = {{-1, -1, -1, -1}};
-        const bool is_positive = orientation(a, b, c, d) > 0, has_volume = six_volumes_of(a, b, c, d) > 0;
+        const bool is_positive = orientation(a, b, c, d) > 0, has_volume = has_volume_in_any_order(a, b, c, d);
         EXPECT_EQ(counts(one).inverted, !is_positive) << i;
         EXPECT_EQ(counts(one).without_volume, is_positive && !has_volume) << i;
         positive += is_positive && has_volume;

@@ -11,6 +11,8 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "core/regular_tet.h"
+#include "geometry/predicates.h"
+#include "geometry/tetrahedron.h"
 #include "io/file_bytes.h"
 #include "part/vtu_writer.h"
 #include "report/report.h"
@@ -262,6 +264,30 @@ TEST(PartJob, HasNoTetrahedraWhenTheLawsAreBroken) {
     EXPECT_EQ(result.tets, 0);
     EXPECT_EQ(result.vertices, 0);
     EXPECT_EQ(result.interior_vertices, 0);
+}
+
+// A body as thin as rounding has no other cell than itself.
+TEST(PartJob, HasNoTetrahedraWhereOneHasNoVolume) {
+    const test::TemporaryFolder folder;
+    const unsigned seed = 1;
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0.1, 0.9);
+    MesherCall call;
+    call.options.radius_edge = 0;
+    int bodies = 0;
+    for (int i = 0; i < 1000; ++i) {
+        Soup soup = test::tetrahedron();
+        for (Vec3& p : soup.vertices) p = Vec3(share(random), share(random), share(random));
+        std::vector<Vec3>& p = soup.vertices;
+        p[3] = p[0] + share(random) * (p[1] - p[0]) + share(random) * (p[2] - p[0]);
+        if (orientation(p[0], p[1], p[2], p[3]) <= 0 || has_volume_in_any_order(p[0], p[1], p[2], p[3])) continue;
+        const PartResult result = run_part_job(job_of(soup), call, folder.file("part"));
+        EXPECT_EQ(result.code, static_cast<int>(ErrorCode::subdomain));
+        EXPECT_EQ(result.tets, 0);
+        bodies += result.message.find("1 tetrahedron has no volume but for rounding") != std::string::npos;
+    }
+    EXPECT_GT(bodies, 20);
 }
 
 // What a filling says of its recovery comes back from the worker, and from a part in two halves the sum: each half has
