@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@
 #include "parallel/process_memory.h"
 #include "prepare/facet_division.h"
 #include "prepare/labelled_facets.h"
+#include "prepare/periodicity.h"
 #include "prepare/size_reader.h"
 #include "prepare/slivers.h"
 #include "prepare/thin_layers.h"
@@ -120,6 +123,7 @@ BadFacets find_bad_facets(const Input& input) {
 struct RemeshTask {
     LabelledFacets facets;
     RemeshOptions options;
+    std::optional<Periodicity> periodicity = {};  // of the file's own facets
 };
 
 // The length that is wanted at a point of a label, and what follows from the sizes of regions. `all`: of the others.
@@ -145,6 +149,15 @@ void want_lengths_of_regions(const RunOptions& options, const SizeField& all, co
         return least;
     };
     task.options.longest = longest;
+}
+
+// Whether more than one in fifty of the chosen facets is a sliver: they are not worth to be kept then.
+bool spoils_cells(const SurfaceArrays& surface, const std::vector<char>& is_chosen) {
+    constexpr std::int64_t least = 50;
+    std::vector<Triangle> chosen;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        if (is_chosen[f]) chosen.push_back(surface.facets[f]);
+    return least * find_slivers(surface.vertices, chosen).count > std::ssize(chosen);
 }
 
 // Less than `usual` where most of the body is thin.
@@ -185,9 +198,26 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     }
     if (!may_change_volume(input, options)) result.volume_tolerance = volume_tolerance;
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
-    if (options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted && !bad.are_too_wide())
-        result.kept = facets_away_from_slivers(task.facets.surface);
+    const bool may_keep = options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted;
+    if (may_keep && !bad.are_too_wide()) result.kept = facets_away_from_slivers(task.facets.surface);
+    if (!input.is_cad && !input.wrapped) task.periodicity = find_periodicity(task.facets.surface);
+    if (may_keep && task.periodicity && !spoils_cells(task.facets.surface, task.periodicity->is_paired)) {
+        result.kept.resize(task.facets.surface.facets.size(), 0);
+        std::transform(result.kept.begin(), result.kept.end(), task.periodicity->is_paired.begin(), result.kept.begin(),
+                       std::bit_or<char>());
+        task.periodicity->is_kept = true;
+    }
     return task;
+}
+
+// Whose solver joins opposite sides wants to know whether they still match.
+std::string note_of_periodicity(const Periodicity& periodicity) {
+    const Vec3& period = periodicity.period;
+    return fmt::format("Opposite sides match, {:.6g}, {:.6g} and {:.6g} apart along x, y and z: {}", period.x(),
+                       period.y(), period.z(),
+                       periodicity.is_kept ? fmt::format("their {} facets are kept, so that they still do.",
+                                                         grouped(periodicity.paired_facets()))
+                                           : "remeshed, they do not. --surface split keeps the facets.");
 }
 
 void check_memory(double facets, const RunOptions& options, double edge) {
@@ -249,6 +279,7 @@ Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, c
     RemeshTask task = remesh_task(input, before, bad, options);
     RemeshOptions& wanted = task.options;
     if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, bad, wanted));
+    if (task.periodicity) input.notes.push_back(note_of_periodicity(*task.periodicity));
     check_memory(forecast_facets(task.facets.surface, wanted), options, wanted.longest);
     wanted.poll = step_counter(listener);
     if (wanted.poll) wanted.poll();

@@ -2,10 +2,13 @@
 #include "prepare/slivers.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "prepare/periodicity.h"
 #include "prepare/remeshing.h"
 #include "prepare/thin_layers.h"
 #include "remesh/remesh.h"
@@ -134,6 +137,73 @@ TEST(ThinLayers, AreRemeshedWhereFacetsAreTooWideForThem) {
         split.remeshing = Remeshing::never;
         EXPECT_FALSE(remesh_where_asked(input, split).remeshed);
     }
+}
+
+// A cube whose opposite sides match and are curved, with needles at the same places of the two along x.
+SurfaceArrays volume_element(int n, const Vec3& period, std::size_t needles) {
+    Soup soup = test::box(Vec3::Zero(), Vec3::Ones(), {n, n, n});
+    const std::size_t facets = soup.facets.size();
+    const auto lies_above = [&](std::size_t f, std::size_t g) {  // true if g lies one edge of the cube above f
+        const auto has = [&](const Vec3& p) {
+            return std::any_of(soup.facets[g].begin(), soup.facets[g].end(),
+                               [&](std::int32_t v) { return (soup.vertices[v] - p).norm() < 1e-9; });
+        };
+        return std::all_of(soup.facets[f].begin(), soup.facets[f].end(),
+                           [&](std::int32_t v) { return has(soup.vertices[v] + Vec3::UnitX()); });
+    };
+    const auto divide = [&](std::size_t f, const Vec3& p) {
+        const auto [a, b, c] = soup.facets[f];
+        const auto v = static_cast<std::int32_t>(soup.vertices.size());
+        soup.vertices.push_back(p);
+        soup.facets[f] = {a, b, v};
+        soup.facets.push_back({b, c, v});
+        soup.facets.push_back({c, a, v});
+    };
+    for (std::size_t f = 0; f < facets && needles > 0; f += 7)
+        for (std::size_t g = 0; g < facets; ++g) {
+            if (!lies_above(f, g)) continue;
+            const Triangle t = soup.facets[f];
+            const Vec3 p = 0.49 * soup.vertices[t[0]] + 0.49 * soup.vertices[t[1]] + 0.02 * soup.vertices[t[2]];
+            divide(g, p + Vec3::UnitX());
+            divide(f, p);
+            --needles;
+            break;
+        }
+    for (Vec3& p : soup.vertices) {
+        const auto wave = [](double x) { return std::sin(2 * std::numbers::pi * x); };
+        p = (p + Vec3(0.05 * wave(p.y()) * wave(p.z()), 0.03 * wave(p.z()), 0)).cwiseProduct(period);
+    }
+    soup.patch.assign(soup.facets.size(), 0);
+    return test::to_arrays(soup);
+}
+
+TEST(Periodicity, IsFoundOfSidesThatMatch) {
+    for (const int n : {4, 7})
+        for (const Vec3& period : {Vec3(1, 1, 1), Vec3(3, 1, 0.5), Vec3(1e-6, 2e-6, 1e-6)}) {
+            SCOPED_TRACE(testing::Message() << n << " of " << period.transpose());
+            const SurfaceArrays surface = volume_element(n, period, 3);
+            const auto found = find_periodicity(surface);
+            ASSERT_TRUE(found);
+            EXPECT_LT((found->period - period).norm(), 1e-5 * period.norm());
+            EXPECT_EQ(found->paired_facets(), std::ssize(surface.facets));
+        }
+    for (const Soup& soup : {test::icosphere(3), test::torus(3, 1, 30, 20), test::prism(60, 1, 2), test::box()})
+        EXPECT_FALSE(find_periodicity(test::to_arrays(soup)));
+}
+
+// Only slivers that are few stay for that.
+TEST(RemeshWhereAsked, KeepsSidesThatMatch) {
+    const SurfaceArrays surface = volume_element(8, Vec3::Ones(), 5);
+    ASSERT_TRUE(find_slivers(surface.vertices, surface.facets).spoil_cells());
+    const Input result = remesh_where_asked(input_of(surface), {});
+    EXPECT_EQ(corners_of(result.complex.arrays()), corners_of(surface));
+    EXPECT_NE(result.notes.back().find("Opposite sides match, 1, 1 and 1 apart"), std::string::npos);
+    EXPECT_NE(result.notes.back().find("they still do"), std::string::npos);
+
+    RunOptions sized;
+    sized.sizes.max_volume = 1e-4;
+    const Input finer = remesh_where_asked(input_of(surface), sized);
+    EXPECT_NE(finer.notes.back().find("remeshed, they do not"), std::string::npos) << finer.notes.back();
 }
 
 }  // namespace
