@@ -93,6 +93,11 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
+// In this direction.
+bool has_edge(const Triangle& t, std::int32_t from, std::int32_t to) {
+    return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
+}
+
 // Facets with their corners in order, to be looked up.
 class FacetsByCorners {
  public:
@@ -134,14 +139,19 @@ std::optional<Periodicity> find_periodicity(const SurfaceArrays& surface) {
         partners[static_cast<std::size_t>(axis)] = columns.partners_above(found.period[axis]);
     }
     const FacetsByCorners by_corners(surface.facets);
-    for (const std::vector<std::int32_t>& partner : partners)
+    for (const std::vector<std::int32_t>& partner : partners) {
+        std::size_t pairs = 0;
         for (std::size_t f = 0; f < surface.facets.size(); ++f) {
             const auto& [a, b, c] = surface.facets[f];
             if (partner[a] < 0 || partner[b] < 0 || partner[c] < 0) continue;
             const std::int32_t other = by_corners.find({partner[a], partner[b], partner[c]});
-            if (other < 0) continue;
+            if (other < 0 || has_edge(surface.facets[static_cast<std::size_t>(other)], partner[a], partner[b]))
+                continue;
             found.is_paired[f] = found.is_paired[static_cast<std::size_t>(other)] = 1;
+            ++pairs;
         }
+        if (pairs < least_pairs) return std::nullopt;
+    }
     return found;
 }
 

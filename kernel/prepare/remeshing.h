@@ -35,7 +35,8 @@ double deviation_for(const Length& wanted, double diagonal);
 double forecast_changed_facets(const Input& input, const RunOptions& options);
 
 /// The input, remeshed where `options` says so, or with a note about slivers. What is remeshed without being asked for
-/// is noted; where only few facets need it, the others stay (facets_away_from_slivers()), unless sizes are wanted.
+/// is noted; where only few facets need it, the others stay (facets_away_from_slivers()), unless sizes are wanted. So
+/// do sides that match (prepare/periodicity.h), unless more than one in fifty of their facets is a sliver.
 /// Where facets are good but coarser than sizes, they are divided, unless the options keep them. Surface, counts, area
 /// and volume are the new ones then, and Input::remeshed tells what was done. The wanted lengths are those of
 /// options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it

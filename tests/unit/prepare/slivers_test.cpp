@@ -187,7 +187,8 @@ TEST(Periodicity, IsFoundOfSidesThatMatch) {
             EXPECT_LT((found->period - period).norm(), 1e-5 * period.norm());
             EXPECT_EQ(found->paired_facets(), std::ssize(surface.facets));
         }
-    for (const Soup& soup : {test::icosphere(3), test::torus(3, 1, 30, 20), test::prism(60, 1, 2), test::box()})
+    const Soup plate = test::box(Vec3::Zero(), Vec3(1, 1, 0.1), {9, 9, 1});
+    for (const Soup& soup : {test::icosphere(3), test::torus(3, 1, 30, 20), test::prism(60, 1, 2), test::box(), plate})
         EXPECT_FALSE(find_periodicity(test::to_arrays(soup)));
 }
 
