@@ -143,8 +143,8 @@ RepairReport repair(Soup& soup, const RepairPlan& plan, const std::function<void
     if (plan.empty()) return {};
     if (!soup.sides.empty())
         throw Error(ErrorCode::usage,
-                    "--repair is for facets that do not say what they bound, but this surface has regions that share "
-                    "walls. Leave it out.");
+                    "Repairs are for facets that do not say what they bound, but this surface has regions that share "
+                    "walls. Mesh it as it is, without --repair, or mend it where it was made.");
     return Ladder(soup, plan, poll).climb();
 }
 
