@@ -89,7 +89,7 @@ std::vector<SurfaceFile> small_files() {
 TEST(Mutation, MutationsOfFilesOfEveryFormatNeverDoHarm) {
     Outcomes outcomes;
     const std::vector<SurfaceFile> files = small_files();
-    EXPECT_GE(check_mutations(files, test::slice(300u), false, outcomes), test::slice(10'000u));
+    EXPECT_GE(check_mutations(files, test::slice(320u), false, outcomes), test::slice(10'000u));
     EXPECT_GT(outcomes.refused, test::slice(1000u));
     EXPECT_GT(outcomes.defective, test::slice(1000u));
     EXPECT_GT(outcomes.clean, test::slice(100u));
