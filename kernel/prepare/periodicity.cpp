@@ -125,28 +125,27 @@ class FacetsByCorners {
 
 std::int64_t Periodicity::paired_facets() const { return std::count(is_paired.begin(), is_paired.end(), char{1}); }
 
-std::optional<Periodicity> find_periodicity(const SurfaceArrays& surface) {
-    const Box box = box_around(surface.vertices);
+std::optional<Periodicity> find_periodicity(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
+    const Box box = box_around(vertices);
     const double tolerance = tolerance_share * box.diagonal().norm();
     if (!(tolerance > 0)) return std::nullopt;
     Periodicity found;
-    found.is_paired.assign(surface.facets.size(), 0);
+    found.is_paired.assign(facets.size(), 0);
     std::array<std::vector<std::int32_t>, 3> partners;
     for (int axis = 0; axis < 3; ++axis) {
-        const Columns columns(surface.vertices, axis, tolerance);
+        const Columns columns(vertices, axis, tolerance);
         found.period[axis] = columns.period(least_share_of_extent * box.diagonal()[axis]);
         if (found.period[axis] == 0) return std::nullopt;
         partners[static_cast<std::size_t>(axis)] = columns.partners_above(found.period[axis]);
     }
-    const FacetsByCorners by_corners(surface.facets);
+    const FacetsByCorners by_corners(facets);
     for (const std::vector<std::int32_t>& partner : partners) {
         std::size_t pairs = 0;
-        for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-            const auto& [a, b, c] = surface.facets[f];
+        for (std::size_t f = 0; f < facets.size(); ++f) {
+            const auto& [a, b, c] = facets[f];
             if (partner[a] < 0 || partner[b] < 0 || partner[c] < 0) continue;
             const std::int32_t other = by_corners.find({partner[a], partner[b], partner[c]});
-            if (other < 0 || has_edge(surface.facets[static_cast<std::size_t>(other)], partner[a], partner[b]))
-                continue;
+            if (other < 0 || has_edge(facets[static_cast<std::size_t>(other)], partner[a], partner[b])) continue;
             found.is_paired[f] = found.is_paired[static_cast<std::size_t>(other)] = 1;
             ++pairs;
         }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "surface/surface.h"
+#include "core/types.h"
 
 namespace kerf {
 
@@ -23,6 +23,6 @@ struct Periodicity {
 /// have a partner as at any; the sides need not be flat. Returns nothing unless along all three axes a fiftieth of the
 /// vertices have partners, ten at least, and ten facets: the two ends of an extruded part match as well, and are
 /// nobody's volume element. Places are the same within 1e-6 of the diagonal. O(#V log #V + #F log #F).
-std::optional<Periodicity> find_periodicity(const SurfaceArrays& surface);
+std::optional<Periodicity> find_periodicity(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 
 }  // namespace kerf

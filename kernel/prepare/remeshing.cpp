@@ -200,7 +200,8 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
     const bool may_keep = options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted;
     if (may_keep && !bad.are_too_wide()) result.kept = facets_away_from_slivers(task.facets.surface);
-    if (!input.is_cad && !input.wrapped) task.periodicity = find_periodicity(task.facets.surface);
+    if (!input.is_cad && !input.wrapped)
+        task.periodicity = find_periodicity(task.facets.surface.vertices, task.facets.surface.facets);
     if (may_keep && task.periodicity && !spoils_cells(task.facets.surface, task.periodicity->is_paired)) {
         result.kept.resize(task.facets.surface.facets.size(), 0);
         std::transform(result.kept.begin(), result.kept.end(), task.periodicity->is_paired.begin(), result.kept.begin(),

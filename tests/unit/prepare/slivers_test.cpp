@@ -182,14 +182,14 @@ TEST(Periodicity, IsFoundOfSidesThatMatch) {
         for (const Vec3& period : {Vec3(1, 1, 1), Vec3(3, 1, 0.5), Vec3(1e-6, 2e-6, 1e-6)}) {
             SCOPED_TRACE(testing::Message() << n << " of " << period.transpose());
             const SurfaceArrays surface = volume_element(n, period, 3);
-            const auto found = find_periodicity(surface);
+            const auto found = find_periodicity(surface.vertices, surface.facets);
             ASSERT_TRUE(found);
             EXPECT_LT((found->period - period).norm(), 1e-5 * period.norm());
             EXPECT_EQ(found->paired_facets(), std::ssize(surface.facets));
         }
     const Soup plate = test::box(Vec3::Zero(), Vec3(1, 1, 0.1), {9, 9, 1});
     for (const Soup& soup : {test::icosphere(3), test::torus(3, 1, 30, 20), test::prism(60, 1, 2), test::box(), plate})
-        EXPECT_FALSE(find_periodicity(test::to_arrays(soup)));
+        EXPECT_FALSE(find_periodicity(soup.vertices, soup.facets));
 }
 
 // Only slivers that are few stay for that.
