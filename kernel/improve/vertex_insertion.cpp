@@ -115,9 +115,10 @@ std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int
     best_ = {Vec3::Zero(), limit};
     best_cavity_.clear();
     try_all_edges(mesh, cell, Vec3::Zero());
-    if (const Vec3 inwards = away_from_boundary(mesh, cell); inwards != Vec3::Zero())
-        for (std::size_t i = 0; i < depths.size() && best_cavity_.empty(); ++i)
-            try_all_edges(mesh, cell, depths[i] * inwards);
+    if (best_cavity_.empty() && !depths.empty())
+        if (const Vec3 inwards = away_from_boundary(mesh, cell); inwards != Vec3::Zero())
+            for (std::size_t i = 0; i < depths.size() && best_cavity_.empty(); ++i)
+                try_all_edges(mesh, cell, depths[i] * inwards);
     if (best_cavity_.empty()) return {};
     cavity_ = best_cavity_;
     find_sides(mesh);

@@ -152,7 +152,7 @@ void want_lengths_of_regions(const RunOptions& options, const SizeField& all, co
 }
 
 // Whether more than one in fifty of the chosen facets is a sliver: they are not worth to be kept then.
-bool spoils_cells(const SurfaceArrays& surface, const std::vector<char>& is_chosen) {
+bool has_many_slivers(const SurfaceArrays& surface, const std::vector<char>& is_chosen) {
     constexpr std::int64_t least = 50;
     std::vector<Triangle> chosen;
     for (std::size_t f = 0; f < surface.facets.size(); ++f)
@@ -202,7 +202,7 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     if (may_keep && !bad.are_too_wide()) result.kept = facets_away_from_slivers(task.facets.surface);
     if (!input.is_cad && !input.wrapped)
         task.periodicity = find_periodicity(task.facets.surface.vertices, task.facets.surface.facets);
-    if (may_keep && task.periodicity && !spoils_cells(task.facets.surface, task.periodicity->is_paired)) {
+    if (may_keep && task.periodicity && !has_many_slivers(task.facets.surface, task.periodicity->is_paired)) {
         result.kept.resize(task.facets.surface.facets.size(), 0);
         std::transform(result.kept.begin(), result.kept.end(), task.periodicity->is_paired.begin(), result.kept.begin(),
                        std::bit_or<char>());
