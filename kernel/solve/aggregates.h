@@ -10,13 +10,13 @@ namespace kerf {
 
 struct Aggregates {
     static constexpr std::int32_t none = -1;
-    std::vector<std::int32_t> of_node;  ///< of each owned node; none for one that nothing couples
+    std::vector<std::int32_t> of_node;  ///< aggregate of each owned node; none for those of `is_apart`
     std::int32_t count = 0;
 };
 
-/// Vanek, Mandel, Brezina 1996: a node with all its neighbours, where none of them is taken; those that are left join
-/// a neighbour. `owned` nodes of the rank are grouped among themselves, in their order; those of `is_apart` are not.
-/// O(n).
+/// Groups nodes as Vanek, Mandel and Brezina (1996) do: a node with all its neighbours, where none of them is taken; a
+/// node that is left joins a neighbour's group, or begins one. `owned` nodes of the rank are grouped among themselves,
+/// in their order; those of `is_apart` are in no group. O(n).
 template <int B>
 Aggregates aggregate(const SymmetricBlocks<B>& upper, const LowerBlocks& lower, std::int32_t owned,
                      const std::vector<std::uint8_t>& is_apart) {

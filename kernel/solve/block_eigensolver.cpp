@@ -1,6 +1,11 @@
-// The basis of an iteration is [X P W]: the vectors so far, the directions in which they moved last, and their
-// preconditioned residuals. X and P are orthonormal in A. Products with A and B are carried along as the basis is
-// combined, and made anew from time to time, since rounding adds up.
+// The locally optimal block preconditioned conjugate gradient method (Knyazev 2001, knyazev2001) for A x = lambda B x.
+// The basis of an iteration is [X P W]: X are the vectors so far, P the directions in which they moved last, and W the
+// preconditioned residuals of those that are not found yet. The next X are the best vectors in its span, which solve a
+// small dense problem with the Gram matrices of the basis. X and P are kept orthonormal in A (Hetmaniuk and Lehoucq
+// 2006, hetmaniuk2006), so that only W can depend on the rest; such combinations, which are rounding, are dropped by
+// eigenvalues of a scaled Gram matrix, in place of a Cholesky factorisation that may fail (Stathopoulos and Wu 2002,
+// stathopoulos2002). Products with A and B are carried along as the basis is combined, and made anew every ten
+// iterations and before the end, since rounding adds up.
 #include "solve/block_eigensolver.h"
 
 #include <algorithm>
@@ -20,9 +25,9 @@ using Eigen::VectorXd;
 
 constexpr double least_of_unit = 1e-12;  // eigenvalues of a Gram matrix of unit vectors below it are of rounding
 constexpr int products_last = 10;        // iterations
-constexpr int patience = 5;              // iterations in which a residual halves, unless rounding is what is left of it
+constexpr int patience = 5;              // iterations in which a residual halves, unless it is rounding
 
-// Vectors with their products.
+// Vectors x with their products A x and B x.
 struct Basis {
     MatrixXd x, ax, bx;
 
@@ -30,7 +35,7 @@ struct Basis {
     Basis times(const MatrixXd& coefficients) const { return {x * coefficients, ax * coefficients, bx * coefficients}; }
 };
 
-// The T with T^T G T = 1, for as many combinations as are independent.
+// Returns T with T^T G T = 1, with a column for each independent combination.
 MatrixXd orthonormalising(const MatrixXd& gram) {
     VectorXd scale(gram.cols());
     for (Eigen::Index i = 0; i < scale.size(); ++i) scale[i] = gram(i, i) > 0 ? 1 / std::sqrt(gram(i, i)) : 0;
@@ -86,7 +91,7 @@ class BlockEigensolver {
     int since_halved_ = 0;      // iterations
 };
 
-// Products of X and P are made anew, and X is chosen once more.
+// Makes the products of X and P anew, and chooses X once more.
 void BlockEigensolver::refresh() {
     const Eigen::Index wanted = now_.size();
     MatrixXd all(now_.x.rows(), wanted + last_.size());
@@ -110,7 +115,7 @@ void BlockEigensolver::measure() {
     residuals_ = squares.cwiseMax(0).cwiseSqrt().cwiseQuotient(inverse_.cwiseMax(0));
 }
 
-// Of those that are not found yet, orthogonal to X and P.
+// Returns W: the preconditioned residuals of vectors that are not found yet, orthogonal to X and P.
 Basis BlockEigensolver::directions() const {
     MatrixXd w(now_.x.rows(), now_.size());
     Eigen::Index count = 0;
@@ -125,7 +130,7 @@ Basis BlockEigensolver::directions() const {
     return with_products(std::move(w));
 }
 
-// X becomes the best of what the basis has, and P what moved it.
+// Makes X the best vectors in the span of the basis, and P the motion from the old X to them.
 void BlockEigensolver::improve(const Basis& directions) {
     const Eigen::Index sizes[] = {now_.size(), last_.size(), directions.size()};
     const Eigen::Index kept = sizes[0] + sizes[1], all = kept + sizes[2];
@@ -173,7 +178,8 @@ void BlockEigensolver::improve(const Basis& directions) {
     are_products_new_ = false;
 }
 
-// The first ones that reach the tolerance, or that rounding keeps from it within EigenGoal::of_rounding.
+// Returns how many of the first pairs reach the tolerance, or reach EigenGoal::of_rounding times it where rounding
+// keeps them from it.
 int BlockEigensolver::count_found() {
     const double worst = residuals_.head(goal_.count).maxCoeff();
     if (!(worst > 0.5 * halved_)) {

@@ -1,3 +1,9 @@
+// The stiffness of a rank is summed into rows of 3 x 3 blocks, of which those on and above the diagonal are stored. The
+// pattern comes first: the elements around each node are listed by counting, and their nodes, ascending and each once,
+// are the columns of its row. Then the blocks of elements and springs are added at places found by bisection.
+// `NumberedElements` hides which elements these are: those of the space, or straight ones of order 1 over its corners,
+// for the coarser level of a multigrid. Everything is along x, y and z until the end, when rows and columns of nodes
+// with axes of their own are turned.
 #include "solve/block_rows.h"
 
 #include <algorithm>
@@ -9,7 +15,7 @@ namespace kerf {
 
 namespace {
 
-// The elements of a rank with the nodes of a matrix: all of theirs, or their corners.
+// The elements of a rank with numbers for the nodes of a matrix: all nodes of the elements, or their corners.
 class NumberedElements {
  public:
     NumberedElements(const FeSpace& space, const std::vector<std::int32_t>& corner_numbers)
@@ -55,7 +61,8 @@ class NumberedElements {
     std::vector<std::int64_t> first_tet_{0};
 };
 
-// Which nodes share an element, without values. Corner by corner: first how often, then who, then each once.
+// Returns the pattern of the matrix without values: which nodes share an element. `first` counts the elements around
+// each node, `element_at` lists them.
 SymmetricBlocks<3> pattern_of(const FeSpace& space, const NumberedElements& elements) {
     const int nodes_each = elements.nodes_each();
     const std::int32_t node_count = elements.node_count();

@@ -9,19 +9,20 @@
 
 namespace kerf {
 
-/// What is summed over the elements.
+/// The terms that are summed over the elements.
 struct StiffnessChoice {
-    /// If given, the elements are straight ones of order 1 with the same corners, and their nodes have the numbers that
-    /// are not negative here.
+    /// If given, straight elements of order 1 with the same corners are summed, and these are the numbers of the local
+    /// nodes in the matrix; negative: not in it.
     std::vector<std::int32_t> corner_numbers = {};
-    double mass_factor = 0;  ///< so many times the consistent mass is added
+    double mass_factor = 0;  ///< multiple of the consistent mass that is added
 };
 
-/// Rows and columns of x, y and z become those of the nodes' own axes. O(n).
+/// Turns rows and columns along x, y and z into those along the nodes' own axes. O(n).
 void turn_into_frames(const NodeFrames& frames, SymmetricBlocks<3>& rows);
 
-/// The stiffness of this rank's elements and springs over its local nodes, along their axes (ElasticProblem::frames),
-/// before anything is held; what other ranks add at nodes that they have, too, is not there. O(n).
+/// Returns the stiffness of this rank's elements and springs over its local nodes, along their axes
+/// (ElasticProblem::frames), before anything is held and without the shares of other ranks at nodes that they have,
+/// too. O(n).
 SymmetricBlocks<3> stiffness_of_rank(const ElasticProblem& problem, const StiffnessChoice& choice = {});
 
 }  // namespace kerf

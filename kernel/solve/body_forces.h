@@ -9,15 +9,15 @@ namespace kerf {
 
 using NodalForces = std::array<Vec3, most_element_nodes>;
 
-/// Calls take(place, weight, shapes) for the points of a rule that is exact for density times shape function of
-/// densities of degree 3 at least, in straight elements; weights add up to the volume.
+/// Calls take(place, weight, shapes) for the points of a rule; weights add up to the volume. In straight elements it is
+/// exact for products of a shape function and a density of degree 3 or less.
 template <class Take>
 void for_points_of(const TetElement& element, Take take) {
     for (const TetPoint& at : quadrature::fourteen_points)
         take(element.position_of(at.place), element.point(at).weight, TetElement::shapes_at(element.order(), at.place));
 }
 
-/// Of a force per volume, density(place).
+/// Returns the nodal forces of a force per volume, density(place).
 template <class Density>
 NodalForces body_forces(const TetElement& element, Density density) {
     NodalForces forces;
@@ -29,7 +29,8 @@ NodalForces body_forces(const TetElement& element, Density density) {
     return forces;
 }
 
-/// What would stretch the element, which is not held, by the strain in all directions: they add up to 0.
+/// Returns the nodal forces that would stretch the element, if nothing held it, by `strain` in all directions. They add
+/// up to 0.
 NodalForces thermal_forces(const TetElement& element, const Material& material, double strain);
 
 }  // namespace kerf

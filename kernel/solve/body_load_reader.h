@@ -1,4 +1,4 @@
-// What a case file says of whole bodies: gravity, rotation, temperature; and combinations of cases.
+// The tables of a case file for whole bodies (gravity, rotation, temperature) and for combinations of cases.
 #pragma once
 
 #include "solve/case_table.h"
@@ -6,11 +6,12 @@
 
 namespace kerf {
 
-/// A table, or several in two brackets, of the file `path`. Throws Error(usage).
+/// Each reads one table of the case file `path`. Throws Error(usage).
 Gravity read_gravity(const std::string& path, const toml::table& values);
 Rotation read_rotation(const std::string& path, const toml::table& values);
 Temperature read_temperature(const std::string& path, const toml::table& values);
-/// `cases`: names of those that there are.
+/// Reads one [[combination]]. `cases`: the names of all cases; `others`: the combinations before it. Throws
+/// Error(usage).
 Combination read_combination(const std::string& path, const toml::table& values, const std::vector<std::string>& cases,
                              const std::vector<Combination>& others);
 

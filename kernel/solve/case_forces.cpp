@@ -1,3 +1,8 @@
+// Each load adds forces at nodes, on the cells of a part. A force at a node that is held is kept twice: on the right
+// side, and in HeldForces by support and region, since reactions are internal forces less the loads at the same place
+// (reactions(), solve/stress.h). Inertia relief then balances the sum of all loads. Forces of temperatures come last
+// and are no load: they go to the right side alone, and supports feel them by the stresses. Ranks have shares: each
+// adds the forces on cells of its own parts, and a force at a vertex is taken by the rank that owns the vertex, once.
 #include "solve/case_forces.h"
 
 #include <algorithm>
@@ -20,7 +25,7 @@ bool is_among(const Names& names, const Name& name) {
 
 }  // namespace
 
-// On cells of the part `p`.
+// Adds a force on cells of the part `p`.
 void CaseForces::add_force(std::size_t p, std::int32_t node, const Vec3& force) {
     Eigen::Map<Vec3>(&current().forces[3 * node]) += force;
     problem_.share_among_holders(node, force, [&](std::int32_t support, const Vec3& share) {
@@ -28,7 +33,7 @@ void CaseForces::add_force(std::size_t p, std::int32_t node, const Vec3& force) 
     });
 }
 
-// The part that owns the node, of those that have it, takes the force.
+// Adds a force at a vertex, on the rank that owns it: to the first part there that has it.
 void CaseForces::add_force_at(std::int64_t row, const Vec3& force) {
     const std::int64_t own = row - space_.first_row();
     if (own < 0 || own >= space_.owned_count()) return;
@@ -110,7 +115,7 @@ void CaseForces::add_temperature(const Temperature& temperature) {
     }
 }
 
-// They stretch the body, and are no load: what holds it feels them by its stresses.
+// Adds the forces of temperatures. They stretch the body and are no load: supports feel them by the stresses.
 void CaseForces::add_thermal_forces() {
     if (current().thermal.empty()) return;
     std::vector<double>& forces = current().forces;

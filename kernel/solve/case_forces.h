@@ -1,4 +1,4 @@
-// What pulls at the nodes in each set of loads.
+// The nodal forces of each set of loads.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace kerf {
 
-/// Fills ElasticProblem::cases, when everything else of the problem is there.
+/// Fills ElasticProblem::cases, once the rest of the problem is there.
 class CaseForces {
  public:
-    /// `region_of_material`: see place_materials().
+    /// `region_of_material`: as place_materials() returns it.
     CaseForces(ElasticProblem& problem, const MeshOutline& outline, const ElasticCase& wanted,
                const SurfaceSelector& selector, std::vector<std::int32_t> region_of_material)
         : problem_(problem),
@@ -21,10 +21,10 @@ class CaseForces {
           selector_(selector),
           region_of_material_(std::move(region_of_material)) {}
 
-    /// Throws Error(usage), on all ranks alike, for what the mesh does not have, and materials without density or
-    /// expansion where these are needed. Collective.
+    /// Adds the case `name`. Throws Error(usage), on all ranks alike, for names that the mesh does not have, and for
+    /// materials without density or expansion where these are needed. Collective.
     void add_case(const std::string& name);
-    /// Of cases that are there.
+    /// Adds a sum of cases that have been added, times factors.
     void add_combination(const Combination& combination);
 
  private:

@@ -1,3 +1,8 @@
+// Sums, energies and extremes of the solution of a case, for the mesh and for each of several regions. Stresses are
+// compared at nodes, where each part has averages; the least safety is the inverse of the largest von Mises stress
+// beside the yield stress of the material of a cell at the node. The imbalance is the size of the sum of loads,
+// reactions and inertia beside the largest of these. The forces of temperatures, which add up to zero, count for that
+// scale by the sum of their sizes, so that a case of temperatures alone has one.
 #include "solve/case_report.h"
 
 #include <algorithm>
@@ -8,7 +13,7 @@ namespace {
 
 struct StressExtremes {
     LargestPlace von_mises;
-    LargestPlace use_of_yield;  // von Mises stress beside it
+    LargestPlace use_of_yield;  // von Mises stress over yield stress
 };
 
 std::optional<Extreme> safety_of(const LargestPlace& use_of_yield, MpiRanks& ranks) {
@@ -40,7 +45,8 @@ class CaseResults {
         for (const auto& [of, factor] : of_case.factors) report.factors.emplace_back(problem_.cases[of].name, factor);
     }
 
-    // Forces of temperatures, which add up to nothing: the sum of their sizes with those of the loads.
+    // Returns the sum of the sizes of nodal forces, those of loads with those of temperatures, which alone add up to
+    // zero; 0 without temperatures.
     double size_of_thermal_forces() const {
         if (problem_.cases[number_].thermal.empty()) return 0;
         std::vector<double> forces = problem_.cases[number_].forces;
@@ -50,7 +56,7 @@ class CaseResults {
         return space_.ranks().all_reduce(size, Reduction::sum);
     }
 
-    // Of the mesh, then of its regions.
+    // Returns the extremes of the mesh, then those of its regions.
     std::vector<StressExtremes> stresses(std::size_t regions) const {
         std::vector<StressExtremes> all(1 + regions);
         std::vector<double> at_node;  // of a part: vertices, then edges

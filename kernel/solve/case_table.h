@@ -1,4 +1,4 @@
-// Tables of a case file: what may be in them, and how everything else is refused.
+// Tables of a case file: the keys that each may have, and messages that refuse everything else.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace kerf {
 
-/// A table of the file with what may be in it. `title` names it in messages: "a support". All functions throw
-/// Error(usage) with the file and the line of what they refuse.
+/// Reads the tables of one kind. `title` names such a table in messages: "a support". All functions throw Error(usage)
+/// with the file and the line of the value that they refuse.
 class CaseTable {
  public:
     using Read = std::function<void(const toml::node&)>;
@@ -85,13 +85,13 @@ class CaseTable {
         const auto values = numbers<3>(node, what);
         return {values[0], values[1], values[2]};
     }
-    /// A direction, as long as it likes.
+    /// Returns a direction of any length above 0 as a unit vector.
     Vec3 unit_vector(const toml::node& node, const char* what) const {
         const Vec3 direction = vector(node, what);
         if (direction.squaredNorm() == 0) refuse(node, fmt::format("{} of {} has no length.", what, title_));
         return direction.normalized();
     }
-    /// {point = [x, y, z], direction = [x, y, z]}
+    /// Reads an axis: {point = [x, y, z], direction = [x, y, z]}.
     CaseAxis axis(const toml::node& node) const {
         const toml::table* table = node.as_table();
         bool has_point = false, has_direction = false;
@@ -110,13 +110,13 @@ class CaseTable {
         if (!has_point || !has_direction) refuse(node, "an axis is {point = [x, y, z], direction = [x, y, z]}.");
         return axis;
     }
-    /// The node as a table; `example` is how one looks.
+    /// Returns the node as a table; `example` shows in the message how such a table begins.
     const toml::table& table(const toml::node& node, const std::string& example) const {
         const toml::table* table = node.as_table();
         if (!table) refuse(node, fmt::format("{} is what is expected here.", example));
         return *table;
     }
-    /// Of a set of loads.
+    /// Returns the name of a set of loads.
     std::string case_name(const toml::node& node) const {
         const std::string name = text(node, "case");
         if (name.find('/') != name.npos || name.starts_with('.'))

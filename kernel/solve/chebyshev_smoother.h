@@ -12,8 +12,9 @@
 
 namespace kerf {
 
-/// Adams, Brezina, Hu, Tuminaro 2003: a fixed polynomial of D^-1 A that is small on the upper part of the spectrum, so
-/// that the same before and after a coarse correction leaves it symmetric.
+/// A fixed polynomial of D^-1 A that is small on the upper part of the spectrum, D being the blocks of the diagonal
+/// (Adams, Brezina, Hu, Tuminaro 2003). The same smoothing before and after a coarse correction leaves the cycle
+/// symmetric.
 template <int B>
 class ChebyshevSmoother {
  public:
@@ -22,12 +23,12 @@ class ChebyshevSmoother {
         : matrix_(&matrix), inverse_(matrix.inverse_diagonal()), largest_(lanczos_estimate()) {}
 
     double largest_eigenvalue() const { return largest_; }
-    /// The inverse of the block of the diagonal of an owned node.
+    /// Returns the inverse of the diagonal block of an owned node.
     Eigen::Map<const RowMajorBlock<B, B>> inverse(std::int32_t node) const {
         return Eigen::Map<const RowMajorBlock<B, B>>(&inverse_[B * B * node]);
     }
 
-    /// Improves x, which is zero before if `from_zero`. Collective.
+    /// Improves x, which is zero before the call if `from_zero`. Collective.
     void smooth(const std::vector<double>& right, std::vector<double>& x, bool from_zero) {
         const double upper = 1.1 * largest_, lower = 0.1 * largest_;
         const double center = (upper + lower) / 2, half = (upper - lower) / 2, sigma = center / half;
@@ -55,7 +56,7 @@ class ChebyshevSmoother {
     using Vector = Eigen::Matrix<double, B, 1>;
     static constexpr int degree = 2, lanczos_steps = 10;
 
-    // Conjugate gradients make Lanczos's tridiagonal matrix.
+    // Conjugate gradients yield the entries of Lanczos's tridiagonal matrix.
     double lanczos_estimate() const {
         const MpiRanks& ranks = matrix_->exchange.ranks();
         const std::size_t size = matrix_->owned_size();
@@ -88,7 +89,7 @@ class ChebyshevSmoother {
 
     const LevelMatrix<B>* matrix_;
     std::vector<double> inverse_;
-    std::vector<double> step_, product_;  // of smooth(), kept for their room
+    std::vector<double> step_, product_;  // work space of smooth()
     double largest_;
 };
 

@@ -1,3 +1,8 @@
+// A case file is read by tables. Each kind of table has a list of keys with a function for each (CaseTable::Key), and a
+// key that is not in the list is refused with the list; a new key is an entry there and a line of docs/solvers.md. The
+// units and the names of all cases are noted first, since materials need the units and combinations need the names,
+// wherever these stand in the file. Which keys of a support say its displacements tells its frame (`frame_keys`), so
+// that keys of two frames are refused.
 #include "solve/elastic_case.h"
 
 #include <algorithm>
@@ -73,7 +78,7 @@ class CaseReader {
         result_.units = *units == "mm" ? CaseUnits::mm : CaseUnits::m;
     }
 
-    // Names of cases wherever they are, in the order of the file.
+    // Notes the names of cases, wherever they stand, in the order of the file.
     void note_cases(const toml::table& file) {
         std::vector<std::pair<std::pair<std::size_t, std::size_t>, std::string>> found;
         const auto note = [&](const toml::table& table) {
@@ -95,7 +100,7 @@ class CaseReader {
             if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
 
-    // The keys that select, of supports, springs and loads.
+    // Returns the keys by which supports, springs and loads select a place.
     static std::vector<CaseTable::Key> selection_keys(const CaseTable& table, SurfaceSelection& where,
                                                       std::string& label) {
         return {{"patch",
@@ -141,10 +146,10 @@ class CaseReader {
     ElasticCase result_;
 };
 
-// In which of the four frames its displacements are.
+// The keys for the displacements of a support in one of the four frames.
 struct FrameKeys {
     Support::Frame frame;
-    std::array<const char*, 3> names;  // of displacements; nullptr: none
+    std::array<const char*, 3> names;  // keys of the displacements; nullptr: no key
 };
 constexpr std::array<FrameKeys, 4> frame_keys = {{{Support::Frame::global, {"x", "y", "z"}},
                                                   {Support::Frame::normal, {"normal", nullptr, nullptr}},

@@ -1,4 +1,4 @@
-// A case on a mesh: which nodes are held, what pulls at them, what the cells are made of.
+// A case on a mesh: the degrees of freedom that are held, the nodal forces, the materials of the cells.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@
 
 namespace kerf {
 
-/// What inertia takes of the loads of a body, where supports leave it free.
+/// The accelerations by which inertia balances the loads of a body that supports leave free.
 struct BodyInertia {
-    Vec3 centre = Vec3::Zero();                ///< of its mass
+    Vec3 centre = Vec3::Zero();                ///< centre of mass
     Vec3 acceleration = Vec3::Zero();          ///< of the centre
     Vec3 angular_acceleration = Vec3::Zero();  ///< radians per time squared
 };
 
-/// Of a material among those of a problem.
+/// The number of a material among those of a problem.
 using MaterialNumber = std::uint16_t;
 
-/// One set of loads, or several with factors.
+/// One set of loads, or a sum of several with factors.
 struct ProblemCase {
     std::string name;
     std::vector<double> forces;         ///< #dof of x, y and z; ranks have shares, which add up
-    double load_sum = 0;                ///< of sizes of forces, before inertia balances them; ranks have shares
-    HeldForces held_forces;             ///< those at what is held, without those of temperature, likewise
+    double load_sum = 0;                ///< sum of sizes of forces, before inertia balances them; ranks have shares
+    HeldForces held_forces;             ///< forces at held degrees of freedom, but for thermal ones; ranks have shares
     std::vector<double> thermal;        ///< thermal strain of each material, in every direction; empty: none
     Vec3 inertia = Vec3::Zero();        ///< the sum of the forces of inertia, over all ranks
-    std::vector<BodyInertia> relieved;  ///< of bodies that are free
-    std::vector<std::pair<std::size_t, double>> factors;  ///< of a combination: cases before it
+    std::vector<BodyInertia> relieved;  ///< one for each free body
+    std::vector<std::pair<std::size_t, double>> factors;  ///< of a combination: numbers of earlier cases, and factors
 };
 
 /// Degrees of freedom are 3 * node + component, along x, y and z but where `frames` says otherwise. Arrays over local
@@ -43,16 +43,16 @@ struct ProblemCase {
 struct ElasticProblem {
     const FeSpace* space = nullptr;
     std::vector<Material> materials;
-    /// Of each part of this rank; empty: the first material.
+    /// The materials of the tetrahedra, for each part of this rank; empty: all have the first material.
     std::vector<std::vector<MaterialNumber>> material_of_tet;
-    std::vector<std::string> supports;     ///< names: of supports, of springs, and of what inertia relieves
-    std::vector<Vec3> places;              ///< of supports: the centres of their areas, for moments
+    std::vector<std::string> supports;     ///< names of supports, then of springs, then of inertia relief
+    std::vector<Vec3> places;              ///< of `supports`: the centres of their areas, for moments
     std::vector<std::int32_t> support_of;  ///< #dof: the first support that holds it, or `free`
     std::vector<double> prescribed;        ///< #dof: displacement where it is held
     std::vector<ProblemCase> cases;        ///< combinations last
     NodeFrames frames;
     SurfaceSprings springs;
-    std::int32_t first_spring = 0;  ///< among `supports`
+    std::int32_t first_spring = 0;  ///< index of the first spring in `supports`
     InertiaRelief relief;
 
     static constexpr std::int32_t free = INT32_MAX;
@@ -61,12 +61,12 @@ struct ElasticProblem {
         return material_of_tet.empty() ? MaterialNumber{0} : material_of_tet[p][tet];
     }
     const Material& material(std::size_t p, std::size_t tet) const { return materials[material_number(p, tet)]; }
-    /// Of a tetrahedron in a case, in every direction; without cases 0.
+    /// Returns the thermal strain of a tetrahedron in a case, the same in every direction; 0 without cases.
     double thermal_strain(std::size_t number, std::size_t p, std::size_t tet) const {
         if (number >= cases.size() || cases[number].thermal.empty()) return 0;
         return cases[number].thermal[material_number(p, tet)];
     }
-    /// Calls take(support, force) for what those who hold the node have of a force there.
+    /// Calls take(support, share) for each support that holds the node, with its share of a force there.
     template <class Take>
     void share_among_holders(std::int32_t node, const Vec3& force, Take take) const {
         const std::size_t dof = 3 * static_cast<std::size_t>(node);
@@ -84,12 +84,12 @@ struct ElasticProblem {
     }
 };
 
-/// Collective. Throws Error(usage) on all ranks alike: for what the mesh does not have, for a cell without a material
-/// or with two, and for a body that its supports leave free to move, naming the motion, unless it may or inertia shall
-/// relieve it.
+/// Puts the case on the mesh. Collective. Throws Error(usage) on all ranks alike: for names that the mesh does not
+/// have, for a cell without a material or with two, and for a body that its supports leave free to move, naming the
+/// motion, unless it may or inertia shall relieve it.
 ElasticProblem make_problem(const FeSpace& space, const MeshOutline& outline, const ElasticCase& wanted);
 
-/// No displacements, no forces, one material: for who sets the rest.
+/// Returns a problem without supports and forces, of one material, for callers that set the rest.
 ElasticProblem make_free_problem(const FeSpace& space, const Material& material);
 
 }  // namespace kerf

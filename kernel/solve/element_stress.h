@@ -10,8 +10,7 @@ namespace kerf {
 
 class ElementStress {
  public:
-    /// Of tetrahedron t of the part `p` of this rank, in the case with this number. `displacement`: 3 for each local
-    /// node.
+    /// Takes tetrahedron `t` of the part `p` of this rank, in case `number`. `displacement`: 3 for each local node.
     ElementStress(const ElasticProblem& problem, const std::vector<double>& displacement, std::size_t number,
                   std::size_t p, std::size_t t)
         : element_(problem.space->element(p, t)),
@@ -23,7 +22,7 @@ class ElementStress {
     }
     const TetElement& element() const { return element_; }
     const Material& material() const { return material_; }
-    /// Without what temperature stretches.
+    /// Returns the mechanical strain, which is the strain without the thermal one.
     SymmetricTensor strain(const Barycentric& place) const { return mechanical(element_.gradient_of(values_, place)); }
     SymmetricTensor strain(const TetElement::Point& point) const {
         Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
@@ -32,7 +31,7 @@ class ElementStress {
         return mechanical(gradient);
     }
     SymmetricTensor stress(const Barycentric& place) const { return stress_of(material_, strain(place)); }
-    /// What holds the nodes against the stresses.
+    /// Returns the nodal forces that balance the stresses.
     std::array<Vec3, most_element_nodes> nodal_forces() const {
         std::array<Vec3, most_element_nodes> forces;
         forces.fill(Vec3::Zero());

@@ -21,7 +21,7 @@ namespace {
 constexpr double cube_width = 2;  // at least half of it, in edges of the cells
 constexpr int deepest = 18;
 constexpr double least_ratio = 0.25, largest_ratio = 2;  // of lengths
-constexpr double more_cells = 4;                         // of the next mesh
+constexpr double more_cells = 4;                         // limit for the next mesh, in multiples of the present one
 constexpr double below_target = 0.9;                     // so that the mesh after it is not needed
 constexpr double edge_of_cells = 1.16;                   // mean of a mesh, over that of the regular tetrahedron
 constexpr double steps_of_two = 16;                      // rounding: within a factor of two
@@ -120,7 +120,7 @@ std::vector<CubeSum> sum_errors(const FeSpace& space, const std::vector<const St
     return merged(gather_items(ranks, merged(std::move(sums))));
 }
 
-// What a field asks for, as a share of the present length of each cube.
+// Lowers the lengths, as shares of the present ones of each cube, to those that a field asks for.
 void lower_to_field(const std::vector<CubeSum>& sums, std::size_t field, double squared_aim, int order,
                     std::vector<double>& ratios) {
     const double p = order, exponent = 1 / (2 * p + 3);
@@ -139,7 +139,8 @@ void lower_to_field(const std::vector<CubeSum>& sums, std::size_t field, double 
 
 double rounded(double length) { return std::exp2(std::round(steps_of_two * std::log2(length)) / steps_of_two); }
 
-// A corner has the geometric mean of what is asked around it, among cubes as large.
+// The mesh of all cubes, six tetrahedra each. A corner has the geometric mean of the lengths of the cubes around it
+// that are as large.
 class CubeMesh {
  public:
     explicit CubeMesh(const Cubes& cubes) : cubes_(cubes) {}
@@ -153,7 +154,7 @@ class CubeMesh {
             logs_[corners[i]] += std::log2(length);
             counts_[corners[i]] += 1;
         }
-        // Along the diagonal from corner 0 to 7, one for each order of the axes.
+        // Six tetrahedra along the diagonal from corner 0 to 7, one for each order of the axes.
         constexpr std::array<std::array<int, 2>, 6> ways = {{{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};
         for (const auto& [a, b] : ways) mesh_.tets.push_back({corners[0], corners[a], corners[b], corners[7]});
     }

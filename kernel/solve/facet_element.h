@@ -1,4 +1,4 @@
-// Boundary triangles of elements, straight or curved, and what loads put on their nodes.
+// Boundary triangles of elements, straight or curved, and the nodal forces of loads on them.
 #pragma once
 
 #include <array>
@@ -8,30 +8,31 @@
 
 namespace kerf {
 
-/// What a traction of 1 puts on each node of a straight triangle: corners, then middles of edges.
+/// The share of each node of a straight triangle in a traction of 1: corners, then middles of edges.
 using TriangleShares = std::array<double, 6>;
 TriangleShares node_areas(double area, int order);
 
-/// The side of a TetElement: corners, then the nodes on triangle_edges.
+/// A side of a TetElement; its nodes are the corners, then the nodes on triangle_edges.
 class FacetElement {
  public:
     using Nodes = std::array<Vec3, 6>;
     using Forces = std::array<Vec3, 6>;
 
-    /// With straight edges; corners are seen from outside.
+    /// Takes the corners of a triangle with straight edges, counter-clockwise seen from outside.
     FacetElement(const std::array<Vec3, 3>& corners, int order);
-    /// Of order 2; straight if the nodes on the edges are the midpoints, bit by bit.
+    /// Takes the nodes of a triangle of order 2; it is straight if the nodes on the edges are the midpoints, bit by
+    /// bit.
     explicit FacetElement(const Nodes& nodes);
 
     bool is_curved() const { return is_curved_; }
-    /// Of a curved one by six points, which differs from the true one by less than interpolation does.
+    /// The area; that of a curved triangle is summed at six points, with an error smaller than that of interpolation.
     double area() const { return area_; }
-    /// Of the triangle of its corners, outwards, of length 1.
+    /// The normal of the triangle of the corners, outwards, of length 1.
     const Vec3& normal() const { return normal_; }
 
-    /// What a pressure, which acts against the normal of each place, puts on nodes. Exact.
+    /// Returns the nodal forces of a pressure, which acts against the normal of each place. Exact.
     Forces forces_of_pressure(double pressure) const;
-    /// What a force per area puts on nodes.
+    /// Returns the nodal forces of a force per area.
     Forces forces_of_traction(const Vec3& traction) const;
 
  private:

@@ -1,3 +1,11 @@
+// Nodes are numbered without comparing coordinates. Part::shared and Part::shared_edges list the vertices and edges
+// that a part has in common with others, by the set of its holders and in an order that is the same for all of them;
+// the first holder owns them. Each part counts its own nodes, a sum over the ranks gives the first row of each part,
+// and owners tell the rows to the other holders by lists that both sides have in the same order (`PairedNodes`). Rows
+// that another rank owns are ghosts here, ascending by row, and the same lists make the exchange of their values.
+// Notation: a row is the number of a node over all ranks, a local node its number on this rank; a part's nodes are its
+// vertices, then its edges; `owned` and `held` are pairs of parts (owner, holder) in which this rank has the owner or
+// the holder.
 #include "solve/fe_space.h"
 
 #include <algorithm>
@@ -19,7 +27,7 @@ namespace {
 
 constexpr std::int32_t unset = -1;
 
-// Nodes of a part: its vertices, then its edges.
+// The nodes of a part: its vertices, then its edges.
 struct NumberedPart {
     PartIndex index;                 // in the outline
     std::optional<EdgeTable> edges;  // for order 2, of a part without nodes on its edges
@@ -29,8 +37,8 @@ struct NumberedPart {
     const EdgeTable& edges_of(const Part& part) const { return edges ? *edges : part.edge_nodes.edges; }
 };
 
-// By (owner, holder), two parts of the outline that share nodes: nodes of one of them, in an order that is
-// the same for both.
+// Nodes that two parts of the outline share, by (owner, holder): numbers in one of them, in an order that is the same
+// for both.
 using PairedNodes = std::map<std::array<PartIndex, 2>, std::vector<std::int32_t>>;
 
 class FeNumbering {
@@ -38,9 +46,10 @@ class FeNumbering {
     FeNumbering(const MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
                 const std::vector<Part>& parts, int order);
 
-    // Nodes of this rank's parts with their rows. Collective.
+    // Returns the nodes of this rank's parts with their rows. Collective.
     std::vector<NumberedPart> number();
-    // Both sides list the rows that one of them owns and the other one has: ascending, each once.
+    // Returns the exchange of ghosts. Both sides list the rows that one of them owns and the other one has: ascending,
+    // each once.
     GhostExchange exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row, std::int32_t owned,
                            const std::vector<std::int64_t>& ghost_rows,
                            const std::vector<std::int64_t>& rank_rows) const;
@@ -60,7 +69,7 @@ class FeNumbering {
                    NumberedPart& numbered);
     void count_rows(const std::vector<NumberedPart>& numbered);
     void tell_holders(std::vector<NumberedPart>& numbered) const;
-    // By the rank of the other part of each pair, without this one.
+    // Groups pairs by the rank of the other part, without this rank.
     std::map<int, std::vector<PairedNodes::const_iterator>> by_rank(const PairedNodes& pairs, bool of_holder) const;
 
     const MpiRanks& ranks_;
@@ -79,7 +88,7 @@ FeNumbering::FeNumbering(const MpiRanks& ranks, const MeshOutline& outline, cons
     part_rows_.resize(outline.parts.size() + 1);
 }
 
-// Nodes of the part `own` that all the holders have, of which the first one owns them.
+// Adds nodes of the part `own` that all the holders have, and the first of them owns.
 void FeNumbering::add_group(PartIndex own, const std::vector<NodeId>& holders, const std::vector<std::int32_t>& nodes,
                             NumberedPart& numbered) {
     const PartIndex owner = indices_.at(holders.front());
@@ -149,7 +158,7 @@ std::map<int, std::vector<PairedNodes::const_iterator>> FeNumbering::by_rank(con
     return grouped_pairs;
 }
 
-// Rows of what other parts own: those of this rank are looked up, the others are told by their ranks.
+// Sets the rows of nodes that other parts own: those of parts of this rank are looked up, the others are received.
 void FeNumbering::tell_holders(std::vector<NumberedPart>& numbered) const {
     const auto row_at = [&](PartIndex index, std::int32_t node) -> std::int64_t& {
         return part_at(numbered, index).row[node];
@@ -207,7 +216,7 @@ UndirectedEdge edge_of(const Tetrahedron& tet, std::size_t e) {
     return undirected(tet[tet_edges[e][0]], tet[tet_edges[e][1]]);
 }
 
-// For each tetrahedron what its edges have, in the order of tet_edges.
+// Returns for each tetrahedron the numbers of its edges, in the order of tet_edges.
 std::vector<std::array<std::int32_t, 6>> numbers_at_edges(const std::vector<Tetrahedron>& tets, const EdgeTable& edges,
                                                           const std::vector<std::int32_t>& of_edge) {
     std::vector<std::array<std::int32_t, 6>> numbers(tets.size());
@@ -338,7 +347,7 @@ FacetElement FeSpace::facet_element(std::size_t p, std::size_t facet) const {
     return FacetElement(points);
 }
 
-// Whoever meshes proves that they are not; files of others may be anything.
+// Refuses cells without a positive determinant: meshes of Kerf are proven to have none, files of others may have any.
 void FeSpace::refuse_folded_cells() const {
     std::int64_t folded = 0;
     for_all_tets(*this, [&](std::size_t p, std::size_t t) {

@@ -13,33 +13,35 @@
 
 namespace kerf {
 
-/// Parts of rank r are those from first_parts[r] to before first_parts[r + 1] of the outline: whole ones, about as many
-/// tetrahedra on each rank. With more ranks than parts some have none. O(K).
+/// Returns the first part of each rank, then the number of parts: rank r has the whole parts from first_parts[r] to
+/// before first_parts[r + 1] of the outline, about as many tetrahedra as each other rank. With more ranks than parts
+/// some have none. O(K).
 std::vector<PartIndex> first_parts_of_ranks(const MeshOutline& outline, int ranks);
 
-/// A part on its rank: which local nodes its elements have.
+/// The local nodes of the elements of a part on its rank.
 struct PartFeNodes {
     std::vector<std::int32_t> of_vertex;                   ///< #V
     std::vector<std::int32_t> of_edge;                     ///< #E for order 2, in the order of EdgeTable
     std::vector<std::array<std::int32_t, 6>> of_tet_edge;  ///< #T for order 2, in the order of tet_edges
 };
 
-/// Rows of a system of equations are numbered part by part, in the order of the tree: the same for any number of ranks.
-/// A node belongs to the first part that holds it; a part's own ones are its vertices in their order, then for order 2
-/// its edges, ascending. Local numbers: the rows of this rank, then its ghosts, ascending by row.
+/// Finite elements on the parts of a rank. Rows of a system of equations, one for each node, are numbered part by part,
+/// in the order of the tree: the same for any number of ranks. A node belongs to the first part that holds it; a part
+/// numbers its own vertices in their order, then for order 2 its own edges, ascending. Local numbers: the rows of this
+/// rank, then its ghosts, ascending by row.
 class FeSpace {
  public:
-    /// Numbers the nodes of `parts`, this rank's, which are `first_part` and the following of the outline. Collective.
-    /// Of order 2 a node is where the part has it (Part::edge_nodes), or in the middle of its edge. O(n log n) in the
-    /// nodes on interfaces, and in the edges for order 2. Throws Error(usage), on all ranks alike, for more rows than
-    /// 32 bits number and for curved cells that are folded.
+    /// Numbers the nodes of `parts`, this rank's, which are those of `first_parts` in the outline. Collective. For
+    /// order 2 the node of an edge is where the part has it (Part::edge_nodes), or in the middle of the edge. O(n log
+    /// n) in the nodes on interfaces, and in the edges for order 2. Throws Error(usage), on all ranks alike, for more
+    /// equations, three a row, than 32 bits number and for curved cells that are folded.
     FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<PartIndex>& first_parts,
             std::vector<Part> parts, int order);
 
     MpiRanks& ranks() const { return *ranks_; }
     int order() const { return order_; }
     const std::vector<Part>& parts() const { return parts_; }
-    std::size_t region_count() const { return region_count_; }  ///< of the mesh
+    std::size_t region_count() const { return region_count_; }  ///< of the mesh, at least 1
     /// The region in which the part `p` of this rank lies.
     std::size_t region_of(std::size_t p) const { return parts_[p].region_of(0).value(); }
     const std::vector<PartFeNodes>& nodes_of_parts() const { return nodes_; }
@@ -56,9 +58,9 @@ class FeSpace {
     /// The rows of each rank are rank_rows()[r] to rank_rows()[r + 1] - 1.
     const std::vector<std::int64_t>& rank_rows() const { return rank_rows_; }
 
-    /// Local nodes of a tetrahedron of the part `p` of this rank.
+    /// Returns the local nodes of a tetrahedron of the part `p` of this rank; -1 after the fourth for order 1.
     std::array<std::int32_t, most_element_nodes> nodes_of(std::size_t p, std::size_t tet) const;
-    /// The nodes of a boundary triangle: corners, and for order 2 those on triangle_edges, else -1.
+    /// Returns the local nodes of a boundary triangle: corners, then for order 2 those on triangle_edges, else -1.
     std::array<std::int32_t, 6> nodes_of_facet(std::size_t p, std::size_t facet) const;
     TetElement element(std::size_t p, std::size_t tet) const;
     FacetElement facet_element(std::size_t p, std::size_t facet) const;

@@ -10,17 +10,18 @@
 
 namespace kerf {
 
-/// Who has which nodes of whom. A node belongs to one rank; ghosts are the copies of other ranks.
+/// The nodes that ranks share. A node belongs to one rank, its owner; ghosts are the copies on other ranks.
 class GhostExchange {
  public:
-    /// Nodes that a neighbouring rank has, too, in the same order on both sides.
+    /// The nodes that this rank shares with a neighbouring one, in the same order on both sides.
     struct Neighbour {
         int rank = 0;
         std::vector<std::int32_t> nodes;  ///< local numbers
     };
 
     GhostExchange() = default;
-    /// `owned`: nodes of this rank of which others have ghosts; `ghosts`: those of others here. Both ascending by rank.
+    /// `owned`: nodes of this rank of which others have ghosts; `ghosts`: nodes of others of which this rank has
+    /// ghosts. Both ascending by rank.
     GhostExchange(const MpiRanks& ranks, std::vector<Neighbour> owned, std::vector<Neighbour> ghosts)
         : ranks_(&ranks), owned_(std::move(owned)), ghosts_(std::move(ghosts)) {}
 
@@ -28,7 +29,8 @@ class GhostExchange {
     const std::vector<Neighbour>& owned() const { return owned_; }
     const std::vector<Neighbour>& ghosts() const { return ghosts_; }
 
-    /// Between some of the nodes: those with a new local number, not -1. Owners and ghosts of a node agree on that.
+    /// Returns the exchange between some of the nodes: those with a new local number, not -1. Owners and ghosts of a
+    /// node agree on whether it has one.
     GhostExchange renumbered(const std::vector<std::int32_t>& number) const {
         const auto some = [&](const std::vector<Neighbour>& all) {
             std::vector<Neighbour> kept;
@@ -43,19 +45,19 @@ class GhostExchange {
         return {*ranks_, some(owned_), some(ghosts_)};
     }
 
-    /// Ghosts become what their owners have. Collective; `values` has a block of so many for each local node.
+    /// Sets the values of ghosts to those of their owners. Collective. `values`: `block` of them for each local node.
     template <class T>
     void to_ghosts(std::span<T> values, std::size_t block) const {
         transfer<T>(owned_, ghosts_, values, block, [](T& own, T other) { own = other; });
     }
 
-    /// What ghosts have is added to what their owners have, rank after rank; the ghosts stay as they are. Collective.
+    /// Adds the values of ghosts to those of their owners, rank after rank; the ghosts keep theirs. Collective.
     template <class T>
     void add_to_owners(std::span<T> values, std::size_t block) const {
         transfer<T>(ghosts_, owned_, values, block, [](T& own, T other) { own += other; });
     }
 
-    /// The smallest value that any rank has for a node becomes that of all of them. Collective.
+    /// Sets the values of each node, on all ranks, to the smallest that any rank has for it. Collective.
     template <class T>
     void share_smallest(std::span<T> values, std::size_t block) const {
         transfer<T>(ghosts_, owned_, values, block, [](T& own, T other) { own = std::min(own, other); });

@@ -1,4 +1,4 @@
-// Forces at what is held, by who holds it and by the region whose cells take them.
+// Forces at supports, by the support that holds and by the region whose cells take them.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace kerf {
 
-/// A force, and its moment about a point that the user of it knows.
+/// A force, and its moment about a point that the context defines.
 struct ForceAndMoment {
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
@@ -23,9 +23,9 @@ struct ForceAndMoment {
     }
 };
 
-/// Sums for each support, or what else holds, and region. A node on a wall has cells of several regions, and each
-/// counts what its own cells do: the sum over the regions is that of the support. Moments are about a point of the
-/// support.
+/// Sums of forces for each support, spring or inertia relief, and each region. A node on a wall has cells of several
+/// regions, and each region counts the forces of its own cells: the sum over the regions is that of the support.
+/// Moments are about a point of the support.
 class HeldForces {
  public:
     HeldForces() = default;
@@ -33,7 +33,7 @@ class HeldForces {
     HeldForces(std::vector<Vec3> places, std::size_t regions)
         : places_(std::move(places)), sums_(6 * places_.size() * regions, 0) {}
 
-    /// A force that acts at `at`.
+    /// Adds a force that acts at the point `at`.
     void add(std::size_t support, std::size_t region, const Vec3& force, const Vec3& at) {
         double* sum = &sums_[6 * (supports() * region + support)];
         Eigen::Map<Vec3>{sum} += force;
@@ -43,13 +43,13 @@ class HeldForces {
         const double* sum = &sums_[6 * (supports() * region + support)];
         return {Eigen::Map<const Vec3>(sum), Eigen::Map<const Vec3>(sum + 3)};
     }
-    /// Over all regions.
+    /// Returns the sum over all regions.
     ForceAndMoment of(std::size_t support) const {
         ForceAndMoment sum;
         for (std::size_t region = 0; region < regions(); ++region) sum += of(support, region);
         return sum;
     }
-    /// Those of the same supports and regions, times a factor.
+    /// Adds the sums of `other`, which has the same supports and regions, times a factor.
     void add(double factor, const HeldForces& other) {
         for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += factor * other.sums_[i];
     }

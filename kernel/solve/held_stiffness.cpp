@@ -1,3 +1,9 @@
+// Held degrees of freedom stay in the matrix, so that nodes keep their numbers: their rows and columns become zero, the
+// columns times the prescribed displacements go to the right side, and the mean of the diagonal takes their place on
+// it. The matrix stays symmetric and positive definite. It is a sum of shares of the ranks: each rank takes the held
+// ones out of its own blocks without a message, and the owner of a node alone writes its diagonal. For elements of
+// order 2 the multigrid has the corners as a level of its own, whose stiffness is summed anew from straight elements of
+// order 1 and held in the same way, with zero displacements.
 #include "solve/held_stiffness.h"
 
 #include <algorithm>
@@ -17,7 +23,7 @@ double mean_diagonal(const MpiRanks& ranks, const LevelMatrix<3>& matrix) {
     return sum[0] / sum[1];
 }
 
-// The largest sum of a row's absolute values.
+// Returns the largest sum of absolute values of a row.
 double norm_of(const MpiRanks& ranks, const LevelMatrix<3>& matrix) {
     std::vector<double> sums(matrix.size(), 0);
     const SymmetricBlocks<3>& share = matrix.share;
@@ -64,7 +70,7 @@ std::vector<std::uint8_t> held_flags(const ElasticProblem& problem) {
     return is_held;
 }
 
-// Six columns: translations, and turns about the axes. Along the axes of the node.
+// Appends the rows of a node, along its own axes: six columns, translations and turns about the axes.
 void append_rigid_motions(NearNullSpace& motions, const ElasticProblem& problem, std::int32_t node) {
     const Vec3& p = problem.space->points()[node];
     RowMajorBlock<3, rigid_motions> rows;

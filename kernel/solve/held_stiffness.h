@@ -9,19 +9,20 @@
 
 namespace kerf {
 
-/// Stiffness with rows and columns of held degrees of freedom replaced by a diagonal as large as the others.
+/// The stiffness with rows and columns of held degrees of freedom replaced by a diagonal as large as the others.
 struct HeldStiffness {
     LevelMatrix<3> matrix;
-    std::vector<double> of_prescribed;  ///< #dof: what held displacements put on the right; ranks have shares
-    double diagonal = 1;                ///< of held degrees of freedom
+    std::vector<double> of_prescribed;  ///< #dof: the right side's share of held displacements; ranks have shares
+    double diagonal = 1;                ///< entry of held degrees of freedom
     double norm = 0;                    ///< a bound of the largest eigenvalue of the matrix
 };
 
-/// `share`: the stiffness of this rank's elements over all local nodes. Collective. O(n).
+/// Takes the held degrees of freedom out of the stiffness. `share`: the stiffness of this rank's elements over all
+/// local nodes. Collective. O(n).
 HeldStiffness hold_stiffness(const ElasticProblem& problem, SymmetricBlocks<3> share);
 
-/// A multigrid that knows the rigid motions; `stiffness`, to which so many times the mass was added, and `problem` have
-/// to outlive it. Collective. O(n).
+/// Returns a multigrid that knows the rigid motions. `problem` and `stiffness`, to which the mass was added
+/// `mass_factor` times, have to outlive it. Collective. O(n).
 std::unique_ptr<MultigridLevel> multigrid_for(const ElasticProblem& problem, const HeldStiffness& stiffness,
                                               double mass_factor);
 

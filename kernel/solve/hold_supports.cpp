@@ -1,3 +1,9 @@
+// Supports are taken in their order. For each one its nodes are marked by sums over its triangles, of normals times
+// areas (`sums_`), which ranks exchange: a part may have a node of a patch without having a triangle of it. A marked
+// node then gets the displacements of the support, along the axes of its frame; NodeHolds keeps at most three
+// directions, in which earlier ones take precedence. Normals are means patch by patch, so that a node on an edge
+// between two patches of a support is held along both, unless they differ by less than 20 degrees. Which nodes need
+// axes of their own is known at the end (`finish()`): those with a direction that is not x, y or z.
 #include "solve/hold_supports.h"
 
 #include <algorithm>
@@ -13,7 +19,7 @@ namespace kerf {
 namespace {
 
 constexpr double same_surface = 0.342;  // sine of 20 degrees
-constexpr std::size_t node_sums = 4;    // the normals of its triangles times their areas, and how many there are
+constexpr std::size_t node_sums = 4;    // the sum of its triangles' normals times areas, and their number
 
 class SupportHolder {
  public:
@@ -68,7 +74,7 @@ class SupportHolder {
     }
 
  private:
-    // A part may have a node of a patch without a triangle of it: all who have the node are told.
+    // Marks the nodes of triangles, also on ranks that have such a node without a triangle of it.
     void mark(const std::vector<SurfaceFacet>& facets) {
         std::fill(sums_.begin(), sums_.end(), 0);
         for (const SurfaceFacet& facet : facets)
@@ -80,7 +86,7 @@ class SupportHolder {
         space_.exchange().add_to_owners(std::span(sums_), node_sums);
         space_.exchange().to_ghosts(std::span(sums_), node_sums);
     }
-    // Returns its place.
+    // Marks one vertex and returns its place.
     Vec3 mark_vertex(std::int64_t row) {
         std::fill(sums_.begin(), sums_.end(), 0);
         Vec3 place = Vec3::Zero();
@@ -105,7 +111,7 @@ class SupportHolder {
         }
         refuse(support, failed);
     }
-    // False where the frame of the support has no direction.
+    // Returns false where the frame of the support has no direction at the node.
     bool hold_node(const Support& support, std::int32_t n) {
         NodeHolds& node = holds_[slot_[n]];
         if (support.frame == Support::Frame::normal) {
@@ -138,7 +144,7 @@ class SupportHolder {
             if (support.displacement[c]) node.hold(axes.row(c), *support.displacement[c], number_);
         return true;
     }
-    // Collective.
+    // Throws if a node has failed on any rank. Collective.
     void refuse(const Support& support, std::int32_t failed) const {
         if (space_.ranks().all_reduce(failed, Reduction::largest) < 0) return;
         const Vec3 here = failed >= 0 ? space_.points()[failed] : Vec3::Constant(-INFINITY).eval();

@@ -5,13 +5,13 @@
 
 namespace kerf {
 
-/// Holds nodes: ElasticProblem::supports, places, support_of, prescribed and frames. The normal of a node is the mean
-/// of those of its triangles, by their areas, of each patch by itself, unless patches go on into each other within 20
-/// degrees. Throws Error(usage), on all ranks alike, for what the mesh does not have, nodes on the axis of their
-/// support, and normals that cancel. Collective; O(n) for each support.
+/// Holds the nodes of the supports: fills ElasticProblem::supports, places, support_of, prescribed and frames. The
+/// normal of a node is the mean of those of its triangles, by their areas, of each patch by itself, unless patches go
+/// on into each other within 20 degrees. Throws Error(usage), on all ranks alike, for selections that the mesh does not
+/// have, nodes on the axis of their support, and normals that cancel. Collective; O(n) for each support.
 void hold_supports(ElasticProblem& problem, const std::vector<Support>& supports, const SurfaceSelector& selector);
 
-/// The centre of the area of triangles on all ranks. Collective.
+/// Returns the centre of the area of triangles on all ranks. Collective.
 Vec3 centre_of(const FeSpace& space, const std::vector<SurfaceFacet>& facets);
 
 }  // namespace kerf

@@ -1,3 +1,11 @@
+// Loads on a body that is free accelerate it, and the inertia of this acceleration balances them. A motion is six
+// numbers, a translation and a rotation about the middle of the body (BodyMotions); the mass of the six is a 6 x 6
+// matrix for each body, the integral of density times products of motions. Restricted to the free motions it turns the
+// work of the loads in them into accelerations, whose inertia is added to the case as forces. The body is then fixed at
+// as many displacements as it has free motions, which carry no force: one after the other, as elimination with pivots
+// goes, the displacement that the motions still left move most; of those that are alike to 1e-9 the smallest row, so
+// that the number of ranks does not matter. At the end the free motions are taken out of the displacements by their
+// momenta.
 #include "solve/inertia_relief.h"
 
 #include <algorithm>
@@ -54,7 +62,7 @@ void InertiaRelief::measure_masses(const ElasticProblem& problem) {
 
 std::vector<std::int64_t> InertiaRelief::next_to_fix(const ElasticProblem& problem,
                                                      const std::vector<Eigen::MatrixXd>& left) const {
-    constexpr double like = 1e-9;  // of alike ones that with the smallest row
+    constexpr double like = 1e-9;  // of displacements as alike as this the smallest row is taken
     const FeSpace& space = *problem.space;
     std::vector<double> squares(motions_.size(), 0);
     std::vector<std::int64_t> dofs(motions_.size(), INT64_MAX);
@@ -77,7 +85,7 @@ std::vector<std::int64_t> InertiaRelief::next_to_fix(const ElasticProblem& probl
     return dofs;
 }
 
-// One displacement after the other, as elimination with pivots goes.
+// Fixes one displacement of each body after the other, as elimination with pivots does.
 void InertiaRelief::fix_motions(ElasticProblem& problem) const {
     const FeSpace& space = *problem.space;
     const auto holder = static_cast<std::int32_t>(problem.supports.size());
@@ -91,7 +99,7 @@ void InertiaRelief::fix_motions(ElasticProblem& problem) const {
     }
     for (Eigen::Index step = 0; step < most; ++step) {
         const std::vector<std::int64_t> dofs = next_to_fix(problem, left);
-        std::vector<double> moved(6 * left.size(), 0);  // what the motions are there
+        std::vector<double> moved(6 * left.size(), 0);  // the motions of each body at its fixed displacement
         for (std::int32_t n = 0; n < space.node_count(); ++n) {
             const std::size_t b = bodies_.of_node[n];
             const std::int64_t c = dofs[b] - 3 * space.row_of(n);
@@ -105,7 +113,7 @@ void InertiaRelief::fix_motions(ElasticProblem& problem) const {
         space.ranks().all_reduce(std::span(moved), Reduction::sum);
         for (std::size_t b = 0; b < left.size(); ++b) {
             if (left[b].cols() == 0) continue;
-            // Motions that leave it where it is: those at right angles to the one that moves it most.
+            // The motions that leave this displacement as it is: those at right angles to the one that moves it most.
             const Eigen::MatrixXd held = left[b].transpose() * Eigen::Map<const Motion>(&moved[6 * b]);
             const Eigen::MatrixXd turned = left[b] * orthogonal_from(held);
             left[b] = turned.rightCols(turned.cols() - 1).eval();
@@ -140,7 +148,7 @@ void InertiaRelief::balance(const ElasticProblem& problem, ProblemCase& of_case,
         const BodyMotions& body = motions_[b];
         if (body.free.cols() == 0) continue;
         const double total = masses_[b](0, 0);
-        // The mass of a turn about an axis moved along another one is the static moment.
+        // The entry of the mass matrix for a turn about one axis and a move along another is a static moment.
         const Vec3 arm = Vec3(masses_[b](1, 5), masses_[b](2, 3), masses_[b](0, 4)) / total;
         BodyInertia& told = of_case.relieved.emplace_back();
         told.centre = body.middle + body.scale * arm;

@@ -1,4 +1,4 @@
-// Bodies that nothing holds: what pulls at them accelerates them, and they deform under the rest.
+// Inertia relief: loads accelerate a body that nothing holds, and it deforms under the rest of them.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,25 @@ namespace kerf {
 struct ElasticProblem;
 struct ProblemCase;
 
-/// Free motions are balanced by the inertia of the body and fixed at as many displacements of nodes, where no force is
-/// left then; displacements are told without the free motions, which leaves those that have no momentum.
+/// The balance of bodies that supports leave free. Their free motions are balanced by the inertia of the body and fixed
+/// at as many displacements of nodes, where no reaction is left then. Displacements are told without the free motions:
+/// those that are left have no momentum.
 class InertiaRelief {
  public:
-    /// Nothing is free.
+    /// A problem in which no body is free.
     InertiaRelief() = default;
-    /// Holds the free motions of the problem: its last support, if there are any. Throws Error(usage), on all ranks
-    /// alike, for a free body without mass. Collective.
+    /// Finds the free motions of the problem and, if there are any, holds them by a support of its own, the last one.
+    /// Throws Error(usage), on all ranks alike, for a free body without mass. Collective.
     InertiaRelief(ElasticProblem& problem, const SpaceBodies& bodies);
 
     bool is_needed() const { return is_needed_; }
 
-    /// Adds the forces of inertia to those of the case. `add_force`: at a node, on cells of a part. Collective.
+    /// Adds the forces of inertia to those of the case. `add_force` takes a force at a node, on cells of a part.
+    /// Collective.
     using AddForce = std::function<void(std::size_t part, std::int32_t node, const Vec3& force)>;
     void balance(const ElasticProblem& problem, ProblemCase& of_case, const AddForce& add_force) const;
 
-    /// Takes free motions out of displacements of the local nodes. Collective.
+    /// Takes the free motions out of displacements of the local nodes. Collective.
     void remove_motions(const ElasticProblem& problem, std::vector<double>& displacement) const;
 
  private:
@@ -37,15 +39,15 @@ class InertiaRelief {
 
     void measure_masses(const ElasticProblem& problem);
     void fix_motions(ElasticProblem& problem) const;
-    // The displacement, as a row of all ranks, at which the motions that are left of each body are largest.
+    // Returns for each body the degree of freedom, numbered over all ranks, that the motions in `left` move most.
     std::vector<std::int64_t> next_to_fix(const ElasticProblem& problem,
                                           const std::vector<Eigen::MatrixXd>& left) const;
-    // Free motions with these momenta of motions: six of each body.
+    // Returns the free motion of each body that has the given momenta, six for each body.
     std::vector<Motion> with_momenta(const std::vector<double>& momenta) const;
 
     SpaceBodies bodies_;
     std::vector<BodyMotions> motions_;
-    std::vector<Eigen::Matrix<double, 6, 6>> masses_;  // of motions
+    std::vector<Eigen::Matrix<double, 6, 6>> masses_;  // of the six motions of each body
     bool is_needed_ = false;
 };
 

@@ -1,4 +1,4 @@
-// The largest value of a measure over all ranks, and where it is.
+// The largest value of a measure over all ranks, and its place.
 #pragma once
 
 #include <array>
@@ -10,19 +10,20 @@
 
 namespace kerf {
 
-/// The largest value of a measure and where it is.
+/// The largest value of a measure and its place.
 struct Extreme {
     double value = 0;
     Vec3 place = Vec3::Zero();
 };
 
-/// The largest of what is told on any rank; nothing if nothing is told.
+/// Finds the largest of the values that are told on any rank.
 class LargestPlace {
  public:
     void tell(double value, const Vec3& place) {
         if (value > found_[0]) found_ = {value, place.x(), place.y(), place.z()};
     }
-    /// Of equal ones that of the first rank, there the first told. Collective.
+    /// Returns the largest value, of equal ones that of the first rank, there the first told; nothing if none was told.
+    /// Collective.
     std::optional<Extreme> of_all(MpiRanks& ranks) const;
 
  private:
@@ -30,7 +31,7 @@ class LargestPlace {
     std::array<double, 4> found_{nothing, 0, 0, 0};
 };
 
-/// Of all nodes; `displacement`: 3 for each local node. Collective; O(n).
+/// Returns the largest displacement of all nodes. `displacement`: 3 for each local node. Collective; O(n).
 Extreme largest_displacement(const FeSpace& space, const std::vector<double>& displacement);
 
 }  // namespace kerf

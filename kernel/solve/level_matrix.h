@@ -1,4 +1,4 @@
-// A symmetric matrix that is distributed over ranks as what each of them adds to it.
+// A symmetric matrix that is distributed over ranks as a sum of shares.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace kerf {
 
 /// The sum over the ranks of `share`, whose local nodes are those that a rank owns, then its ghosts. Vectors have B
-/// numbers for each local node. Nothing is assembled over ranks: a product needs values of ghosts and adds what it
-/// finds for them to their owners, rank after rank, so that its bytes are the same each time.
+/// numbers for each local node. The sum is never assembled over ranks: a product takes the values of ghosts and adds
+/// its results for them to those of their owners, rank after rank, so that its bytes are the same each time.
 template <int B>
 struct LevelMatrix {
     using Block = typename SymmetricBlocks<B>::Block;
@@ -28,7 +28,7 @@ struct LevelMatrix {
     std::size_t owned_size() const { return static_cast<std::size_t>(B) * owned; }
     std::size_t size() const { return static_cast<std::size_t>(B) * node_count(); }
 
-    /// y = A x for the owned nodes, to the precision of its numbers; ghosts of x get their values. Collective.
+    /// Sets y = A x for the owned nodes, to the precision of Number; ghosts of x get their owners' values. Collective.
     template <class Number>
     void multiply(std::vector<Number>& x, std::vector<Number>& y) const {
         exchange.to_ghosts(std::span(x), B);
@@ -36,7 +36,7 @@ struct LevelMatrix {
         share.template multiply_add<Number>(x, y);
         exchange.add_to_owners(std::span(y), B);
     }
-    /// The blocks of the diagonal, of owned nodes. Collective.
+    /// Returns the blocks of the diagonal of owned nodes. Collective.
     std::vector<double> diagonal() const {
         std::vector<double> blocks(size() * B);
         for (std::int32_t n = 0; n < node_count(); ++n)
@@ -45,8 +45,8 @@ struct LevelMatrix {
         blocks.resize(owned_size() * B);
         return blocks;
     }
-    /// Their inverses. A degree of freedom with nothing on its diagonal stays for itself: nothing acts on it.
-    /// Collective.
+    /// Returns the inverses of the blocks of the diagonal. A zero on the diagonal counts as 1: nothing acts on that
+    /// degree of freedom. Collective.
     std::vector<double> inverse_diagonal() const {
         std::vector<double> blocks = diagonal();
         for (std::int32_t n = 0; n < owned; ++n) {
@@ -59,7 +59,7 @@ struct LevelMatrix {
     }
 };
 
-/// Of what a rank owns, over all ranks. Collective.
+/// Returns the scalar product of two vectors over all ranks, of the entries that each owns. Collective.
 inline double dot_of_owned(const MpiRanks& ranks, std::size_t owned_size, const std::vector<double>& a,
                            const std::vector<double>& b) {
     const auto size = static_cast<Eigen::Index>(owned_size);

@@ -1,3 +1,12 @@
+// Conjugate gradients of PETSc on a matrix that is never assembled over ranks: PETSc sees a shell whose product is that
+// of LevelMatrix, and a shell preconditioner that is our multigrid. Only for "icc" the blocks among the own nodes of
+// each rank become a matrix of PETSc's. Residuals are measured in the norm of the inverse of A as preconditioned
+// (PETSc's natural norm), about the error in the energy norm. Conjugate gradients update their residual, and rounding
+// takes it away from the true one (Greenbaum 1997, greenbaum1997): in a slender body stiffness times displacements is
+// far larger than the loads. So the true residual is computed with long doubles and solved for again, as long as that
+// halves it (iterative refinement: Wilkinson 1963, wilkinson1963). A residual that stays above the goal is accepted
+// within LinearSystem::most_of_rounding only if the backward error says that it is rounding (Rigal and Gaches 1967,
+// rigal1967). Exceptions must not cross PETSc: callbacks keep them in `failure`, and check_call() throws them.
 #include "solve/linear_system.h"
 
 #include <algorithm>
@@ -16,8 +25,8 @@ namespace kerf {
 namespace {
 
 constexpr double no_divergence = 1e200;  // residuals of slender bodies grow far before they fall
-constexpr double part_of_the_rest =
-    0.5;  // so far below rtol a refinement goes, and it has not helped if it leaves more
+// A refinement goes this far below rtol, and has not helped if it leaves more of the residual than this.
+constexpr double part_of_the_rest = 0.5;
 
 }  // namespace
 
@@ -61,7 +70,7 @@ struct LinearSystem::Impl {
     std::unique_ptr<MultigridLevel> multigrid;
     std::vector<double> from_petsc, to_petsc;  // with room for ghosts
     std::vector<long double> exact, of_exact;  // likewise
-    std::exception_ptr failure;                // of what PETSc has called
+    std::exception_ptr failure;                // of a callback
     Mat matrix = nullptr, own_blocks = nullptr;
     KSP ksp = nullptr;
     Vec right = nullptr, solution = nullptr, residual = nullptr, correction = nullptr;
@@ -72,7 +81,7 @@ struct LinearSystem::Impl {
     std::int64_t unprepared = 0;
 };
 
-// Work on copies of vectors. What it throws must not cross PETSc.
+// Does work on copies of vectors. An exception of it must not cross PETSc.
 template <class Work>
 PetscErrorCode LinearSystem::Impl::apply(Vec from, Vec to, Work work) {
     const double* given = nullptr;
@@ -139,7 +148,7 @@ void LinearSystem::Impl::create_matrix() {
     check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
 }
 
-// What couples the nodes of this rank, with what other ranks add to that: the upper half.
+// Makes the matrix that couples the own nodes of this rank, with the shares of other ranks: its upper half.
 void LinearSystem::Impl::make_own_blocks() {
     const SymmetricBlocks<3>& share = stiffness.matrix.share;
     const GhostExchange& exchange = stiffness.matrix.exchange;
@@ -237,7 +246,7 @@ double LinearSystem::Impl::norm(Vec values) const {
     return norm;
 }
 
-// |values|, in the norm of the inverse of the matrix, as it is preconditioned.
+// Returns |values| in the norm of the inverse of the matrix, as it is preconditioned.
 double LinearSystem::Impl::energy_norm(Vec values) const {
     PC preconditioner = nullptr;
     Vec preconditioned = nullptr;
@@ -251,7 +260,7 @@ double LinearSystem::Impl::energy_norm(Vec values) const {
     return std::sqrt(square);
 }
 
-// Unless the case has told PETSc to take something else.
+// Makes the multigrid, unless the case has told PETSc to take another preconditioner.
 void LinearSystem::Impl::make_multigrid() {
     PC preconditioner = nullptr;
     PetscBool is_ours = PETSC_FALSE;
@@ -295,7 +304,8 @@ void LinearSystem::Impl::set_right(const std::vector<double>& forces) {
     check(VecRestoreArray(right, &values));
 }
 
-// b - A u, where rounding in the product with doubles would be as large as loads of a slender body.
+// Computes b - A u with long doubles: the rounding of a product with doubles would be as large as the loads of a
+// slender body.
 void LinearSystem::Impl::take_residual() {
     const double *found = nullptr, *wanted = nullptr;
     double* rest = nullptr;
@@ -311,8 +321,8 @@ void LinearSystem::Impl::take_residual() {
     check(VecRestoreArrayRead(right, &wanted));
 }
 
-// Conjugate gradients with doubles, then what rounding has left of the residual, solved for in the same way
-// (wilkinson1963): a slender body needs that, since its stiffness times its displacements is far larger than its loads.
+// Solves by conjugate gradients with doubles, then again for the residual that rounding has left (wilkinson1963): a
+// slender body needs that, since its stiffness times its displacements is far larger than its loads.
 SolveOutcome LinearSystem::Impl::solve_refined() {
     SolveOutcome outcome;
     outcome.residual = 1;

@@ -8,7 +8,8 @@
 
 namespace kerf {
 
-/// What `senders` have for this rank, in their order, while `out` goes to others. Collective among them.
+/// Returns the lists that `senders` have for this rank, in their order, while the lists of `out` go to others.
+/// Collective among them.
 inline std::vector<RankValues<double>> exchange_lists(const std::vector<RankValues<double>>& out,
                                                       const std::vector<GhostExchange::Neighbour>& senders,
                                                       const MpiRanks& ranks) {

@@ -1,10 +1,15 @@
+// The consistent mass is one number for each pair of nodes of an element, the same for x, y and z, in the pattern of
+// the stiffness. Straight elements have formulas for it; curved ones are integrated by the 14 points of
+// TetElement::rule(), with which the mass of each node is exact. Held degrees of freedom have no mass: they are dropped
+// before and after a product. A single number cannot be turned into a node's own axes, so vectors are turned to x, y
+// and z for the product instead, and back.
 #include "solve/mass_matrix.h"
 
 #include <algorithm>
 
 namespace kerf {
 
-// Zienkiewicz and Taylor.
+// The formulas of Zienkiewicz and Taylor.
 MassShares mass_shares(int order) {
     MassShares shares{};
     if (order == 1) {

@@ -12,21 +12,21 @@ namespace kerf {
 
 /// Integrals of the products of the shape functions, for each pair of nodes.
 using MassShares = std::array<std::array<double, most_element_nodes>, most_element_nodes>;
-/// Of a tetrahedron with straight edges and a volume of 1: exact.
+/// The shares of a tetrahedron with straight edges and a volume of 1. Exact.
 MassShares mass_shares(int order);
-/// Of any element; for curved ones by TetElement::rule(), with which the mass of each node is exact.
+/// The shares of any element; of curved ones by TetElement::rule(), with which the mass of each node is exact.
 MassShares mass_shares(const TetElement& element);
 
 /// The consistent mass, the same for each component: a number for each pair of nodes of an element. Held degrees of
 /// freedom have none. Vectors are along the nodes' axes (ElasticProblem::frames).
 class MassMatrix {
  public:
-    /// `stiffness` says which nodes meet. O(n).
+    /// Sums the mass of this rank's elements. `stiffness` says which nodes meet. O(n).
     MassMatrix(const ElasticProblem& problem, const SymmetricBlocks<3>& stiffness);
 
-    /// y = M x for owned nodes, three numbers each; held ones of x count as zero. Collective.
+    /// Sets y = M x for owned nodes, three numbers each; held ones of x count as zero. Collective.
     void multiply(std::vector<double>& x, std::vector<double>& y) const;
-    /// Of a node, over all ranks. Collective.
+    /// Returns the mean of the diagonal over the nodes of all ranks. Collective.
     double mean_diagonal() const;
 
  private:

@@ -1,4 +1,4 @@
-// Isotropic linear elasticity: what a material does with a strain.
+// Isotropic linear elasticity: the stress of a strain, and the strain of a stress.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct Material {
     double mu() const { return young / (2 * (1 + poisson)); }
 };
 
-/// The symmetric part of the gradient of displacement, row i being that of component i.
+/// Returns the symmetric part of the gradient of displacement; row i of `gradient` is that of component i.
 inline SymmetricTensor strain_of(const Eigen::Matrix3d& gradient) {
     SymmetricTensor strain;
     strain << gradient(0, 0), gradient(1, 1), gradient(2, 2), 0.5 * (gradient(0, 1) + gradient(1, 0)),
@@ -44,12 +44,12 @@ inline SymmetricTensor strain_of_stress(const Material& material, const Symmetri
     return strain;
 }
 
-/// The scalar product of two tensors, of which each shear is there twice.
+/// Returns the scalar product of two tensors, in which each shear counts twice.
 inline double contracted(const SymmetricTensor& a, const SymmetricTensor& b) {
     return a.head<3>().dot(b.head<3>()) + 2 * a.tail<3>().dot(b.tail<3>());
 }
 
-/// The stress of a uniaxial tension that distorts as much (von Mises 1913).
+/// Returns the stress of a uniaxial tension that distorts as much (von Mises 1913).
 double von_mises(const SymmetricTensor& stress);
 
 }  // namespace kerf

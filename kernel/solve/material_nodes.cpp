@@ -13,7 +13,8 @@ struct MaterialNodes::Pair {
     auto operator<=>(const Pair&) const = default;
 };
 
-// One for each node and, where cells of other materials meet there, these; some several times.
+// Returns a pair for each node and, where cells of other materials meet there, one for each of these; some are there
+// several times.
 std::vector<MaterialNodes::Pair> MaterialNodes::pairs_of_cells() const {
     const FeSpace& space = *problem_.space;
     constexpr std::int32_t none = -1;
@@ -48,7 +49,7 @@ MaterialNodes::MaterialNodes(const ElasticProblem& problem) : problem_(problem) 
     };
     count_by_nodes();
 
-    // Owners are told which materials ghosts have: the place of the node among those of both ranks, and the material.
+    // Owners are told the materials of ghosts: the place of the node among those of both ranks, and the material.
     std::vector<RankValues<double>> out;
     for (const GhostExchange::Neighbour& neighbour : space.exchange().ghosts()) {
         std::vector<double>& list = out.emplace_back(RankValues<double>{neighbour.rank, {}}).values;

@@ -1,4 +1,4 @@
-// The nodes of a space, a number for each material around.
+// Numbers for the nodes of a space, one for each material around a node.
 #pragma once
 
 #include <array>
@@ -9,21 +9,21 @@
 
 namespace kerf {
 
-/// What has a value in each material at a node between several of them, as stresses have, is an array over these
-/// numbers: those of a node follow each other, ascending by material, and nodes are in their order, so that the own
-/// ones come first. The owner of a node has numbers for the materials of all ranks there, others for those of their
-/// cells.
+/// Numbers for pairs of a node and a material around it. Quantities with a value in each material at a node, as
+/// stresses have, are arrays over them: the numbers of a node follow each other, ascending by material, and nodes are
+/// in their order, so that owned ones come first. The owner of a node has numbers for the materials of all ranks there,
+/// other ranks have numbers for those of their own cells.
 class MaterialNodes {
  public:
     /// Collective. O(n), and O(k log k) in the k cells at nodes between materials.
     explicit MaterialNodes(const ElasticProblem& problem);
 
     std::int32_t count() const { return static_cast<std::int32_t>(material_.size()); }
-    /// Of the node's numbers the first; `local_node` may be FeSpace::node_count().
+    /// Returns the first of the node's numbers; `local_node` may be FeSpace::node_count().
     std::int32_t first_of(std::int32_t local_node) const { return first_[local_node]; }
-    /// The numbers of the nodes of a tetrahedron of the part `p` of this rank, in its material.
+    /// Returns the numbers of the nodes of a tetrahedron of the part `p` of this rank, in its material.
     std::array<std::int32_t, most_element_nodes> of(std::size_t p, std::size_t tet) const;
-    /// Between the ranks, of arrays over these numbers.
+    /// The exchange of arrays over these numbers between ranks.
     const GhostExchange& exchange() const { return exchange_; }
 
  private:

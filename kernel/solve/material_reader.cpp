@@ -1,3 +1,6 @@
+// A material is read in two steps, so that a case may take steel from the table and change one number: first the row of
+// the table, by `like`, or by the name of the material if it gives neither young nor poisson; then the numbers of the
+// case over it. The table is in SI, so that its rows need the units of the case, which are read before all tables.
 #include "solve/material_reader.h"
 
 #include <limits>
@@ -49,7 +52,7 @@ class MaterialReader {
     }
 
  private:
-    // What the table has of it, before the case's own numbers.
+    // Takes the numbers of the table, before the case's own ones.
     void start_from_table(const toml::table& values) {
         const toml::node* like = values.get("like");
         if (!like && (values.contains("young") || values.contains("poisson"))) return;

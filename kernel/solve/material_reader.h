@@ -6,8 +6,9 @@
 
 namespace kerf {
 
-/// [material.NAME] of the file `path`, in the order of names. What is `like` another takes its numbers from the table
-/// of materials, and so does one that has no numbers and a name of the table. Throws Error(usage).
+/// Reads all [material.NAME] of the file `path`, in the order of names. A material that is `like` another takes its
+/// numbers from the table of materials, and so does one that has no numbers and a name of the table. Throws
+/// Error(usage).
 std::vector<MaterialUse> read_materials(const std::string& path, const toml::node& node, CaseUnits units);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Materials by name.
+// A table of materials, by name.
 #pragma once
 
 #include <span>
@@ -7,25 +7,25 @@
 
 namespace kerf {
 
-/// Units in which the numbers of a case are: nothing said, N with mm (stresses in MPa, masses in t), or N with m.
+/// The units of a case's numbers: not given, N with mm (stresses in MPa, masses in t), or N with m.
 enum class CaseUnits { unknown, mm, m };
 
-/// A row of the table, in SI: Pa, kg/m^3, 1/K. What a source does not have is 0.
+/// A row of the table, in SI: Pa, kg/m^3, 1/K. Numbers that a source does not have are 0.
 struct TableMaterial {
     const char* name;
     double young, poisson, density, expansion, yield;
-    const char* grade;   ///< what exactly it is
-    const char* source;  ///< of the numbers
+    const char* grade;   ///< the exact grade
+    const char* source;  ///< origin of the numbers
 };
 
-/// All rows, in the order of the documentation.
+/// Returns all rows, in the order of the documentation.
 std::span<const TableMaterial> table_materials();
-/// Nothing, if there is none of the name.
+/// Returns the row of the name, or nullptr if there is none.
 const TableMaterial* find_table_material(const std::string& name);
-/// The names with commas between them.
+/// Returns the names with commas between them.
 std::string table_material_names();
 
-/// In the units of a case, which must be known.
+/// Returns the material in the units of a case, which must be known.
 Material in_units(const TableMaterial& row, CaseUnits units);
 
 }  // namespace kerf

@@ -1,3 +1,9 @@
+// A loop over run() and solve_run(): the second and further meshes have the sizes that the estimated errors of the last
+// solution ask for, read as a file of --size-field. Everything that can be refused about the case and the folder is
+// refused before the first mesh, which takes longest. A number of cells that was asked for holds for the first mesh
+// alone; the size that followed from it stays as the largest one. The output folder must hold nothing but results of
+// this kind; those of an earlier run go at the end, when all steps are done, so that a run that fails takes nothing
+// away.
 #include "solve/mesh_and_solve.h"
 
 #include <algorithm>
@@ -45,8 +51,8 @@ class StepFolders {
             }
         }
     }
-    /// Removes what an earlier run into the folder has made and this one, with so many steps, has not replaced. Files
-    /// of anybody else among that stay.
+    /// Removes the results of an earlier run into the folder that this one, with so many steps, has not replaced. Files
+    /// of anybody else among them stay.
     void remove_others(std::int32_t steps) const {
         std::error_code ignored;
         if (is_adaptive_)
@@ -150,7 +156,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
             if (request.steps > 0 && ranks.rank() == 0) write_text_file(folders.report(), to_json(request, report));
         });
         if (report.reached) break;
-        if (options.sizes.cells > 0) {  // of the first mesh: others are finer where the error asks for that
+        if (options.sizes.cells > 0) {  // holds for the first mesh: others are finer where the error asks for it
             options.sizes.cells = 0;
             options.sizes.size = report.mesh.options.sizes.size;
         }

@@ -1,3 +1,9 @@
+// Modes solve K x = w^2 M x with the stiffness K and the consistent mass M. Supports may leave the body free, so that K
+// is singular; the lowest eigenpairs of K + s M and M are found instead (solve/block_eigensolver.h), with eigenvalues
+// w^2 + s, and the multigrid is made for K + s M. The shift s is a little of the square of the lowest frequency of a
+// beam with the same extents, since one far above it would hide the differences between the lowest modes. A mode with
+// w^2 below 1e-6 s, or below the rounding of K, is a rigid motion of frequency 0. The block has four vectors more than
+// are asked for, since its last ones converge slowly.
 #include "solve/mode_solver.h"
 
 #include <algorithm>
@@ -17,8 +23,9 @@ namespace {
 
 constexpr int guard_modes = 4;  // the last of a block are slow, so there are more than asked for
 
-// A little of the square of the lowest frequency of a straight beam with the extents of the body: that falls with
-// h^2 / L^4, and what is far above it hides the differences between the lowest. The radii of gyration are of the nodes.
+// Returns a little of the square of the lowest frequency of a straight beam with the extents of the body: that falls
+// with h^2 / L^4, and a shift far above it hides the differences between the lowest. The radii of gyration are of the
+// nodes.
 double small_frequency_squared(const ElasticProblem& problem) {
     const MpiRanks& ranks = problem.space->ranks();
     const auto owned = static_cast<std::size_t>(problem.space->owned_count());
@@ -65,7 +72,7 @@ EigenProblem ModeSolver::equations() {
     return equations;
 }
 
-// Fixed numbers that look like random ones, nothing where it is held.
+// Returns fixed numbers that look like random ones, zero where a degree of freedom is held.
 Eigen::MatrixXd ModeSolver::start(int columns) const {
     Eigen::MatrixXd vectors(static_cast<Eigen::Index>(stiffness_.matrix.owned_size()), columns);
     std::uint64_t state = 0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(problem_.space->first_row());

@@ -10,10 +10,10 @@
 
 namespace kerf {
 
-/// What find_modes() does: the lowest of K + s M and M.
+/// The work of find_modes(): finds the lowest eigenvalues of K + s M and M.
 class ModeSolver {
  public:
-    /// Collective.
+    /// Assembles the equations and their multigrid for `count` modes. Collective.
     ModeSolver(const ElasticProblem& problem, int count);
 
     /// Collective. Throws as find_modes() does.

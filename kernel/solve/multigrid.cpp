@@ -1,3 +1,11 @@
+// A V-cycle over three kinds of levels. `MiddlesLevel`, of elements of order 2, smooths and corrects by their corners,
+// between which it interpolates (p-multigrid). `SmoothedLevel` smooths and corrects by the next coarser level, of
+// aggregates (solve/smoothed_aggregation.h). `CoarsestLevel` gathers the matrix and factorises it on every rank.
+// Coarsening ends at few nodes, where it makes no fewer nodes, or where factors have hardly more numbers than the
+// matrix: a slender body is such a chain of nodes, and smoother and aggregates of aggregates see its bending ever
+// worse. A cycle is a fixed symmetric operator, as conjugate gradients need: the smoother is the same before and after,
+// and restriction is the transpose of prolongation. B is the number of unknowns of a node: 3 displacements, or 6 rigid
+// motions of an aggregate; nodes of which everything is held are in no aggregate (`is_apart`).
 #include "solve/multigrid.h"
 
 #include <algorithm>
@@ -16,7 +24,7 @@ constexpr std::int64_t few_nodes = 100;
 constexpr std::int64_t nodes_to_analyse = 5000;  // about as many as every rank can have without noticing
 constexpr std::int64_t little_fill = 3;
 
-// The numbers of the local nodes among those of all ranks, in their order.
+// The numbers of the local nodes among the nodes of all ranks, in their order.
 struct GlobalNumbers {
     std::int64_t before = 0, all = 0;  // nodes of earlier ranks, of all
     std::vector<std::int64_t> of_node;
@@ -36,7 +44,7 @@ GlobalNumbers global_numbers(MpiRanks& ranks, const LevelMatrix<B>& matrix) {
     return numbers;
 }
 
-// Factorised on every rank: what the ranks have of it is gathered.
+// The coarsest level, factorised on every rank: the shares of all ranks are gathered.
 template <int B>
 class CoarsestLevel : public MultigridLevel {
  public:
@@ -56,7 +64,7 @@ class CoarsestLevel : public MultigridLevel {
     }
 
  private:
-    // Blocks with the numbers of their nodes before them, of all ranks.
+    // Returns the blocks of all ranks, with the numbers of their nodes before them.
     std::vector<double> gathered(const LevelMatrix<B>& matrix, const std::vector<std::int64_t>& number) {
         std::vector<double> own;
         for (std::int32_t n = 0; n < matrix.node_count(); ++n)
@@ -96,8 +104,8 @@ class CoarsestLevel : public MultigridLevel {
     SparseFactors factors_;
 };
 
-// Whether factors have hardly more numbers than the matrix, as those of a chain of nodes: of a slender body, whose
-// bending smoother and aggregates of aggregates see ever worse.
+// Returns whether factors have hardly more numbers than the matrix, as those of a chain of nodes: of a slender body,
+// whose bending smoother and aggregates of aggregates see ever worse.
 template <int B>
 bool is_quick_to_factorise(MpiRanks& ranks, const LevelMatrix<B>& matrix, std::int64_t nodes) {
     if (nodes > nodes_to_analyse) return false;
@@ -166,7 +174,7 @@ std::unique_ptr<MultigridLevel> make_level(MpiRanks& ranks, const LevelMatrix<B>
     return std::make_unique<SmoothedLevel<B>>(ranks, matrix, std::move(smoother), std::move(coarser));
 }
 
-// Nodes of which nothing is free.
+// Returns a flag for each node: whether nothing of it is free.
 std::vector<std::uint8_t> held_nodes(const std::vector<std::uint8_t>& is_held) {
     std::vector<std::uint8_t> held(is_held.size() / 3);
     for (std::size_t n = 0; n < held.size(); ++n) held[n] = is_held[3 * n] && is_held[3 * n + 1] && is_held[3 * n + 2];
@@ -183,7 +191,7 @@ void drop_held(const std::vector<std::uint8_t>& is_held, std::vector<double>& va
         if (is_held[dof]) values[dof] = 0;
 }
 
-// Elements of order 2 above those of order 1. Between them vectors are along x, y and z.
+// The level of elements of order 2 above those of order 1. Between the two vectors are along x, y and z.
 class MiddlesLevel : public MultigridLevel {
  public:
     MiddlesLevel(MpiRanks& ranks, const LevelMatrix<3>& matrix, std::vector<std::uint8_t> is_held,

@@ -1,3 +1,9 @@
+// Supports may hold a node along any directions. They are made orthogonal in their order (Gram and Schmidt), so that
+// each held axis is one degree of freedom of the node: a later direction counts by its component at right angles to the
+// earlier ones, with the displacement that is left for it, and not at all if that component is too short. Supports
+// still push along their directions as they were given, so that a force is divided among them by the inverse of the
+// matrix of directions (`shares`), not along the axes. Directions that are x, y or z but for rounding become these
+// exactly, and a node with such directions alone needs no frame.
 #include "solve/node_frames.h"
 
 #include <cmath>
@@ -9,7 +15,7 @@ namespace kerf {
 
 namespace {
 
-// What rounding makes of x, y and z.
+// Returns x, y or z, with a sign, for a direction that differs from it by rounding; else the direction.
 Vec3 without_rounding(const Vec3& direction) {
     for (int c = 0; c < 3; ++c)
         if (std::abs(direction[c]) > 1 - 1e-14) return std::copysign(1.0, direction[c]) * Vec3::Unit(c);

@@ -1,3 +1,8 @@
+// PETSc for as long as a solution needs it. Its handler of errors keeps the text of the first failure, since the codes
+// that come up no longer tell it, and check() throws it; PETSc's objects are lost then, and other ranks may wait in a
+// call. Where the program has initialised PETSc already, the session pushes options and a handler of its own and pops
+// them in the end; else it initialises and finalises, and takes PETSc's signal handlers away. Options of the case that
+// nothing has read until the solver is set up are refused.
 #include "solve/petsc_session.h"
 
 #include <array>
@@ -10,7 +15,7 @@ namespace kerf {
 
 namespace {
 
-// What PETSc has said first of a failure, which its codes on the way up no longer tell.
+// The first words of PETSc on a failure, which its codes on the way up no longer tell.
 struct FirstFailure {
     bool is_of_memory = false;
     std::string text;
@@ -20,7 +25,7 @@ FirstFailure& first_failure() {
     return failure;
 }
 
-// The code of PetscMallocAlign() is a number of a line.
+// A failure of PetscMallocAlign() has the number of a line as its code: it is known by the function.
 PetscErrorCode remember_failure(MPI_Comm, int, const char* function, const char*, PetscErrorCode code,
                                 PetscErrorType type, const char* message, void*) {
     if (type == PETSC_ERROR_INITIAL)
@@ -31,7 +36,7 @@ PetscErrorCode remember_failure(MPI_Comm, int, const char* function, const char*
 
 }  // namespace
 
-// After a failure PETSc's objects are lost.
+// Throws for a failure, after which PETSc's objects are lost.
 void check(int code) {
     if (code == 0) return;
     const FirstFailure failure = first_failure();
@@ -42,7 +47,7 @@ void check(int code) {
                        fmt::format("PETSc failed with code {}: {}.", static_cast<int>(code), failure.text));
 }
 
-// The same where PETSc looks at the options of the case: it fails because of them.
+// Blames a failure of a call that reads the options of the case on them.
 void check_options(int code, const std::string& options) {
     if (code == 0 || options.empty() || first_failure().is_of_memory) return check(code);
     const std::string& text = first_failure().text;
@@ -51,7 +56,7 @@ void check_options(int code, const std::string& options) {
                                                      options, text.substr(0, text.find('\n'))));
 }
 
-// Those of the case that nothing has asked for until the solver is set up.
+// Refuses options of the case that nothing has asked for when the solver is set up.
 void refuse_unknown_options() {
     PetscInt count = 0;
     char **names = nullptr, **values = nullptr;

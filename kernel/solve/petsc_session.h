@@ -1,4 +1,4 @@
-// PETSc, for as long as it is used, and what it says of failures.
+// PETSc for as long as it is used, and its failures as errors.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@ struct _n_PetscOptions;  // PETSc's
 
 namespace kerf {
 
-/// What PETSc says that it cannot do: other ranks may wait for this one, so that all have to be ended.
+/// A failure that PETSc reports: other ranks may wait for this one, so that all have to be ended.
 class PetscFailure : public Error {
  public:
     using Error::Error;
 };
 
 /// Initialises PETSc on the communicator of the ranks, which may be some of those of the program; finalises it at the
-/// end. Where the program has done that already, PETSc goes on as it is, and has `options` for the session alone.
-/// Neither .petscrc nor the program's arguments are read; programs that want that of PETSC_OPTIONS, too, take it out of
-/// their environment. Throws Error(usage) for `options` that PETSc does not take.
+/// end. Where the program has initialised it already, PETSc goes on as it is, and has `options` for the session alone.
+/// Neither .petscrc nor the program's arguments are read; programs that want PETSC_OPTIONS not to be read, either, take
+/// it out of their environment. Throws Error(usage) for `options` that PETSc does not take.
 class PetscSession {
  public:
     explicit PetscSession(const MpiRanks& ranks, const std::string& options = "");
@@ -38,9 +38,9 @@ class PetscSession {
 
 /// Throws PetscFailure for a code of PETSc that is not 0. Objects of PETSc are lost then.
 void check(int code);
-/// The same where PETSc looks at the `options` of the case: it fails because of them.
+/// Checks the code of a call that reads the `options` of the case, which are blamed for its failure: Error(usage).
 void check_options(int code, const std::string& options);
-/// Throws Error(usage) for options of the session that nothing has asked for.
+/// Throws Error(usage) for options of the session that PETSc has not used.
 void refuse_unknown_options();
 
 }  // namespace kerf

@@ -1,3 +1,9 @@
+// The material of a cell is that of its part, else of its region, else of its body, else that of the rest
+// (`MaterialPlaces::at`); a place that has two materials is refused. Bodies are those at whose surface there are
+// triangles of the patches that a material names, found on all ranks together. The temperature of a region is a matter
+// of its materials: where a case names one, each material in the region is there once more, for the region alone, so
+// that thermal strains are arrays over materials. Numbers have 16 bits, of which the largest says that there is no
+// material.
 #include "solve/place_materials.h"
 
 #include <algorithm>
@@ -13,7 +19,7 @@ namespace {
 
 constexpr MaterialNumber no_material = 65535;
 
-// The numbers of the materials of parts that are named, of regions, of bodies, and of all else.
+// The numbers of the materials of named parts, of regions, of bodies, and of the rest.
 struct MaterialPlaces {
     std::map<NodeId, MaterialNumber> of_part;
     std::vector<MaterialNumber> of_region;
@@ -40,7 +46,7 @@ class MaterialPlacer {
           bodies_(bodies) {}
 
     void place();
-    // Materials of their own for the regions; returns the region of each.
+    // Gives these regions materials of their own; returns for each material its region, or -1.
     std::vector<std::int32_t> split_by_regions(const std::vector<char>& regions);
 
  private:
@@ -57,7 +63,7 @@ class MaterialPlacer {
     const SpaceBodies& bodies_;
 };
 
-// Bodies with a triangle of these patches.
+// Returns a flag for each body: whether it has a triangle of these patches.
 std::vector<char> MaterialPlacer::bodies_at(const std::vector<std::string>& patches, const std::string& who) const {
     SurfaceSelection where;
     where.patches = patches;
@@ -111,7 +117,7 @@ void MaterialPlacer::place_in_regions(const MaterialUse& use, const std::vector<
     }
 }
 
-// Where the material that was added last is.
+// Places the material that was added last.
 void MaterialPlacer::place_material(const MaterialUse& use, MaterialPlaces& places) const {
     const MaterialNumber number = problem_.materials.size() - 1;
     const std::string who = fmt::format("Material '{}'", use.material.name);

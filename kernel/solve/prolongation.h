@@ -1,4 +1,4 @@
-// From a coarse level of a multigrid to the finer one.
+// The prolongation from a coarse level of a multigrid to the finer one.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,12 @@
 
 namespace kerf {
 
-/// Numbers of a node of a coarse level: how much of each rigid motion.
+/// The count of numbers at a node of a coarse level, which are amounts of rigid motions.
 inline constexpr int rigid_motions = 6;
 
-/// Row n of the fine level has a block for each of the coarse nodes columns[first[n]] to columns[first[n + 1] - 1].
-/// Blocks have single precision: what is coarse is made with the same ones, so that nothing is lost by that.
+/// A sparse matrix of blocks: row n of the fine level has a block for each of the coarse nodes columns[first[n]] to
+/// columns[first[n + 1] - 1]. Blocks have single precision: the coarse matrix is made with the same ones, so that
+/// nothing is lost by that.
 template <int B>
 struct Prolongation {
     using Block = RowMajorBlock<B, rigid_motions, float>;
@@ -26,7 +27,7 @@ struct Prolongation {
     RowMajorBlock<B, rigid_motions> block(std::int64_t at) const {
         return Eigen::Map<const Block>(&values[block_size * at]).template cast<double>();
     }
-    /// fine += P coarse, for so many rows.
+    /// Adds P coarse to the first `rows` rows of `fine`.
     void prolong(const std::vector<double>& coarse, std::vector<double>& fine, std::int32_t rows) const {
         for (std::int32_t n = 0; n < rows; ++n)
             for (std::int64_t i = first[n]; i < first[n + 1]; ++i)
@@ -34,7 +35,7 @@ struct Prolongation {
                     block(i) *
                     Eigen::Map<const Eigen::Matrix<double, rigid_motions, 1>>(&coarse[rigid_motions * columns[i]]);
     }
-    /// coarse += P^T fine, for so many rows.
+    /// Adds P^T fine, of the first `rows` rows of `fine`, to `coarse`.
     void restrict_to(const std::vector<double>& fine, std::vector<double>& coarse, std::int32_t rows) const {
         for (std::int32_t n = 0; n < rows; ++n)
             for (std::int64_t i = first[n]; i < first[n + 1]; ++i)

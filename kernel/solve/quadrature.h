@@ -5,11 +5,11 @@
 
 namespace kerf {
 
-/// Weights of the corners; they add up to 1.
+/// A place as weights of the corners, which add up to 1.
 using Barycentric = std::array<double, 4>;
 using BarycentricOfTriangle = std::array<double, 3>;
 
-/// Weights add up to 1: the sum of weighted values is the mean.
+/// A point of a rule. Weights add up to 1: the sum of weighted values is the mean.
 template <class Place>
 struct WeightedPlace {
     Place place;
@@ -22,7 +22,7 @@ namespace quadrature {
 
 inline constexpr double inner = 0.13819660112501051518, outer = 1 - 3 * inner;
 
-/// Where what is constant has its value.
+/// The rule for integrands that are constant.
 inline constexpr std::array<TetPoint, 1> one_point = {{{{outer, inner, inner, inner}, 1}}};
 
 /// Exact for polynomials of degree 2.

@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// A support, spring or what else reacts, and about which point its moments are.
+/// A support, spring or inertia relief, and the point about which its moments are.
 struct Reacting {
     std::string name;
     Vec3 place = Vec3::Zero();
@@ -17,10 +17,10 @@ struct Reacting {
 inline constexpr const char* results_file = "results.csv";
 inline constexpr const char* reactions_file = "reactions.csv";
 
-/// A row for each case, and after it for each of several regions: `region` is empty for the whole. What is not known is
-/// empty.
+/// Returns a row for each case, and after it one for each of several regions: `region` is empty for the whole. Unknown
+/// values are empty.
 std::string results_csv(const std::vector<CaseReport>& cases);
-/// A row for each case and support, and after it for each of several regions.
+/// Returns a row for each case and support, and after it one for each of several regions.
 std::string reactions_csv(const std::vector<CaseReport>& cases, const std::vector<Reacting>& reacting);
 
 }  // namespace kerf

@@ -1,3 +1,8 @@
+// Each displacement of a node that is held, and each direction in which a spring pushes back, is a row of six numbers:
+// its size in the six rigid motions of the body. The sum of the products of each row with itself is a 6 x 6 matrix for
+// each body, summed over ranks, and its eigenvectors with eigenvalues up to 1e-10 of the largest are the motions that
+// nothing prevents. Rotations are scaled by the size of the body, so that they compare with translations. Messages name
+// motions in words, those that turn most first.
 #include "solve/rigid_motions.h"
 
 #include <algorithm>
@@ -15,7 +20,7 @@ namespace {
 using Motion = Eigen::Matrix<double, 6, 1>;
 using MotionMatrix = Eigen::Matrix<double, 6, 6>;
 
-// What is held of the motions of bodies: sums of products of what each held displacement is in them.
+// The held motions of bodies: sums of the products of the rows of held displacements.
 class HeldMotions {
  public:
     HeldMotions(const ElasticProblem& problem, const SpaceBodies& bodies, const std::vector<BodyMotions>& motions)
@@ -47,7 +52,7 @@ class HeldMotions {
     std::vector<double> products_;
 };
 
-// Without what is free.
+// Returns the motions of bodies, with nothing said of the free ones.
 std::vector<BodyMotions> motions_of(const FeSpace& space, const SpaceBodies& bodies) {
     std::vector<double> middles(4 * bodies.count, 0), scales(bodies.count, 0);
     for (std::int32_t n = 0; n < space.owned_count(); ++n) {
@@ -68,10 +73,10 @@ std::vector<BodyMotions> motions_of(const FeSpace& space, const SpaceBodies& bod
     return motions;
 }
 
-// What is left of motions without the others, in words. `motions`: orthonormal columns that nothing prevents.
+// Returns the motions in words. `motions`: orthonormal columns that nothing prevents.
 std::string motions_text(const Eigen::MatrixXd& motions, const Vec3& middle, double scale) {
     if (motions.cols() == 6) return "it is not held at all";
-    // Those that turn most come first.
+    // The motions that turn most come first.
     const Eigen::MatrixXd sorted = motions * right_singular_vectors(motions.bottomRows(3));
     std::string text;
     const auto direction = [](const Vec3& v) {

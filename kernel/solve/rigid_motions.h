@@ -8,7 +8,8 @@
 
 namespace kerf {
 
-/// Of all bodies. What is as good as free is free: 1e-10 of what the motion held best has. Collective; O(n).
+/// Returns the motions of all bodies. A motion is free if the square of its held displacements is at most 1e-10 times
+/// that of the motion that is held best. Collective; O(n).
 std::vector<BodyMotions> free_motions(const ElasticProblem& problem, const SpaceBodies& bodies);
 
 /// Throws Error(usage) naming the rigid motions of bodies that the supports do not prevent. Collective.

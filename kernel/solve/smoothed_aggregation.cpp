@@ -1,3 +1,11 @@
+// Smoothed aggregation (Vanek, Mandel and Brezina 1996). Nodes are grouped into aggregates, and the rigid motions of
+// the nodes of an aggregate, made orthonormal, are six columns of the tentative prolongation T; the triangular factor
+// has the motions of the coarse node. One step of Jacobi's method smooths it, P = T - 4 / (3 lambda) D^-1 A T with the
+// blocks D of the diagonal and the largest eigenvalue lambda of D^-1 A, and the coarse matrix is P^T A P. Motions that
+// depend on others, as turns of a single node, are columns of zeros, and so are their rows and columns of the coarse
+// matrix. A is a sum of shares over the ranks: owners add the rows of A T that other ranks have, rank after rank, send
+// the finished rows of P back to the ghosts, and then each rank multiplies its own share, so that the coarse matrix is
+// a sum of shares again. A row of the share needs the blocks below the diagonal, too, which `lower_` finds above it.
 #include "solve/smoothed_aggregation.h"
 
 #include <algorithm>
@@ -11,7 +19,7 @@ namespace {
 
 using MotionBlock = Eigen::Matrix<double, rigid_motions, rigid_motions, Eigen::RowMajor>;
 
-// One row of a prolongation, or what will be one: blocks by the global number of the coarse node.
+// One row of a prolongation, finished or not: blocks by the global number of the coarse node.
 template <int B>
 struct SparseRow {
     using Block = RowMajorBlock<B, rigid_motions>;
@@ -28,7 +36,7 @@ struct SparseRow {
         ids.clear();
         blocks.clear();
     }
-    // As numbers of a message: how many, then each with its block.
+    // Appends the row to a message as numbers: the count, then each id with its block.
     void append_to(std::vector<double>& message) const {
         message.push_back(static_cast<double>(ids.size()));
         for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -46,7 +54,8 @@ struct SparseRow {
     }
 };
 
-// Gram and Schmidt, twice for the sake of rounding. Columns that depend on those before become zero.
+// Makes columns orthonormal (Gram and Schmidt, twice for the sake of rounding). Columns that depend on those before
+// become zero.
 void orthonormalise(Eigen::MatrixXd& columns, MotionBlock& factor) {
     constexpr double dependent = 1e-8;
     factor.setZero();
@@ -68,8 +77,8 @@ void orthonormalise(Eigen::MatrixXd& columns, MotionBlock& factor) {
     }
 }
 
-// Which owned nodes have no part in what is coarse: those of `is_apart`, and those that nothing couples with another
-// one, on any rank. Smoothing is enough for them.
+// Returns a flag for each owned node: whether it has no part in the coarse level, as those of `is_apart` and those that
+// are coupled with no other node, on any rank. Smoothing is enough for them.
 template <int B>
 std::vector<std::uint8_t> with_uncoupled(const LevelMatrix<B>& matrix, const LowerBlocks& lower,
                                          std::vector<std::uint8_t> is_apart) {
@@ -202,7 +211,7 @@ void Coarsening<B>::append_row(const SparseRow<B>& row) {
     result_.first.push_back(std::ssize(ids_));
 }
 
-// Rows of a node that several ranks hold are added by its owner, in their order.
+// Makes the rows of owned nodes; the owner of a node adds the rows that other ranks have for it, in their order.
 template <int B>
 void Coarsening<B>::make_prolongation() {
     std::vector<RankValues<double>> of_ghosts;
@@ -259,7 +268,7 @@ void Coarsening<B>::take_rows_of_ghosts() {
     for (const SparseRow<B>& of_ghost : rows) append_row(of_ghost);
 }
 
-// Those of this rank, then those of others.
+// Numbers the coarse nodes of this rank, then those of others.
 template <int B>
 void Coarsening<B>::number_coarse_nodes() {
     const std::int64_t begin = first_own(), end = begin + aggregates_.count;
@@ -296,7 +305,7 @@ GhostExchange Coarsening<B>::coarse_exchange() const {
     return {ranks_, std::move(owned), std::move(ghosts)};
 }
 
-// Which coarse nodes meet in a row of A P, and so in P^T A P.
+// Makes the pattern of P^T A P: coarse nodes that meet in a row of A P.
 template <int B>
 void Coarsening<B>::make_pattern() {
     const std::int32_t coarse = aggregates_.count + static_cast<std::int32_t>(ghosts_.size());

@@ -10,20 +10,22 @@
 
 namespace kerf {
 
-/// What a matrix hardly resists: for each owned node B rows of six numbers, the rigid motions.
+/// The motions that a matrix hardly resists: for each owned node B rows of six numbers, the rigid motions.
 using NearNullSpace = std::vector<double>;
 
-/// Vanek, Mandel, Brezina 1996: rigid motions of aggregates, smoothed by one step of Jacobi's method.
+/// The next coarser level: rigid motions of aggregates, smoothed by one step of Jacobi's method (Vanek, Mandel, Brezina
+/// 1996).
 template <int B>
 struct CoarserLevel {
-    Prolongation<B> prolongation;       ///< of owned nodes
+    Prolongation<B> prolongation;       ///< its rows are owned nodes
     LevelMatrix<rigid_motions> matrix;  ///< P^T A P
-    NearNullSpace motions;              ///< there
+    NearNullSpace motions;              ///< of the coarse nodes
 };
 
-/// Collective. Aggregates do not cross ranks; all else does, so that the result hardly depends on their number. Nodes
-/// of `is_apart`, and nodes that nothing couples with another one, have no part in what is coarse. There may be as many
-/// coarse nodes as there were: where a node is coupled with nodes of other ranks alone. O(n).
+/// Makes the next coarser level. Collective. Aggregates do not cross ranks, but everything else does, so that the
+/// result hardly depends on their number. Nodes of `is_apart`, and nodes that are coupled with no other one, have no
+/// part in the coarse level. It may have as many nodes as the fine one: where each node is coupled with nodes of other
+/// ranks alone. O(n).
 template <int B>
 CoarserLevel<B> coarsen(MpiRanks& ranks, const LevelMatrix<B>& fine, const ChebyshevSmoother<B>& smoother,
                         const NearNullSpace& motions, const std::vector<std::uint8_t>& is_apart);

@@ -1,4 +1,4 @@
-// How a solution tells of its progress.
+// The listener to the progress of a solution.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace kerf {
 
-/// Stages are "read", "number", "conditions", "assemble", "setup" (of the preconditioner), "solve", "modes", "recover"
-/// and "write".
+/// A listener whose stages are "read", "number", "conditions", "assemble", "setup" (of the preconditioner), "solve",
+/// "modes", "recover" and "write".
 class SolveListener : public RunListener {
  public:
-    /// How many equations there are, when that is known; only on the root rank.
+    /// Called with the number of equations, once that is known; only on the root rank.
     virtual void on_equations(std::int64_t /*unknowns*/) {}
 };
 

@@ -1,3 +1,8 @@
+// A solution as report.json and as lines for people. The JSON is in the order in which it is put together here, and
+// sealed (io/run_manifest.h); members that only some solutions have (modes, regions, inertia, safety factors) are left
+// out elsewhere, so that readers must not expect them. Names of users and paths go through path_text(), because they
+// may be no UTF-8. Lines have a word of up to twelve characters and a text; of many regions only those with the largest
+// stresses have one.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -98,7 +103,7 @@ std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:
 
 std::string line_of(const char* name, const std::string& text) { return fmt::format("{:<12}{}\n", name, text); }
 
-// Of many regions those with the largest stresses.
+// Returns a line for each region; of many regions for those with the largest stresses.
 std::string region_lines(std::vector<RegionResult> regions) {
     constexpr std::size_t most = 10;
     const std::size_t count = regions.size();

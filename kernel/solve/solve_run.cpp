@@ -1,3 +1,9 @@
+// The order of the stages: read the case and the parts, number the nodes, put the case on them, assemble, solve each
+// case and recover its stresses, add up combinations, write. All ranks go through all stages. Work that one rank may
+// fail at alone, as reading or writing its files, is done in_agreement(), so that all throw alike. Everything that the
+// case and the folder may be refused for is refused before PETSc starts. The stresses of a combination are recovered
+// from the sum of the displacements, since von Mises stresses and errors do not add up. The result is written beside
+// its place and gets that place at the end (io/run_folder.h); if a case does not converge there is none.
 #include "solve/solve_run.h"
 
 #include <algorithm>
@@ -46,7 +52,7 @@ std::string way_out(const SolverOptions& solver, const SolveOutcome& outcome) {
         solver.preconditioner == "gamg" ? "icc" : "gamg");
 }
 
-// Numbers of a case may each be finite, and their products not.
+// Throws for results that are not finite: each number of a case may be finite, and their products not.
 [[noreturn]] void throw_not_finite(const std::string& case_name) {
     throw Error(ErrorCode::usage,
                 fmt::format("Displacements or stresses{} are larger than numbers can be. Look for numbers of the case "
@@ -73,7 +79,7 @@ class SolveStages {
             if (is_cancelled) throw Error(ErrorCode::cancelled, "Interrupted; nothing was written.");
         });
     }
-    // Of the parts of this rank, where ranks do not wait for each other.
+    // Tells of the parts of this rank, where ranks do not wait for each other.
     void tell_part(const char* stage, std::size_t done, std::size_t total) {
         if (!listener_) return;
         if (listener_->cancelled()) throw Error(ErrorCode::cancelled, "Interrupted; nothing was written.");
@@ -139,7 +145,7 @@ void SolveStages::read_request() {
     report_.vertices = outline.vertices;
 }
 
-// Nothing but an older solution is replaced.
+// Opens the result folder, where nothing but an older solution may be replaced.
 void SolveStages::open_folder() {
     const std::string& output = report_.request.output;
     folder_.emplace(open_together(ranks_, [&] {
@@ -211,7 +217,7 @@ void SolveStages::solve_case(LinearSystem& system, std::size_t number) {
     finish_case(number);
 }
 
-// Cases with factors, added up.
+// Adds up cases with factors.
 void SolveStages::combine(std::size_t number) {
     CaseReport& of_case = report_.cases.emplace_back();
     CaseSolution& solution = solutions_.emplace_back();
@@ -246,9 +252,10 @@ void SolveStages::require_finite() const {
     if (ranks_.all_reduce(std::int64_t{is_finite ? 0 : 1}, Reduction::sum) > 0) throw_not_finite(of_case.name);
 }
 
-// Where inertia balances the loads, what fixes the body must not be felt: but for residuals of the equations.
+// Throws if the support that fixes free bodies reacts: where inertia balances the loads it feels nothing but residuals
+// of the equations.
 void SolveStages::require_no_reaction(std::size_t number) const {
-    std::array<double, 2> sums = {0, problem_.cases[number].load_sum};  // of squares, of sizes
+    std::array<double, 2> sums = {0, problem_.cases[number].load_sum};  // of the squares and of the sizes of forces
     for (const double force : problem_.cases[number].forces) sums[0] += force * force;
     ranks_.all_reduce(std::span<double>(sums), Reduction::sum);
     const double rounding = 1e-9 * sums[1];
@@ -281,7 +288,7 @@ void SolveStages::write() {
         if (!is_root()) return;
         std::vector<std::string> pieces;
         for (const PartExtent& part : outline_.parts) pieces.push_back("parts/" + part_file_name(part.id));
-        // Its arrays are those of any part.
+        // The arrays of any part will do.
         write_pvtu(folder_->file("mesh.pvtu"), pieces, layout, values_of(0));
         report_.files.push_back(describe_file(folder_->partial_path(), "mesh.pvtu"));
         if (modes_.empty()) return;
@@ -352,7 +359,7 @@ void SolveStages::solve_cases() {
 
 void SolveStages::find_all_modes() {
     progress("modes", 0, static_cast<std::size_t>(report_.request.modes));
-    int most = 0;  // measured anew, some have a little left to do
+    int most = 0;  // residuals that are measured anew may be above the tolerance again
     FoundModes found = find_modes(problem_, report_.request.modes, [this, &most](int, int so_many) {
         most = std::max(most, so_many);
         if (listener_ && is_root())
@@ -367,7 +374,7 @@ void SolveStages::find_all_modes() {
 }
 
 SolveReport SolveStages::run() {
-    read_request();  // what is refused is told alone
+    read_request();  // refusals come before any progress
     progress("read", 0, 0);
     space_.emplace(make_space());
     progress("conditions", 0, 0);

@@ -23,10 +23,10 @@ struct SolveRequest {
     /// for the next mesh.
     std::optional<double> target_error;
     std::optional<int> order = {};  ///< of the elements, whatever the case and the mesh say
-    int modes = 0;  ///< if positive, so many natural frequencies and modes are found, in place of what loads do
+    int modes = 0;  ///< if positive, so many natural frequencies and modes are found, and no case is solved
 };
 
-/// Wall clock, the longest over the ranks.
+/// Seconds of wall clock for each stage, the longest over the ranks.
 struct SolveSeconds {
     double read = 0, number = 0, conditions = 0, assemble = 0, setup = 0, solve = 0, modes = 0, recover = 0, write = 0,
            wall = 0;
@@ -38,18 +38,18 @@ struct SolveReport {
     int ranks = 1;
     std::int64_t parts = 0, tets = 0, vertices = 0;
     std::int64_t nodes = 0;          ///< of the finite elements; three unknowns each, but for held ones
-    std::int64_t held = 0;           ///< degrees of freedom
-    std::vector<Reacting> reacting;  ///< supports, springs, and what inertia relieves
+    std::int64_t held = 0;           ///< number of held degrees of freedom
+    std::vector<Reacting> reacting;  ///< supports, springs and inertia relief
     std::vector<CaseReport> cases;
     std::vector<Mode> modes;  ///< without their shapes
     int mode_iterations = 0;
-    double wanted_of_next = 0;  ///< the error for which size_field.vtu asks; 0: there is none
+    double wanted_of_next = 0;  ///< the error for which size_field.vtu is made; 0: there is no such file
     SolveSeconds seconds;
     std::int64_t peak_rss_bytes = 0;  ///< sum over the ranks
     std::vector<RunFile> files;
     int exit_code = 0;
 
-    /// The largest estimate of the cases, beside the norm of their solutions.
+    /// Returns the largest relative error of the cases (EnergyNorms::relative()).
     double relative_error() const;
 };
 
@@ -62,12 +62,12 @@ inline constexpr const char* size_field_file = "size_field.vtu";
 /// tolerance is not reached, and nothing is written then.
 SolveReport solve_run(const SolveRequest& request, MpiRanks& ranks, SolveListener* listener);
 
-/// The patches of a finished run. Collective.
+/// Returns the patches of a finished run. Collective.
 std::vector<PatchSummary> list_patches(const std::string& folder, MpiRanks& ranks);
 
-/// report.json, sealed (io/run_manifest.h).
+/// Returns report.json, sealed (io/run_manifest.h).
 std::string to_json(const SolveReport& report);
-/// Some lines for people.
+/// Returns some lines for people.
 std::string to_text(const SolveReport& report);
 
 }  // namespace kerf

@@ -8,13 +8,14 @@
 
 namespace kerf {
 
-/// Bodies of all ranks, ascending by their smallest row.
+/// The bodies of all ranks, ascending by their smallest row.
 struct SpaceBodies {
     std::int32_t count = 0;
-    std::vector<std::int32_t> of_node;  ///< of each local node, ghosts too
+    std::vector<std::int32_t> of_node;  ///< body of each local node, ghosts too
 };
 
-/// Cells that share a vertex are of one body. Collective; O(n), times the number of ranks that one body winds through.
+/// Finds the bodies: cells that share a vertex are of one body. Collective; O(n), times the number of ranks that one
+/// body winds through.
 SpaceBodies find_bodies(const FeSpace& space);
 
 }  // namespace kerf

@@ -1,3 +1,10 @@
+// Stresses at nodes are averages of those of the cells around, weighted by volumes, in each material by itself. The
+// error of a cell is the energy norm of the difference between its own stresses and better ones (Zienkiewicz and Zhu
+// 1987): the averages for order 1, polynomials on patches for order 2 (Zienkiewicz and Zhu 1992, zienkiewicz1992),
+// which tell the error alone. The difference is integrated exactly in straight cells: its square has degree 2 or 4. A
+// reaction is the sum of the internal forces of cells at a held node, less the loads there, less the forces of springs
+// there; each support has its share along the direction in which it pushes. Ranks add up sums at nodes that they share,
+// so that no rank needs the cells of others.
 #include "solve/stress.h"
 
 #include <algorithm>
@@ -18,7 +25,7 @@ bool holds_any_of(const ElasticProblem& problem, const std::array<std::int32_t, 
                        [&](std::int32_t node) { return problem.holds_any(node); });
 }
 
-// What springs do to the body.
+// Adds the forces of springs on the body.
 void add_spring_forces(const ElasticProblem& problem, const std::vector<double>& displacement, HeldForces& sums) {
     const FeSpace& space = *problem.space;
     for (const SurfaceSprings::Facet& facet : problem.springs.facets) {
@@ -37,7 +44,7 @@ void add_spring_forces(const ElasticProblem& problem, const std::vector<double>&
     }
 }
 
-// Means over the cells around, of each material by themselves.
+// Returns the means over the cells around each node, in each material by itself.
 std::vector<SymmetricTensor> average_stresses(const ElasticProblem& problem, const std::vector<double>& displacement,
                                               std::size_t number, const MaterialNodes& numbers) {
     const FeSpace& space = *problem.space;
@@ -62,7 +69,8 @@ std::vector<SymmetricTensor> average_stresses(const ElasticProblem& problem, con
     return means;
 }
 
-// The square of a difference of degree 2 has degree 4; of order 1 it has degree 2.
+// Returns the points by which errors are integrated: the square of a difference has degree 4 for order 2, and degree 2
+// for order 1.
 std::span<const TetPoint> rule_of_errors(int order) {
     if (order == 1) return quadrature::four_points;
     return quadrature::fourteen_points;
@@ -93,7 +101,7 @@ class StressRecovery {
     void compare() {
         const MaterialNodes numbers(problem_);
         const std::vector<SymmetricTensor> means = average_stresses(problem_, displacement_, number_, numbers);
-        // What is fitted is nearer to the truth inside, but not where a surface has kinks: it tells the error alone.
+        // Fitted stresses are nearer to the truth inside, but not where a surface has kinks: they tell the error alone.
         const std::vector<SymmetricTensor> better =
             space_.order() == 1 ? means : fit_stresses(problem_, displacement_, number_, numbers);
         const int nodes_each = element_nodes(space_.order());
@@ -124,7 +132,7 @@ class StressRecovery {
         for (std::size_t p = 0; p < field_.parts.size(); ++p) tell_nodes(p, numbers, means);
     }
 
-    // Of the materials of a part that meet in a node the last one counts.
+    // Sets the stresses at the nodes of a part. Of its materials that meet in a node the last one counts.
     void tell_nodes(std::size_t p, const MaterialNodes& numbers, const std::vector<SymmetricTensor>& means) {
         PartStress& of_part = field_.parts[p];
         const Part& part = space_.parts()[p];

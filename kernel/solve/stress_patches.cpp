@@ -1,3 +1,10 @@
+// Superconvergent patch recovery (Zienkiewicz and Zhu 1992, zienkiewicz1992). The patch of a vertex are the cells
+// around it of one material; the stresses at four points of each are fitted by a polynomial of degree 2 in the distance
+// from the vertex, weighted by volumes. Its normal equations are 55 products of 10 monomials and 10 x 6 right sides,
+// which ranks add up; they are scaled to ones on the diagonal and solved by the owner. A patch at a corner or an edge
+// of the body has too few cells: if a pivot is tiny, or an error of all stresses would grow too much on its way to the
+// vertex, the degree is lowered. A vertex takes the value of its own polynomial, a node on an edge the mean of those of
+// both ends.
 #include "solve/stress_patches.h"
 
 #include <algorithm>
@@ -18,7 +25,7 @@ constexpr std::array<int, 3> terms_of_degree = {1, 4, 10};
 using Monomials = Eigen::Matrix<double, monomials, 1>;
 using Coefficients = Eigen::Matrix<double, monomials, tensor_size>;
 
-// Of the distance from the vertex.
+// Returns the monomials of the distance from the vertex.
 Monomials monomials_at(const Vec3& d) {
     Monomials m;
     m << 1, d.x(), d.y(), d.z(), d.x() * d.x(), d.y() * d.y(), d.z() * d.z(), d.x() * d.y(), d.y() * d.z(),
@@ -60,7 +67,7 @@ class PatchFit {
     std::vector<double> products_, values_;
 };
 
-// Ghosts come after the own ones, as among nodes.
+// Numbers the vertices; ghosts come after the own ones, as among nodes.
 void PatchFit::number_vertices() {
     vertex_of_.assign(numbers_.count(), -1);
     for (const PartFeNodes& part : space_.nodes_of_parts())

@@ -1,3 +1,8 @@
+// The triangles of the outer boundary on this rank are listed once, with areas and normals, and selections choose among
+// them: by the patch, or by all three corners in a box or, within 1e-6 of the diagonal of the mesh, on a plane. Walls
+// between regions and interfaces between parts are no surface and are never selected. All ranks agree by a reduction at
+// the end of each function, so that an empty selection throws on all of them. The vertex nearest to a point is the one
+// at the smallest distance and, of several, with the smallest row, which does not depend on the number of ranks.
 #include "solve/surface_selection.h"
 
 #include <algorithm>
@@ -27,7 +32,7 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 bool matches_pattern(const std::string& pattern, const std::string& text) {
-    std::vector<char> matched(text.size() + 1, 0);  // how much of the text the pattern so far may be
+    std::vector<char> matched(text.size() + 1, 0);  // [i]: whether the pattern so far may be the first i characters
     matched[0] = 1;
     for (const char c : pattern) {
         if (c == '*') {
@@ -44,7 +49,7 @@ bool matches_pattern(const std::string& pattern, const std::string& text) {
 
 SurfaceSelector::SurfaceSelector(const FeSpace& space, std::vector<std::string> names)
     : space_(space), names_(std::move(names)) {
-    std::array<double, 6> low;  // and the opposite of what is high
+    std::array<double, 6> low;  // the lowest coordinates, then the negative highest ones
     low.fill(std::numeric_limits<double>::infinity());
     for (std::size_t p = 0; p < space.parts().size(); ++p) {
         const Part& part = space.parts()[p];

@@ -16,7 +16,7 @@ namespace kerf {
 /// Boundary triangles of this rank that stand on springs.
 struct SurfaceSprings {
     struct Facet {
-        std::size_t spring = 0;  ///< of `springs`
+        std::size_t spring = 0;  ///< index among `springs`
         std::size_t part = 0, facet = 0;
     };
     std::vector<Spring> springs;
@@ -26,12 +26,13 @@ struct SurfaceSprings {
 };
 
 /// The stiffness of a triangle on a spring: the integral of shape functions times stiffness per area, blocks for pairs
-/// of its nodes (FeSpace::nodes_of_facet). Exact for flat ones. With order 1 that of the flat triangle of its corners.
+/// of its nodes (FeSpace::nodes_of_facet). Exact for flat triangles. With `order` 1 it is that of the flat triangle of
+/// the corners.
 using FacetStiffness = std::array<std::array<Eigen::Matrix3d, 6>, 6>;
 FacetStiffness spring_stiffness(const FeSpace& space, const SurfaceSprings& springs, const SurfaceSprings::Facet& facet,
                                 int order);
 
-/// The directions in which it pushes back: three at most, none where the stiffness is 0.
+/// Returns the directions in which the spring at a triangle pushes back: three at most, none where the stiffness is 0.
 std::vector<Vec3> spring_directions(const FeSpace& space, const SurfaceSprings& springs,
                                     const SurfaceSprings::Facet& facet);
 

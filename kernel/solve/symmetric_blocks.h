@@ -13,8 +13,9 @@ namespace kerf {
 template <int Rows, int Columns, class Number = double>
 using RowMajorBlock = Eigen::Matrix<Number, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
-/// Row n has the blocks of columns[first[n]] to columns[first[n + 1] - 1], ascending from the diagonal on, which is
-/// always there. What is below the diagonal is the transpose of what is above it.
+/// A sparse symmetric matrix of B x B blocks. Row n has the blocks of columns[first[n]] to columns[first[n + 1] - 1],
+/// ascending from the diagonal on, which is always there. Blocks below the diagonal are the transposes of those above
+/// it.
 template <int B>
 struct SymmetricBlocks {
     using Block = RowMajorBlock<B, B>;
@@ -27,7 +28,7 @@ struct SymmetricBlocks {
     Eigen::Map<Block> block(std::int64_t at) { return Eigen::Map<Block>(&values[B * B * at]); }
     Eigen::Map<const Block> block(std::int64_t at) const { return Eigen::Map<const Block>(&values[B * B * at]); }
 
-    /// y += A x, with B numbers of each node, to their precision. O(blocks).
+    /// Adds A x to y, with B numbers of each node, to the precision of Number. O(blocks).
     template <class Number>
     void multiply_add(std::span<const Number> x, std::span<Number> y) const {
         using Vector = Eigen::Matrix<Number, B, 1>;

@@ -1,3 +1,10 @@
+// An element is an image of the tetrahedron of its corners, on which places are barycentric coordinates (Ergatoudis,
+// Irons and Zienkiewicz 1968, ergatoudis1968). Gradients of shape functions on that tetrahedron follow from those of
+// the barycentric coordinates (`slopes_`), which are constant. J is the matrix whose row i is the gradient of
+// coordinate i of the element (`distortion()`): on a curved element gradients are multiplied by its transposed inverse,
+// and volumes by its determinant. Elements are straight if nodes on edges are midpoints bit by bit, and take the
+// formulas without J; others are integrated by 14 points (Walkington 2000, walkington2000). In `stiffness()` the blocks
+// below the diagonal are copied from those above it.
 #include "solve/tet_element.h"
 
 #include <algorithm>

@@ -23,9 +23,10 @@ class TetElement {
     using Shapes = std::array<double, most_element_nodes>;
     using Gradients = std::array<Vec3, most_element_nodes>;
 
-    /// With straight edges.
+    /// Takes the corners of an element with straight edges.
     TetElement(const std::array<Vec3, 4>& corners, int order);
-    /// Of order 2. Straight if the nodes on the edges are the midpoints, bit by bit.
+    /// Takes the nodes of an element of order 2. It is straight if the nodes on the edges are the midpoints, bit by
+    /// bit.
     explicit TetElement(const Nodes& nodes);
 
     int order() const { return order_; }
@@ -34,15 +35,15 @@ class TetElement {
     double volume() const { return volume_; }  ///< > 0 for a tetrahedron of positive orientation
 
     static Shapes shapes_at(int order, const Barycentric& place);
-    /// Where node i is.
+    /// Returns the place of node i.
     static Barycentric place_of_node(int i);
     Gradients gradients_at(const Barycentric& place) const;
     Vec3 position_of(const Barycentric& place) const;
-    /// How large the element is there, beside the tetrahedron of its corners: 1 if it is straight; > 0 where it is not
-    /// folded.
+    /// Returns the local volume of the element beside that of the tetrahedron of its corners: 1 if it is straight; > 0
+    /// where it is not folded.
     double stretch_at(const Barycentric& place) const;
 
-    /// A point of a sum that is an integral over the element.
+    /// A point of a sum that integrates over the element.
     struct Point {
         Barycentric place;
         double weight;  ///< a volume; those of a rule add up to that of the element
@@ -51,15 +52,15 @@ class TetElement {
     Point point(const TetPoint& at) const;
 
     /// The rule by which the stiffness is integrated. Straight: exactly, by 1 or 4 points. Curved: 14 points of degree
-    /// 5, with which the volume and what loads put on nodes are exact, too. Gradients are no polynomials there;
-    /// for the order of convergence degree 2 would do (Ciarlet and Raviart 1972), but leaves more than the
-    /// discretisation does where cells are strongly curved.
+    /// 5, with which the volume and nodal forces of loads are exact, too. Gradients are no polynomials there; for the
+    /// order of convergence degree 2 would do (Ciarlet and Raviart 1972), but leaves more than the discretisation does
+    /// where cells are strongly curved.
     std::span<const TetPoint> rule() const;
 
-    /// Row i is the gradient of component i of what has these values at the nodes.
+    /// Returns the matrix whose row i is the gradient of component i of the field with these values at the nodes.
     Eigen::Matrix3d gradient_of(const Nodes& values, const Barycentric& place) const;
 
-    /// The integrals of the shape functions: what a force density of 1 puts on each node. Exact.
+    /// Returns the integrals of the shape functions, which are the nodal forces of a force density of 1. Exact.
     Shapes node_volumes() const;
 
     /// Blocks of 3 x 3 of the stiffness matrix, by rule(): work of the stresses of node b's unit displacements in the
@@ -68,14 +69,14 @@ class TetElement {
     void stiffness(const Material& material, Stiffness& blocks) const;
 
  private:
-    // Of the tetrahedron of the corners.
+    // The gradients on the tetrahedron of the corners.
     Gradients straight_gradients_at(const Barycentric& place) const;
     // Row i is the gradient of coordinate i of the element, seen as a function on that tetrahedron.
     Eigen::Matrix3d distortion(const Gradients& straight) const;
 
     Nodes nodes_;                 // without those on edges where they are not curved
     std::array<Vec3, 4> slopes_;  // gradients of the barycentric coordinates
-    double straight_volume_;      // of the corners
+    double straight_volume_;      // of the tetrahedron of the corners
     double volume_;
     int order_;
     bool is_curved_ = false;

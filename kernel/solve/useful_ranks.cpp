@@ -14,7 +14,8 @@ namespace kerf {
 namespace {
 
 constexpr std::int64_t least_tets_of_rank = 20'000;  // with fewer, ranks wait for each other
-// Of a facet with many digits as text, and of so many facets that there are cells for a rank, whatever their sizes.
+// The bytes of a facet with many digits as text, times so many facets that there are cells for a rank, whatever their
+// sizes.
 constexpr std::int64_t least_bytes_of_rank = 1'250'000;
 
 int between_one_and(std::int64_t most, std::int64_t ranks) {
@@ -29,7 +30,7 @@ int useful_ranks_of_run(const std::string& folder) {
         return between_one_and(static_cast<std::int64_t>(report.at("parts").size()),
                                report.at("totals").at("tets").get<std::int64_t>() / least_tets_of_rank);
     } catch (const nlohmann::json::exception&) {
-        return 1;  // who reads the run says what is wrong with it
+        return 1;  // the reader of the run says why
     } catch (const Error&) {
         return 1;
     }
