@@ -8,7 +8,8 @@
 
 namespace kerf {
 
-/// Gives a part with these rows of the tetrahedra, in their order, the nodes on its edges; of order 1 there are none.
+/// Gives a part, whose tetrahedra are these rows of the arrays in their order, the nodes on its edges; for order 1
+/// there are none.
 template <class Rows>
 void take_edge_nodes(const MeshArrays& mesh, const Rows& rows, Part& part) {
     if (mesh.quadratic_tets.empty()) return;
@@ -28,7 +29,7 @@ void take_edge_nodes(const MeshArrays& mesh, const Rows& rows, Part& part) {
     }
 }
 
-/// Without the nodes on edges.
+/// Returns the number of vertices, without the nodes on edges.
 inline std::int64_t vertex_count_of(const MeshArrays& mesh) { return std::ssize(mesh.vertices) - mesh.edge_nodes; }
 
 }  // namespace kerf

@@ -1,3 +1,9 @@
+// A mesh of arrays becomes a source of parts, one for each region, so that the writers of files, which know parts,
+// write it. The arrays have no keys: a vertex is known by its row, and the vertices on the boundary of a region, which
+// are listed first in its part, tell what parts share. Parts are numbered as leaves of a tree of one depth, so that no
+// number is the ancestor of another. A wall is a triangle of both parts, listed by one of them, and seen from outside
+// by each: in the part in front its corners are in the other order. Parts are made anew each time that they are loaded,
+// and the constructor loads each once, to count its vertices and nodes.
 #include "kerf/array_parts.h"
 
 #include <algorithm>
@@ -16,7 +22,7 @@ namespace kerf {
 
 namespace {
 
-// A facet of the part as it is seen from outside of it, from behind or from in front of the triangle.
+// Returns a triangle as it is seen from outside of the part, which is behind it or in front of it.
 std::array<std::int64_t, 3> seen_from(const std::array<std::int64_t, 3>& triangle, bool is_behind) {
     if (is_behind) return triangle;
     return {triangle[0], triangle[2], triangle[1]};
@@ -34,7 +40,7 @@ void require_32_bits(const MeshArrays& mesh) {
 
 ArrayParts::ArrayParts(const MeshArrays& mesh) : mesh_(mesh) {
     const std::size_t region_count = std::max<std::size_t>(1, mesh.region_names.size());
-    // Leaves of a tree of that depth, so that no number is the ancestor of another.
+    // Parts are leaves of a tree of one depth, so that no number is the ancestor of another.
     const auto first_leaf = static_cast<NodeId>(std::bit_ceil(region_count));
     outline_.vertices = vertex_count_of(mesh);
     outline_.order = mesh.quadratic_tets.empty() ? 1 : 2;
@@ -73,7 +79,7 @@ ArrayParts::ArrayParts(const MeshArrays& mesh) : mesh_(mesh) {
     }
 }
 
-// Ascending.
+// Returns the vertices on the boundary of a region, ascending.
 std::vector<std::int64_t> ArrayParts::boundary_vertices_of(RegionIndex region) const {
     std::vector<std::int64_t> vertices;
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)

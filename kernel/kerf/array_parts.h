@@ -9,8 +9,8 @@
 
 namespace kerf {
 
-/// The regions of a mesh of arrays, a part each, with walls between them. Facets of the input are triangles of the mesh
-/// by their rows. What a part shares with others is known of its vertices, not of its edges. Memory: the vertices on
+/// The regions of a mesh of arrays, a part each, with walls between them. Facets of the input are triangles of the
+/// mesh, by their rows. Parts know which vertices they share with others, but not which edges. Memory: the vertices on
 /// walls, and the parts that are loaded. The mesh must outlive it.
 class ArrayParts : public PartSource {
  public:
@@ -24,7 +24,7 @@ class ArrayParts : public PartSource {
 
     const MeshArrays& mesh_;
     MeshOutline outline_;
-    Array<PartIndex, RegionIndex> regions_;      // of the parts
+    Array<PartIndex, RegionIndex> regions_;      // the region of each part
     Array<RegionIndex, NodeId> part_of_region_;  // -1: none
     SharedVertices shared_;
 };

@@ -1,4 +1,9 @@
-// Where a part's rows lie in the arrays follows from the outline, so that parts are put there in any order.
+// Places in the arrays follow from the outline: it has the number of each part's tetrahedra and triangles, and vertices
+// have global numbers. So the arrays have their size before the first part is loaded, and parts are put into them in
+// any order, by threads, without copies. Vertices on the boundary belong to several parts, which write the same
+// coordinates; they are written under a lock, those inside without one. The region in front of a wall is known when all
+// parts are there: until then its place holds the number of the part there. The outline is not trusted: rows outside of
+// a part's range throw.
 #include "kerf/arrays_of_parts.h"
 
 #include <algorithm>
@@ -35,8 +40,8 @@ class ArrayFiller {
         mesh_.quadratic_triangles.resize(triangles);
     }
 
-    // Corners, patches and sides of the triangles on the user's surface. What is in front is the number of the part
-    // there, or -1, until all parts are known.
+    // Puts corners, patches and sides of the listed triangles of a part. The place of the region in front holds the
+    // number of the part there, or -1, until all parts are known.
     void put_boundary(PartIndex index, const Part& part) {
         const std::int32_t region = part.region_of(0).value();
         std::int64_t next = outline_.first_patch_facet(index);
@@ -56,7 +61,7 @@ class ArrayFiller {
         region_of_part_[part.id] = region;
     }
 
-    // Several parts have the vertices of their boundaries, with the same coordinates.
+    // Puts points. Several parts have the vertices of their boundaries, with the same coordinates.
     void put_points(const Part& part, std::size_t first, std::span<const Vec3> points) {
         std::unique_lock lock(mutex_, std::defer_lock);
         if (first < static_cast<std::size_t>(part.mesh.boundary_vertex_count)) lock.lock();
@@ -77,7 +82,7 @@ class ArrayFiller {
         std::fill_n(mesh_.region.begin() + begin, count, part.region_of(0).value());
     }
 
-    // Of a part that has everything.
+    // Puts the nodes on edges, of a part that was loaded as a whole.
     void put_edge_nodes(PartIndex index, const Part& part) {
         const EdgeNodes& nodes = part.edge_nodes;
         for (std::size_t e = 0; e < nodes.points.size(); ++e) {
@@ -91,7 +96,7 @@ class ArrayFiller {
             mesh_.quadratic_tets[first + static_cast<std::size_t>(t)] = global_nodes(part, part.nodes_of_tet(t));
     }
 
-    // When all parts are there.
+    // Returns the mesh, when all parts are there.
     MeshArrays take() {
         for (auto& [behind, in_front] : mesh_.sides)
             if (in_front >= 0) in_front = region_of_part_.at(in_front);
@@ -113,7 +118,7 @@ class ArrayFiller {
 
     const MeshOutline& outline_;
     MeshArrays mesh_;
-    std::mutex mutex_;  // of what follows, and of the vertices of boundaries
+    std::mutex mutex_;  // for region_of_part_ and the vertices of boundaries
     std::map<NodeId, std::int32_t> region_of_part_;
 };
 

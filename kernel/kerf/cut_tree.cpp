@@ -40,7 +40,7 @@ RecordedCut record(const Surface& parent, const Cut& cut) {
     return record;
 }
 
-// Keeps every cut while the surface that it divides is at hand.
+// Keeps every cut, while the surface that it divides is at hand.
 class CutRecorder : public ProgressListener {
  public:
     using ProgressListener::ProgressListener;

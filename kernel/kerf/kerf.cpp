@@ -1,3 +1,8 @@
+// The facade: each function makes the options of a run of named options, calls the kernel and turns its report into
+// arrays or errors. Meshing in memory is a transient run: it has a temporary folder for the files of its parts, and the
+// arrays are made while these are there (ArraysListener::on_meshes()). Only the one function that runs on ranks,
+// mesh_on_ranks(), is shared with kerf/mpi.h. Options of the surface are refused where a surface is given, because it
+// was made with them. A remeshed surface is made of arrays again, so that it is checked like any other.
 #include "kerf/kerf.h"
 
 #include <algorithm>
@@ -47,14 +52,14 @@ FailedPart failed_part(const RunReport& report, const PartReport& part) {
 
 [[noreturn]] void refuse_sizes(const std::string& what) { throw Error(ErrorCode::input, "The sizes given: " + what); }
 
-// Null for none.
+// Returns the given sizes as a mesh, null for none.
 std::shared_ptr<const SizedMesh> sized_mesh_of(const GivenSizes* given) {
     if (!given) return nullptr;
     check_sizes(*given);
     return std::make_shared<const SizedMesh>(SizedMesh{to_points(given->vertices), given->tets, given->sizes});
 }
 
-// What keeps a run from being a result.
+// Throws the error of a run that is no result.
 void require_success(const RunReport& report) {
     if (report.exit_code == 0) return;
     std::vector<FailedPart> failed;
@@ -67,7 +72,7 @@ void require_success(const RunReport& report) {
     throw PartsFailed(code, message, std::move(failed));
 }
 
-// Makes the arrays of what a transient run has meshed.
+// Makes the arrays of the parts that a transient run has meshed.
 class ArraysListener : public ProgressListener {
  public:
     ArraysListener(const MeshOptions& options, int threads)
@@ -94,7 +99,7 @@ void refuse_files(const RunOptions& options) {
 
 int all_processors() { return static_cast<int>(std::max<std::size_t>(1, allowed_processors().size())); }
 
-// A copy that may be cut as it is.
+// Returns a copy of the input that may be cut as it is.
 Input ready_input(const ClosedSurface& surface) {
     Input input = surface.input();
     input.is_ready = true;

@@ -1,8 +1,8 @@
 // Kerf for other programs: a closed surface goes in, tetrahedra come out, as arrays or as a run folder.
 //
-// This header is what an installed Kerf promises; all that it needs is the standard library. What cannot be done throws
+// This header is the promise of an installed Kerf; all that it needs is the standard library. A call that fails throws
 // kerf::Error: its code is an exit code of docs/output.md, its message a sentence for people, its elements() the
-// numbers and places of what is wrong. Calls may come from any thread, one after another; results depend on the surface
+// numbers and places of the defects. Calls may come from any thread, one after another; results depend on the surface
 // and the options alone.
 #pragma once
 
@@ -24,14 +24,14 @@
 
 namespace kerf {
 
-/// major.minor.patch of the library.
+/// Returns the version of the library, major.minor.patch.
 const char* library_version();
 
 /// Options by their names and values on the command line: {{"radius-edge", "1.2"}, {"voids", "parity"}}.
 using NamedOptions = std::vector<std::pair<std::string, std::string>>;
 
-/// Asked often while a call goes on, from any thread, also where there is nothing to tell of; ends it with
-/// Error(cancelled) by returning true. Must not throw, and should be quick.
+/// A question that is asked often while a call goes on, from any thread, also where there is no progress to tell of.
+/// The answer true ends the call with Error(cancelled). Must not throw, and should be quick.
 using IsCancelled = std::function<bool()>;
 
 struct Input;
@@ -57,17 +57,17 @@ class ClosedSurface {
     std::shared_ptr<const Input> input_;
 };
 
-/// One thing that is wrong with a surface, or will give bad cells.
+/// A defect of a surface: an error, or a cause of bad cells.
 struct SurfaceDefect {
     std::string kind;                    ///< "open edge loop", ... as kerf check names it
     std::string severity;                ///< "error", "repaired": before meshing, or "warning": cells may be bad there
-    std::vector<std::int64_t> facets;    ///< numbers as the input has them, counted from 0
+    std::vector<std::int64_t> facets;    ///< numbers of the input, counted from 0
     std::vector<std::int64_t> vertices;  ///< likewise; of a loop in the order of going around
     std::vector<std::array<double, 3>> points;  ///< of the vertices; a place at the defect if there are none
     double measure = 0;                ///< length of a loop or an edge, a needle's angle in degrees, a distance
-    std::vector<std::string> regions;  ///< that have it, or between which it is; empty if there is only one
-    std::string advice;                ///< what to do about it
-    std::string text;                  ///< all that as a sentence
+    std::vector<std::string> regions;  ///< the regions that have it, or between which it is; empty for a single region
+    std::string advice;                ///< the remedy
+    std::string text;                  ///< the whole as a sentence
 };
 
 /// Error(input) of a surface that cannot be meshed as it is, with all its defects, in the order of kinds.
@@ -81,9 +81,9 @@ class SurfaceError : public Error {
     std::shared_ptr<const std::vector<SurfaceDefect>> defects_;  // copies of an exception must not throw
 };
 
-/// The surface of arrays. `facets`: corners as numbers of vertices, counted from 0; turned, where they are turned
-/// against each other. `patches`: a number from 0 for each facet, or empty: one patch. `patch_names`: a name for each
-/// number, or empty. `options`: those of the surface, as "weld", "voids", "fill-holes" (docs/options.md).
+/// Makes the surface of arrays. `facets`: corners as numbers of vertices, counted from 0; facets that are turned
+/// against each other are turned. `patches`: a number from 0 for each facet, or empty: one patch. `patch_names`: a name
+/// for each number, or empty. `options`: those of the surface, as "weld", "voids", "fill-holes" (docs/options.md).
 ///
 /// Everything is checked. Throws Error(usage) for sizes that do not fit, SurfaceError for a row that is wrong and for a
 /// surface that is not closed or intersects itself: elements() has the numbers of vertices and facets. `is_cancelled`
@@ -93,10 +93,10 @@ ClosedSurface surface_from_arrays(std::span<const std::array<double, 3>> vertice
                                   std::span<const std::int32_t> patches = {}, std::vector<std::string> patch_names = {},
                                   const NamedOptions& options = {}, const IsCancelled& is_cancelled = {});
 
-/// The facets of several bodies that share walls, each facet once. `sides`: of each facet the regions behind it and in
-/// front of it, where its corners are counter-clockwise, as numbers of `region_names`, or -1: outside. The others as
-/// for surface_from_arrays(); facets are not turned. Throws as that does, and SurfaceError for a facet with the same on
-/// both sides and a region that its facets do not close, with its name.
+/// Makes the surface of several bodies that share walls, each facet once. `sides`: of each facet the regions behind it
+/// and in front of it, where its corners are counter-clockwise, as numbers of `region_names`, or -1: outside. The other
+/// arguments are as for surface_from_arrays(); facets are not turned. Throws as that does, and SurfaceError for a facet
+/// with the same on both sides and a region that its facets do not close, with its name.
 ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices,
                                  std::span<const std::array<std::int32_t, 3>> facets,
                                  std::span<const std::array<std::int32_t, 2>> sides,
@@ -104,7 +104,8 @@ ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices
                                  std::vector<std::string> patch_names = {}, const NamedOptions& options = {},
                                  const IsCancelled& is_cancelled = {});
 
-/// The surface of a file of any format that `kerf mesh` reads. Throws Error(io) and as surface_from_arrays() does.
+/// Reads the surface of a file of any format that `kerf mesh` reads. Throws Error(io) and as surface_from_arrays()
+/// does.
 ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options = {},
                                 const IsCancelled& is_cancelled = {});
 
@@ -112,22 +113,22 @@ ClosedSurface surface_from_file(const std::string& path, const NamedOptions& opt
 /// have 7 digits. Throws Error(usage) for another ending, and for regions in an .stl, Error(io).
 void surface_to_file(const ClosedSurface& surface, const std::string& path);
 
-/// What `kerf check` says of a surface.
+/// The answer of `kerf check` about a surface.
 struct SurfaceCheck {
     bool can_be_meshed = false;
     std::string text;                    ///< lines for people
     std::string json;                    ///< every defect, and counts
-    std::vector<SurfaceDefect> defects;  ///< if there is no surface, why: one without facets or vertices
+    std::vector<SurfaceDefect> defects;  ///< if there is no surface, the reason: one without facets or vertices
 };
 using FileCheck = SurfaceCheck;
 
-/// Of a file. `needle_angle`: degrees below which a facet is a needle, 0 to 60. Throws Error(io) for a file that cannot
-/// be opened, Error(usage) for options out of range.
+/// Checks a file. `needle_angle`: degrees below which a facet is a needle, 0 to 60. Throws Error(io) for a file that
+/// cannot be opened, Error(usage) for options out of range.
 SurfaceCheck check_file(const std::string& path, const NamedOptions& options = {}, double needle_angle = 1,
                         const IsCancelled& is_cancelled = {});
 
-/// Of arrays as surface_of_regions() takes them; `sides` and `region_names` empty: as surface_from_arrays() does.
-/// Throws Error(usage) for sizes that do not fit, and options out of range.
+/// Checks arrays as surface_of_regions() takes them; with empty `sides` and `region_names` as surface_from_arrays()
+/// does. Throws Error(usage) for sizes that do not fit, and options out of range.
 SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
                           std::span<const std::array<std::int32_t, 3>> facets,
                           std::span<const std::array<std::int32_t, 2>> sides = {},
@@ -135,16 +136,17 @@ SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
                           std::vector<std::string> patch_names = {}, const NamedOptions& options = {},
                           double needle_angle = 1, const IsCancelled& is_cancelled = {});
 
-/// Is told of the stages of a call, with steps that are done of all, 0 if nobody knows how many; ends it with
-/// Error(cancelled) by returning false. Must not throw.
+/// A listener to the stages of a call, with steps that are done of all, 0 if their number is unknown. The answer false
+/// ends the call with Error(cancelled). Must not throw.
 using Progress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
-/// A surface with triangles worth meshing, nowhere farther than `deviation` from the given one, 0: a twentieth of
-/// `size`. `size`: wanted edge length, 0: as long as the deviation allows. Both in units of the surface. Patches stay.
+/// Returns a surface with triangles worth meshing, nowhere farther than `deviation` from the given one, 0: a twentieth
+/// of `size`. `size`: wanted edge length, 0: as long as the deviation allows. Both in units of the surface. Patches
+/// stay.
 ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size = 0, const Progress& progress = {},
                        const IsCancelled& is_cancelled = {});
-/// The same with options of `kerf remesh` on sizes, by their names: "size", "deviation", "cells", "size-on", ... Throws
-/// Error(usage) for others.
+/// Returns the remeshed surface for options of `kerf remesh` on sizes, by their names: "size", "deviation", "cells",
+/// "size-on", ... Throws Error(usage) for others.
 ClosedSurface remeshed(const ClosedSurface& surface, const NamedOptions& options, const Progress& progress = {},
                        const IsCancelled& is_cancelled = {});
 
@@ -156,29 +158,29 @@ struct GivenSizes {
     std::vector<double> sizes;  ///< #vertices; positive, in units of the surface
 };
 
-/// Throws Error(input), naming the row, for what is no place, no positive length, or no corner; else does nothing.
+/// Throws Error(input), naming the row, for a place, a length or a corner that is none; else does nothing.
 void check_sizes(const GivenSizes& sizes);
 
 struct MeshOptions {
     double size = 0;                              ///< wanted edge length, in units of the surface; 0: none
-    std::int32_t parts = 0;                       ///< into which the surface is cut; 0: as many as are of use here
+    std::int32_t parts = 0;                       ///< number of parts; 0: as many as are of use here
     std::int32_t workers = 0;                     ///< processes that mesh parts; 0: one for each processor
     NamedOptions others = {};                     ///< of `kerf mesh` (docs/options.md), but none of the surface
     std::string programs = KERF_PROGRAMS_FOLDER;  ///< folder of kerf-worker, looked at first
     Progress progress = {};
     IsCancelled is_cancelled = {};
-    std::shared_ptr<const GivenSizes> sizes = {};  ///< beside `size`: the smallest that is wanted at a point counts
+    std::shared_ptr<const GivenSizes> sizes = {};  ///< beside `size`: the smallest length at a point counts
 };
 
 /// A part that could not be meshed.
 struct FailedPart {
     std::int32_t number = 1;        ///< in the tree of cuts
     std::array<double, 3> place{};  ///< its centre of mass
-    std::string message;            ///< why
+    std::string message;            ///< the reason
     std::string reproducer;         ///< file of the run folder that says how to repeat it; gone with a temporary one
 };
 
-/// What is thrown where parts could not be meshed: Error(subdomain), or Error(memory) if all ran out of it.
+/// The error of parts that could not be meshed: Error(subdomain), or Error(memory) if all ran out of it.
 class PartsFailed : public Error {
  public:
     PartsFailed(ErrorCode code, const std::string& message, std::vector<FailedPart> parts)
@@ -191,7 +193,7 @@ class PartsFailed : public Error {
 
 /// One mesh of all parts.
 struct MeshArrays {
-    std::vector<std::array<double, 3>> vertices;         ///< of order 2 all nodes: those on edges follow the vertices
+    std::vector<std::array<double, 3>> vertices;         ///< for order 2 all nodes: those on edges follow the vertices
     std::vector<std::array<std::int64_t, 4>> tets;       ///< corners a, b, c, d with det[b-a, c-a, d-a] > 0
     std::vector<std::int32_t> part;                      ///< #tets; number of its part in the tree of cuts
     std::vector<std::array<std::int64_t, 3>> triangles;  ///< of the boundary, counter-clockwise seen from outside, and
@@ -200,10 +202,10 @@ struct MeshArrays {
     std::vector<std::string> patch_names;
     std::vector<std::int32_t> region;                ///< #tets; an index into region_names, 0 if there is one region
     std::vector<std::string> region_names;           ///< empty if there is one region
-    std::vector<std::array<std::int32_t, 2>> sides;  ///< #triangles; as of facets: behind, in front
+    std::vector<std::array<std::int32_t, 2>> sides;  ///< #triangles; regions behind and in front, -1: outside
     std::string report = {};                         ///< report.json of the run (docs/output.md); may be empty
-    std::int64_t edge_nodes = 0;  ///< of order 2: how many of `vertices` are nodes on edges; of order 1 none
-    /// Of order 2, else empty: the nodes of the rows of `tets` and `triangles`, corners first, then those of the edges
+    std::int64_t edge_nodes = 0;  ///< for order 2: number of nodes on edges among `vertices`; for order 1 0
+    /// For order 2, else empty: the nodes of the rows of `tets` and `triangles`, corners first, then those of the edges
     /// 01 12 02 03 13 23, and 01 12 02.
     std::vector<std::array<std::int64_t, 10>> quadratic_tets = {};
     std::vector<std::array<std::int64_t, 6>> quadratic_triangles = {};
@@ -215,16 +217,17 @@ struct MeshArrays {
 /// sizes, Error(usage) for options that ask for files of formats, and as mesh_to_folder() does.
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options = {});
 
-/// The same as a run folder (docs/output.md), which replaces an older run there. Throws Error(usage) for an option out
+/// Meshes into a run folder (docs/output.md), which replaces an older run there. Throws Error(usage) for an option out
 /// of range, Error(io) for a folder that cannot be written or holds anything else, Error(subdomain) if parts could not
-/// be meshed (PartsFailed): the others are in the folder then. What an interrupted run into that folder has finished is
-/// taken over, if it is the same run.
+/// be meshed (PartsFailed): the others are in the folder then. The finished parts of an interrupted run into that
+/// folder are taken over, if it is the same run.
 void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder);
 
-/// The same of a file of any format that `kerf mesh` reads, as that does: `others` may be options of the surface, too.
+/// Meshes a file of any format that `kerf mesh` reads, as that does, into a run folder: `others` may be options of the
+/// surface, too.
 void mesh_file_to_folder(const std::string& path, const MeshOptions& options, const std::string& folder);
 
-/// The mesh of a finished run, of a solution with the nodes that it has. Throws Error(io).
+/// Returns the mesh of a finished run, or of a solution, with the nodes that this has. Throws Error(io).
 MeshArrays arrays_of_run(const std::string& folder);
 
 struct MeshFileOptions {
@@ -236,20 +239,20 @@ struct MeshFileOptions {
 /// Writes a mesh into a file, whose ending chooses the format, as `kerf merge` does. Its arrays must be as the
 /// functions above return them. Throws Error(usage) for another ending, naming those that there are, and Error(io).
 void mesh_to_file(const MeshArrays& mesh, const std::string& path, const MeshFileOptions& options = {});
-/// Of each tetrahedron those on the other sides of the faces opposite to its corners, -1 outside. O(n), some 110 ns a
-/// tetrahedron. Throws Error(usage) for more than 2^31 vertices or tetrahedra, and so do the functions below.
+/// Returns for each tetrahedron those on the other sides of the faces opposite to its corners, -1 outside. O(n), some
+/// 110 ns a tetrahedron. Throws Error(usage) for more than 2^31 vertices or tetrahedra, and so do the functions below.
 std::vector<std::array<std::int64_t, 4>> neighbours_of(const MeshArrays& mesh);
 
-/// A measure of each tetrahedron: min-dihedral, max-dihedral (degrees), radius-edge, aspect, shape, volume, min-edge,
-/// max-edge. Some 60 ns each. Throws Error(usage) for a name that is none of them.
+/// Returns a measure of each tetrahedron: min-dihedral, max-dihedral (degrees), radius-edge, aspect, shape, volume,
+/// min-edge, max-edge. Some 60 ns each. Throws Error(usage) for a name that is none of them.
 std::vector<double> cell_quality(const MeshArrays& mesh, const std::string& measure);
 
-/// What `kerf quality` says of a run with this mesh, but for its path.
+/// The output of `kerf quality` for a run with this mesh, but for its path.
 struct QualityTexts {
     std::string text;  ///< its tables
-    std::string json;  ///< of --json
+    std::string json;  ///< output of --json
 };
-/// Some 200 ns a tetrahedron; memory: of one part at a time.
+/// Measures the mesh. Some 200 ns a tetrahedron; memory: of one part at a time.
 QualityTexts quality_texts(const MeshArrays& mesh);
 
 }  // namespace kerf

@@ -1,4 +1,8 @@
-// What follows from the arrays of a mesh.
+// Neighbours and quality of the arrays of a mesh. Everything is computed with numbers of 32 bits, as in the kernel;
+// larger meshes are refused. Neighbours are found by matching faces, quality cell by cell in groups of 256. The texts
+// of `kerf quality` need parts: `MeasuredParts` takes rows of equal `part` as one, with its boundary found by matching
+// faces, and knows of a boundary triangle whether another part is behind it, but not which, since quality asks for no
+// more.
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -107,7 +111,7 @@ class MeasuredParts : public PartSource {
 
     const MeshArrays& mesh_;
     MeshOutline outline_;
-    Array<PartIndex, std::size_t> first_;  // tetrahedron of each part
+    Array<PartIndex, std::size_t> first_;  // first tetrahedron of each part
     std::vector<Corners> outer_;           // triangles with nothing in front, ascending
 };
 

@@ -1,4 +1,4 @@
-// What kerf/kerf.h and kerf/mpi.h have in common.
+// The common function behind kerf/kerf.h and kerf/mpi.h.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// mesh_to_folder() on ranks, each of which has so many processors for itself. Collective.
+/// Does mesh_to_folder() on ranks, each of which has `cores_of_rank` processors for itself. Collective.
 void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder,
                    int cores_of_rank, Communicator& ranks);
 

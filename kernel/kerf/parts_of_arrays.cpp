@@ -1,3 +1,7 @@
+// A mesh of arrays is taken apart into the parts of which it was joined, by MeshArrays::part. Neighbours of all
+// tetrahedra are found once; a face whose neighbour is of another part, or that has none, is on the boundary of its
+// part, and a search among the sorted triangles of the arrays tells its patch. Vertices get numbers in the part as they
+// are met, those of the boundary first. Global numbers are rows of the arrays, so that parts have no keys to match by.
 #include "kerf/parts_of_arrays.h"
 
 #include <algorithm>
@@ -31,7 +35,7 @@ class TriangleRows {
                 static_cast<std::int32_t>(rows_.size()));
         std::sort(rows_.begin(), rows_.end());
     }
-    /// -1 if it is none of them.
+    /// Returns the row of a triangle with these corners, in any order; -1 if there is none.
     std::int32_t find(const Corners& face) const {
         const std::pair<Corners, std::int32_t> wanted = {sorted(face), 0};
         const auto found = std::lower_bound(rows_.begin(), rows_.end(), wanted);
@@ -99,7 +103,7 @@ class PartTaker {
             part.tet_at_facet.push_back(place);
         }
     }
-    // In the part, of which it is from now on.
+    // Returns the number of a vertex in the part; a vertex that is met first gets one.
     std::int32_t number(std::int32_t vertex, Part& part) {
         if (local_[vertex] < 0) {
             local_[vertex] = static_cast<std::int32_t>(part.mesh.vertices.size());

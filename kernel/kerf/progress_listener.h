@@ -1,4 +1,4 @@
-// What Progress and IsCancelled of kerf/kerf.h are to the stages of a run.
+// Progress and IsCancelled of kerf/kerf.h as the listener of a run.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// Both must outlive it.
+/// A listener that asks a Progress and an IsCancelled, both of which must outlive it.
 class ProgressListener : public RunListener {
  public:
     ProgressListener(const Progress& progress, const IsCancelled& is_cancelled)

@@ -1,3 +1,10 @@
+// A rank joins whole parts, one after the other: vertices that several parts share, known from Part::shared by their
+// global numbers, are taken from the first of its parts that has them. Parts are divided among ranks as leaves of the
+// tree (divide_leaves()), in its order; groups of sharing parts are in that order, too, so that the first rank that
+// holds a vertex, its owner, is the same for all without a message. What two ranks share is in the same order on both,
+// because it is sorted by global numbers: vertices by theirs, triangles by those of their corners. A wall between two
+// regions is listed by one of its parts; where that part is on another rank, both ranks have the triangle, and
+// `triangle_owner` says which counts it.
 #include "kerf/rank_mesh.h"
 
 #include <algorithm>
@@ -29,7 +36,7 @@ class RankMeshMaker {
 
     const PartSource& parts_;
     int rank_;
-    PartIndex first_, end_;                                         // of the own parts
+    PartIndex first_, end_;                                         // range of the own parts
     std::unordered_map<NodeId, std::int32_t> rank_of_;              // of every part
     std::unordered_map<std::int64_t, std::int64_t> row_of_shared_;  // of vertices of several parts, by global numbers
     std::map<std::int32_t, RankNeighbour> neighbours_;              // by rank
@@ -96,7 +103,7 @@ void RankMeshMaker::sort_interface(RankNeighbour& neighbour) const {
     }
 }
 
-// A vertex that an earlier part has brought stays where it is.
+// Adds the vertices of a part. One that an earlier part has brought stays in its row.
 void RankMeshMaker::add_vertices(const Part& part) {
     row_.assign(part.mesh.vertices.size(), -1);
     for (const SharedGroup& group : part.shared)
@@ -113,7 +120,8 @@ void RankMeshMaker::add_vertices(const Part& part) {
     }
 }
 
-// Ranks have their parts in the order of the tree, in which groups name them: the first one owns.
+// Adds the vertices that a part shares with other ranks. Ranks have their parts in the order of the tree, in which
+// groups name them: the first one owns.
 void RankMeshMaker::add_shared(const Part& part) {
     for (const SharedGroup& group : part.shared) {
         std::vector<std::int32_t> ranks;
@@ -140,7 +148,7 @@ std::int32_t RankMeshMaker::region_in_front(const Part& part, std::size_t f) con
     return part.region_names.empty() ? 0 : parts_.walls().beyond(part, f).value();
 }
 
-// Of a wall between two parts of this rank, that of the part which files list.
+// Adds the triangles on patches. Of a wall between two parts of this rank that of the part is taken which files list.
 void RankMeshMaker::add_triangles(const Part& part) {
     const std::int64_t first_tet = std::ssize(mesh_.tets);
     for (std::size_t f = 0; f < part.facets.size(); ++f) {

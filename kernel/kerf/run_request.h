@@ -1,4 +1,4 @@
-// What a caller of the facade asks, as the options of a run.
+// The request of a caller of the facade, as the options of a run.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace kerf {
 
-/// Throws Error(usage), naming the first one, if there are options of a surface, which is there already.
+/// Throws Error(usage), naming the first one, if there are options of a surface, which exists already.
 void refuse_options_of_surface(const NamedOptions& options);
 
-/// The options of a run on this input into a folder. Throws Error(usage) for names and values that are no options.
+/// Returns the options of a run on this input into a folder. Throws Error(usage) for names and values that are no
+/// options.
 RunOptions run_options(const std::string& input, const MeshOptions& options, const std::string& folder);
 
 }  // namespace kerf

@@ -1,4 +1,7 @@
-// Surfaces of arrays and files, and what is wrong with them.
+// Surfaces of arrays and files, with errors that name all defects. Arrays become a Soup and go the way of a file
+// (make_input(), prepare/input.h). Where that throws UnfitSurface, its defects are those of the diagnosis that it
+// carries; where it throws another Error(input), the input is diagnosed once more as `kerf check` does, and if that
+// finds nothing, the message itself is the defect. So a SurfaceError always has a defect at least.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -15,7 +18,8 @@ namespace kerf {
 
 namespace {
 
-// Of --surface this is what says what the surface is; the other choices are for a mesh of it.
+// Returns whether the option is --surface wrap, the only choice of --surface that makes another surface; the others are
+// for its mesh.
 bool asks_for_wrap(const std::pair<std::string, std::string>& option) {
     return option.first == "surface" && option.second == "wrap";
 }
@@ -65,7 +69,7 @@ std::vector<SurfaceDefect> defects_of(const CheckedSoup& checked) {
     return defects;
 }
 
-// Why there is no surface that could have defects.
+// Returns the reason why there is no surface that could have defects, as a defect.
 SurfaceDefect refusal(const std::string& kind, const Error& error) {
     SurfaceDefect result{.kind = kind,
                          .severity = name(Severity::error),
@@ -92,7 +96,7 @@ SurfaceCheck surface_check(const FileDiagnosis& found) {
                           : defects_of(found.checked)};
 }
 
-// `diagnose`: finds out what `make` has thrown an Error(input) for, where that does not say it.
+// Returns the surface of make(). Calls diagnose() for the defects where make() throws an Error(input) without them.
 template <class Make, class Diagnose>
 ClosedSurface surface_of(const Make& make, const Diagnose& diagnose) {
     try {
@@ -106,7 +110,7 @@ ClosedSurface surface_of(const Make& make, const Diagnose& diagnose) {
     }
 }
 
-const Progress untold;  // of who makes a surface, or checks one
+const Progress untold;  // making and checking a surface tell of no progress
 
 Soup to_soup(std::span<const std::array<double, 3>> vertices, std::span<const std::array<std::int32_t, 3>> facets,
              std::span<const std::array<std::int32_t, 2>> sides, std::vector<std::string> region_names,

@@ -1,3 +1,9 @@
+// Files for kerf-view of surfaces and meshes that are in memory. A mesh is taken apart (kerf/parts_of_arrays.h) and
+// written as the parts and the report of a run. It does not know its cuts, but numbers of parts are nodes of a binary
+// tree, so that the tree above the parts follows from halving the numbers; counts are added up along it, and each inner
+// node gets a plane between the centroids of its children, by which the viewer pulls parts apart. Of a surface with
+// several regions OBJ holds no sides: its patches are divided into groups that each have the same pair of regions, and
+// a JSON beside it names the pairs.
 #include "kerf/viewed_files.h"
 
 #include <algorithm>
@@ -29,13 +35,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What is told of a part, and added up over those below a node.
+// The counts of a part, which are added up over the parts below a node.
 struct ViewedCounts {
     std::int64_t vertices = 0, facets = 0, tets = 0;
     double volume = 0;
     std::int32_t parts = 0;
     std::set<std::int32_t> regions;
-    Vec3 sum = Vec3::Zero();  // of the points on the surfaces
+    Vec3 sum = Vec3::Zero();  // sum of the points on the surfaces
 
     Vec3 centroid() const { return sum / static_cast<double>(vertices); }
 
@@ -73,7 +79,7 @@ Json part_to_view(NodeId id, const ViewedCounts& part, bool has_regions) {
     return json;
 }
 
-// A mesh does not know its cuts: where they may have been, so that parts can be pulled apart.
+// Returns a cut where one may have been, so that parts can be pulled apart: a mesh does not know its cuts.
 CutSummary cut_between(const ViewedCounts& below, const ViewedCounts& above) {
     CutSummary cut;
     const Vec3 from = below.centroid(), to = above.centroid();
@@ -122,7 +128,7 @@ Json report_to_view(const MeshArrays& mesh, const std::map<NodeId, ViewedCounts>
             {"exit_code", 0}};
 }
 
-// Patches, divided where they bound several pairs of regions, and what each then bounds.
+// Patches, divided into groups where they bound several pairs of regions, and the regions of each group.
 struct WallGroups {
     std::vector<std::int32_t> group;  // of each facet
     std::vector<std::string> names;   // of groups; without blanks, which OBJ cannot hold
