@@ -10,13 +10,13 @@ namespace kerf {
 
 struct HostProcessors {
     std::vector<std::vector<int>> allowed;  ///< of each rank of this host, as allowed_processors() gives them
-    std::size_t own = 0;                    ///< which of them this rank is
+    std::size_t own = 0;                    ///< index of this rank in `allowed`
 
-    /// How many this rank has for itself.
+    /// Returns the number of processors that this rank has for itself.
     int share() const;
 };
 
-/// Collective.
+/// Asks all ranks of this host. Collective.
 HostProcessors host_processors(const MpiRanks& ranks);
 
 }  // namespace kerf

@@ -1,3 +1,11 @@
+// Messages and collectives in which no rank waits for one that has left with an error. Every collective begins with a
+// number from each rank, the bytes that it brings or `has_left` (`begin_collective()`); if a rank has left, all take
+// part in its last broadcast, of its error, and every later call throws that. A rank that waits outside of a collective
+// looks for a message with the tag `leave_tag` beside its own, and then joins that broadcast. Room for a result is
+// taken before data moves, and ranks agree on whether all have it, so that std::bad_alloc is thrown on all or none.
+// Counts of MPI have 32 bits: longer messages go in pieces. Memory of requests that nobody waits for any more is kept
+// until the process ends (`abandoned()`), since MPI may use it until then. Posted messages are counted by receiver, so
+// that drop_messages() knows how many are still under way.
 #include "mpi/mpi_ranks.h"
 
 #include <algorithm>
@@ -22,9 +30,9 @@ void finalise_mpi() {
     if (!is_finalised) MPI_Finalize();
 }
 
-// Only the first thread calls MPI, but cuts are made on others meanwhile. Where ranks end with an error, the launcher
-// ends the others when the first of them has left: so they leave together, at the end of the process, when the one that
-// speaks for them has spoken.
+// Initialises MPI for threads of which only the first calls it: cuts are made on others meanwhile. Where ranks end with
+// an error, the launcher ends the others when the first of them has left: so they leave together, at the end of the
+// process, when the one that speaks for them has spoken.
 void initialise_mpi() {
     int is_initialised = 0, is_finalised = 0, provided = MPI_THREAD_SINGLE;
     check_mpi(MPI_Finalized(&is_finalised), "MPI_Finalized");
@@ -45,7 +53,7 @@ void initialise_mpi() {
                 "with threads, or run kerf without mpirun.");
 }
 
-// MPI counts are 32-bit.
+// Bytes of the largest piece of a message, since MPI's counts are 32-bit.
 constexpr std::size_t most_of_piece = std::size_t{1} << 30;
 
 // Calls pass(data, size) for pieces of the items.
@@ -57,7 +65,7 @@ void for_pieces(Array& items, const Pass& pass) {
 
 std::size_t count_pieces(std::uint64_t bytes) { return (bytes + most_of_piece - 1) / most_of_piece; }
 
-// Up to so many bytes are gathered by one call, with a copy of them all.
+// The most bytes that are gathered by one call, with a copy of them all.
 constexpr std::uint64_t most_of_one_call = std::uint64_t{1} << 24;
 
 template <class Allocate>
@@ -81,15 +89,15 @@ void check_mpi(int result, const char* call) {
                 fmt::format("{} has failed: {}. Check the hosts and their network.", call, text.data()));
 }
 
-// Messages whose ends nobody waits for any more: MPI may read or write them until the process ends, and so long they
-// live.
+// Messages whose ends nobody waits for any more. They live until the process ends, since MPI may read or write them
+// until then.
 std::list<MpiRanks::OnTheWay>& MpiRanks::abandoned() {
     static auto* const all = new std::list<OnTheWay>;
     return *all;
 }
 
-// Messages of this rank while MPI sends or receives them. Those that are on their way when it ends, because an error
-// has ended the wait for them, are abandoned. All memory for that is there before the first of them leaves.
+// Messages of this rank while MPI sends or receives them. Those that are on their way when the object ends, because an
+// error has ended the wait for them, are abandoned. All memory for that is there before the first of them leaves.
 class MpiRanks::Transfer {
  public:
     explicit Transfer(std::vector<Bytes> messages, std::size_t most_requests) : own_(1) {
@@ -143,7 +151,7 @@ MPI_Op MpiRanks::operation_of(Reduction reduction) {
     return reduction == Reduction::smallest ? MPI_MIN : MPI_MAX;
 }
 
-// Every collective begins with a number of each rank: how much it brings, or that it has left.
+// Begins a collective with a number of each rank: the bytes that it brings, or that it has left.
 void MpiRanks::begin_collective(std::uint64_t own_size) {
     if (is_over_) throw_last_words();
     check_mpi(MPI_Allgather(&own_size, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
@@ -156,7 +164,7 @@ void MpiRanks::throw_last_words() const {
     throw RankHasLeft(static_cast<ErrorCode>(last_words_.code), last_words_.message.data());
 }
 
-// The words of the first rank that has left, on all ranks; no posted message stays under way.
+// Takes the words of the first rank that has left, on all ranks; no posted message stays under way.
 void MpiRanks::end_together(const StageStatus& why) {
     is_over_ = true;
     if (why.code != 0) last_words_.code = why.code;
@@ -174,7 +182,7 @@ void MpiRanks::end_together(const StageStatus& why) {
     }
 }
 
-// A rank that waits for another one, not in a collective, learns of it by a message.
+// Tells the others by messages, too: a rank that waits for another one, not in a collective, learns of it by one.
 void MpiRanks::leave(const StageStatus& why) {
     if (is_over_) return;
     const FailureDeadline deadline(why.code, why.message);
@@ -215,7 +223,7 @@ std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
     return all;
 }
 
-// Out of memory on all ranks, if it is on one.
+// Throws std::bad_alloc on all ranks if one has no room.
 void MpiRanks::require_room(bool has_room) const {
     if (!all_reduce(std::int32_t{has_room}, Reduction::smallest)) throw std::bad_alloc();
 }
@@ -285,7 +293,8 @@ bool MpiRanks::is_done(MPI_Request& request) const {
     }
 }
 
-// Its message, piece by piece, and that of a sender into it. What is sent to nobody any more cannot be called back.
+// Sends the message of `transfer`, piece by piece; receive() receives into it. A message that nobody receives any more
+// cannot be called back.
 void MpiRanks::send(Transfer& transfer, int rank, int tag) {
     for_pieces(transfer.message(), [&](char* piece, int size) {
         transfer.requests().clear();
@@ -307,7 +316,7 @@ void MpiRanks::receive(Transfer& transfer, int rank, int tag) {
     });
 }
 
-// The receiver answers the size by whether it has room.
+// Sends the size first; the receiver answers whether it has room.
 void MpiRanks::send(int rank, Bytes message) {
     if (is_over_) throw_last_words();
     Transfer size(to_bytes(std::uint64_t{message.size()})), has_room(Bytes(sizeof(std::int32_t)));
@@ -329,7 +338,7 @@ Bytes MpiRanks::receive(int rank) {
     return std::move(whole->message());
 }
 
-// For who looks for messages that never come then.
+// Throws if a rank has left, for callers that look for messages that never come then.
 void MpiRanks::end_if_one_has_left() {
     int has_rank_left = is_over_;
     if (!is_over_)

@@ -1,4 +1,5 @@
-// The ranks of an MPI job, and what values that are distributed over them need. The only place that knows MPI.
+// The ranks of an MPI job, with sums and exchanges of values that are distributed over them. The only place of the
+// kernel that calls MPI.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace kerf {
 
-/// Throws Error(internal), naming the call and what MPI says of it, for a result that is no success.
+/// Throws Error(internal), with the name of the call and MPI's words for it, for a result that is no success.
 void check_mpi(int result, const char* call);
 
 template <class T>
@@ -45,13 +46,13 @@ struct RankValues {
 };
 
 /// The ranks of a communicator of MPI, of which a duplicate is used, so that no message of the program is taken for one
-/// of these. Only the thread that makes it may call it.
+/// of the kernel's. Only the thread that makes the object may call it.
 class MpiRanks : public Communicator {
  public:
-    /// Collective. Without an argument: all processes that a launcher has started, or this one alone. Where the program
-    /// has not initialised MPI, that is done here, and undone at the end of the process. Throws Error(internal) if MPI
-    /// has been finalised, or does not allow the threads that a rank has beside its first. What fails while `comm` is
-    /// duplicated is handled as `comm` says.
+    /// Collective. Without an argument the ranks are all processes that a launcher has started, or this one alone.
+    /// Where the program has not initialised MPI, that is done here, and undone at the end of the process. Throws
+    /// Error(internal) if MPI has been finalised, or does not allow the threads that a rank has beside its first. A
+    /// failure to duplicate `comm` is handled as `comm` says.
     explicit MpiRanks(MPI_Comm comm = MPI_COMM_WORLD);
     /// Collective.
     ~MpiRanks() override;
@@ -72,10 +73,10 @@ class MpiRanks : public Communicator {
     void drop_messages() override;
     void leave(const StageStatus& why) override;
 
-    /// Collective: what the ranks of this host contribute, and which of them this one is.
+    /// Collective: returns the contributions of the ranks of this host; `own` becomes the index of this one among them.
     std::vector<Bytes> gather_on_host(const Bytes& contribution, std::size_t& own) const;
 
-    /// Collective, with as many values on every rank: each becomes its sum, least or largest over the ranks.
+    /// Collective, with as many values on every rank: replaces each value by its sum, least or largest over the ranks.
     template <class T>
     void all_reduce(std::span<T> values, Reduction reduction) const {
         check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), mpi_type<T>(),
@@ -88,8 +89,8 @@ class MpiRanks : public Communicator {
         return value;
     }
 
-    /// Sends values to other ranks, and receives those that `in` names the senders of and has room for; each message
-    /// must have both. O(values).
+    /// Sends the values of `out` to other ranks, and receives values into `in`, which names their senders and has room
+    /// for them; each message must be named on both sides. O(values).
     template <class T>
     void exchange(const std::vector<RankValues<T>>& out, std::vector<RankValues<T>>& in) const {
         std::vector<MPI_Request> requests;
@@ -107,7 +108,7 @@ class MpiRanks : public Communicator {
     /// Ends all ranks without their consent. Does not return.
     void end_all(int exit_code) const { MPI_Abort(comm_, exit_code); }
 
-    /// For libraries that call MPI themselves.
+    /// The communicator, for libraries that call MPI themselves.
     MPI_Comm handle() const { return comm_; }
 
  private:
@@ -133,7 +134,7 @@ class MpiRanks : public Communicator {
     };
     static std::list<OnTheWay>& abandoned();
 
-    // What a rank that leaves says to the others: of a size that needs no memory where there may be none.
+    // The words of a rank that leaves to the others, of a fixed size: there may be no memory for more.
     struct LastWords {
         std::int32_t code = static_cast<std::int32_t>(ErrorCode::internal);
         std::array<char, 1020> message{};
@@ -143,11 +144,11 @@ class MpiRanks : public Communicator {
     std::list<OnTheWay> posted_;
     std::vector<int> sent_to_;  // messages to each rank since drop_messages()
     int received_ = 0;
-    std::vector<std::uint64_t> sizes_;            // of what the ranks bring to a collective
+    std::vector<std::uint64_t> sizes_;            // bytes that each rank brings to a collective
     std::vector<std::uint64_t> sent_, expected_;  // bytes to and from each rank in an exchange
-    std::vector<MPI_Request> leaving_;            // to each rank, that this one leaves
-    bool is_over_ = false;                        // a rank has left,
-    LastWords last_words_;                        // and has said this
+    std::vector<MPI_Request> leaving_;            // messages to each rank that this one leaves
+    bool is_over_ = false;                        // a rank has left
+    LastWords last_words_;                        // with these words
 };
 
 }  // namespace kerf

@@ -25,7 +25,7 @@ StageStatus told_status_of_exception() {
 
 }  // namespace
 
-// The short words lie in the string itself.
+// The message of the last status is so short that it lies in the string itself and needs no memory.
 StageStatus status_of_exception() noexcept {
     try {
         return told_status_of_exception();

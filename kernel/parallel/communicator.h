@@ -18,13 +18,13 @@
 
 namespace kerf {
 
-/// How a stage ended on one rank.
+/// The end of a stage on one rank.
 struct StageStatus {
     int code = 0;  ///< value of ErrorCode, 0: good
     std::string message;
     std::vector<ErrorElements> elements = {};
 
-    /// What is thrown for it elsewhere.
+    /// Returns the error that other ranks throw for it.
     Error error() const { return {static_cast<ErrorCode>(code), message, elements}; }
 
     template <class Archive>
@@ -33,7 +33,8 @@ struct StageStatus {
     }
 };
 
-/// The status of the exception that is being handled; where there is no memory for its words, that there is none.
+/// Returns the status of the exception that is being handled; where there is no memory for its words, that of memory
+/// that has run out.
 StageStatus status_of_exception() noexcept;
 
 /// The error of a rank that has left: from now on the ranks agree on nothing else.
@@ -42,45 +43,48 @@ class RankHasLeft : public Error {
     using Error::Error;
 };
 
-/// Ranks that run the same stages in the same order. Every collective throws Error(memory) on all ranks if one has no
-/// memory for it. Where a rank has left, every call that waits or looks for something of others throws RankHasLeft,
-/// again and again.
+/// Ranks that run the same stages in the same order. If one has no memory for a collective, it throws std::bad_alloc on
+/// all ranks, which run_together() turns into Error(memory). Where a rank has left, every call that waits for others or
+/// looks for their messages throws RankHasLeft, again and again.
 class Communicator {
  public:
     virtual ~Communicator() = default;
     virtual int rank() const = 0;
     virtual int size() const = 0;
-    /// Collective: the contributions of all ranks in the order of ranks, on every rank.
+    /// Collective: returns the contributions of all ranks, in the order of ranks, on every rank.
     virtual std::vector<Bytes> all_gather(const Bytes& contribution) = 0;
-    /// Collective: what the rank `root` gives, on every rank; what others give does not matter.
+    /// Collective: returns the bytes of the rank `root` on every rank; those that others give do not matter.
     virtual Bytes broadcast(Bytes of_root, int root) = 0;
-    /// Collective: to_rank[r] goes to rank r. Returns what each rank has for this one, by rank. Memory and messages of
-    /// a rank follow what it sends and gets, but for eight bytes a rank.
+    /// Collective: sends to_rank[r] to rank r, and returns the bytes that each rank has for this one, by rank. Memory
+    /// and messages of a rank follow the bytes that it sends and gets, but for eight bytes a rank.
     virtual std::vector<Bytes> exchange(std::vector<Bytes> to_rank) = 0;
-    /// Collective: each of these words, of which every rank gives as many, becomes its sum over the ranks, modulo 2^64.
+    /// Collective: replaces each of these words, of which every rank gives as many, by its sum over the ranks, modulo
+    /// 2^64.
     virtual void sum(std::span<std::uint64_t> words) = 0;
 
-    /// Sends another rank a message of any size, and waits until it is taken there. No collective; but if a rank leaves
-    /// meanwhile, its error is thrown here, as in receive().
+    /// Sends another rank a message of any size, and waits until it is taken there. Not collective; but if a rank
+    /// leaves meanwhile, its error is thrown here, as in receive().
     virtual void send(int rank, Bytes message) = 0;
-    /// Waits for the next message that the other rank sends to this one. Throws std::bad_alloc where there is no memory
-    /// for it: it is lost then, and its sender goes on.
+    /// Returns the next message that the other rank sends to this one, and waits for it. Throws std::bad_alloc where
+    /// there is no memory for it: the message is lost then, and its sender goes on.
     virtual Bytes receive(int rank) = 0;
-    /// The next message that some rank sends to this one; nothing if none is on its way. Throws as receive().
+    /// Returns the next message that some rank sends to this one; nothing if none is on its way. Throws as receive().
     virtual std::optional<Bytes> receive_any() = 0;
 
     /// Sends a message of a few kilobytes to another rank and does not wait for it to arrive. Without effect where a
     /// rank has left.
     virtual void post(int rank, const Bytes& message) = 0;
-    /// A message that was posted to this rank, those of one sender in their order; nothing if none has arrived yet.
-    /// Throws RankHasLeft where no message will come because a rank has left: who polls until one comes ends with it.
+    /// Returns a message that was posted to this rank, those of one sender in their order; nothing if none has arrived
+    /// yet. Throws RankHasLeft where no message will come because a rank has left: a loop that polls until one comes
+    /// ends with it.
     virtual std::optional<Bytes> poll() = 0;
-    /// Collective: takes all messages that were posted before and not polled out of the way. Without effect where a
+    /// Collective: takes all messages out of the way that were posted before and not polled. Without effect where a
     /// rank has left: then there are none.
     virtual void drop_messages() = 0;
 
-    /// This rank meets an error that the others may know nothing of: the next collective of theirs, and whatever they
-    /// wait in, throws it, without its elements. Returns when all know. Without effect where that has already happened.
+    /// Tells the others of an error of this rank that they may know nothing of: their next collective, and every call
+    /// in which they wait, throws it, without its elements. Returns when all know. Without effect where a rank has left
+    /// already.
     virtual void leave(const StageStatus& why) = 0;
 };
 
@@ -119,7 +123,7 @@ std::vector<T> gather_items(Communicator& ranks, const std::vector<T>& own) {
     return all;
 }
 
-/// Collective: items[r] go to rank r. Returns what each rank has for this one, by rank.
+/// Collective: sends items[r] to rank r, and returns the items that each rank has for this one, by rank.
 template <class T>
 std::vector<std::vector<T>> exchange_items(Communicator& ranks, std::vector<std::vector<T>> items) {
     if (ranks.size() == 1) return items;
@@ -132,7 +136,8 @@ std::vector<std::vector<T>> exchange_items(Communicator& ranks, std::vector<std:
     return items;
 }
 
-/// Collective: the items of every rank in one list, in the order of ranks, on the rank `root`; nothing on the others.
+/// Collective: returns the items of every rank in one list, in the order of ranks, on the rank `root`; nothing on the
+/// others.
 template <class T>
 std::vector<T> gather_items_to(Communicator& ranks, int root, std::vector<T> own) {
     std::vector<std::vector<T>> items(static_cast<std::size_t>(ranks.size()));
@@ -143,7 +148,7 @@ std::vector<T> gather_items_to(Communicator& ranks, int root, std::vector<T> own
     return all;
 }
 
-/// Collective: the sum of one number of each rank.
+/// Collective: returns the sum of one number of each rank.
 template <std::integral Number>
 Number sum_of(Communicator& ranks, Number own) {
     std::uint64_t word = static_cast<std::uint64_t>(own);
@@ -151,8 +156,8 @@ Number sum_of(Communicator& ranks, Number own) {
     return static_cast<Number>(word);
 }
 
-/// Throws the error of the first rank that has one, on every rank. That a rank was stopped counts only where there is
-/// no other error: it may be the consequence. Where there is none, it costs a sum of two numbers.
+/// Throws the error of the first rank that has one, on every rank. A rank that was cancelled counts only where there is
+/// no other error, of which that may be the consequence. Without any error the cost is a sum of two numbers.
 void throw_first_error(Communicator& ranks, const StageStatus& own);
 
 /// Runs a stage on every rank and returns its value; if it fails on any rank, the error of the first such rank is
@@ -179,8 +184,8 @@ auto in_agreement(Communicator& ranks, Stage stage) -> std::invoke_result_t<Stag
     }
 }
 
-/// Calls tell(), which posts what other ranks wait for or have to know. Where it throws, they would wait for ever: this
-/// rank leaves then, because of `why`, or of what was thrown where that is good. Returns in any case.
+/// Calls tell(), which posts messages that other ranks wait for or have to know. Where it throws, they would wait for
+/// ever: this rank leaves then, because of `why`, or of the exception where `why` is good. Returns in any case.
 template <class Tell>
 void tell_or_leave(Communicator& ranks, const StageStatus& why, Tell tell) {
     StageStatus untold;
@@ -192,8 +197,8 @@ void tell_or_leave(Communicator& ranks, const StageStatus& why, Tell tell) {
     ranks.leave(why.code != 0 ? why : untold);
 }
 
-/// Runs what all ranks run, with its collectives and agreements. An exception that leaves it on one rank ends all of
-/// them: each throws it as an Error. The outermost frame of a program of several ranks.
+/// Runs a body that all ranks run, with its collectives and agreements. An exception that leaves it on one rank ends
+/// all of them: each throws it as an Error. The outermost frame of a program of several ranks.
 template <class Body>
 auto run_together(Communicator& ranks, Body body) -> std::invoke_result_t<Body> {
     StageStatus why;

@@ -14,7 +14,7 @@ namespace kerf {
 namespace {
 
 struct DeadlineState {
-    unsigned seconds = 0;  // 0: none
+    unsigned seconds = 0;  // 0: no limit
     EndProcess end = nullptr;
     void (*earlier_handler)(int) = SIG_DFL;
     bool is_running = false;
@@ -42,7 +42,7 @@ bool begin_failure_deadline(int code, std::string_view message) noexcept {
     state.code = code;
     state.length = std::min(message.size(), state.message.size());
     std::copy_n(message.begin(), state.length, state.message.begin());
-    if (const unsigned left = ::alarm(0); left > 0) {  // of a run that is being cancelled
+    if (const unsigned left = ::alarm(0); left > 0) {  // the alarm of a run that is being cancelled
         ::alarm(left);
         return false;
     }

@@ -1,4 +1,4 @@
-// What one rank does for all of them.
+// Work that one rank does for all of them.
 #pragma once
 
 #include <exception>
@@ -9,10 +9,10 @@
 
 namespace kerf {
 
-/// Collective: what stage() returns on rank 0, on every rank; what it throws there is thrown on all of them alike. The
-/// others do not call it, and leave their processors to others meanwhile; on_waited() is called there afterwards, and
-/// what it throws is thrown on all, too. No other messages may be posted before to ranks that have not polled them.
-/// Throws RankHasLeft on all of them if one has left before or leaves meanwhile.
+/// Collective: returns the bytes of stage(), which rank 0 calls, on every rank; an exception of it is thrown on all of
+/// them alike. The other ranks leave their processors to others meanwhile; on_waited() is called there afterwards, and
+/// its exceptions are thrown on all, too. There must be no other messages that were posted before and not polled.
+/// Throws RankHasLeft on all ranks if one has left before or leaves meanwhile.
 template <class Stage, class OnWaited>
 Bytes bytes_of_root(Communicator& ranks, Stage stage, OnWaited on_waited) {
     Bytes bytes;

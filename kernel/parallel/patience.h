@@ -14,7 +14,7 @@ class Patience {
         std::this_thread::sleep_for(pause_);
         pause_ = std::min(2 * pause_, longest);
     }
-    /// Something has arrived: more may follow soon.
+    /// Makes the next pause short again: something has arrived, and more may follow soon.
     void reset() { pause_ = shortest; }
 
  private:

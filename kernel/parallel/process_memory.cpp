@@ -9,7 +9,7 @@
 
 namespace kerf {
 
-// VmHWM starts at exec, unlike ru_maxrss, which carries over what the parent had.
+// VmHWM starts at exec, unlike ru_maxrss, which carries over the memory of the parent.
 std::int64_t own_peak_rss_bytes() {
     std::int64_t kilobytes = 0;
     if (FILE* status = std::fopen("/proc/self/status", "r")) {

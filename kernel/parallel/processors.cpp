@@ -11,7 +11,7 @@ namespace kerf {
 
 namespace {
 
-constexpr int most_processors = 1 << 20;  // that a set is made for
+constexpr int most_processors = 1 << 20;  // of the largest set that is tried
 
 struct FreeSet {
     void operator()(cpu_set_t* set) const { CPU_FREE(set); }
@@ -52,7 +52,7 @@ int share_of_processors(const std::vector<std::vector<int>>& allowed, std::size_
         for (const int processor : processors) ++users[processor];
     double share = 0;
     for (const int processor : allowed[process]) share += 1.0 / users[processor];
-    constexpr double rounding = 1e-6;  // of thirds that make a whole
+    constexpr double rounding = 1e-6;  // so that three thirds make a whole
     return std::max(1, static_cast<int>(share + rounding));
 }
 
