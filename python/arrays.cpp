@@ -1,3 +1,8 @@
+// Arguments become rows by copies that are checked at the boundary, so that errors name the argument and the row, and
+// the kernel sees 32-bit numbers and doubles alone. numpy makes the array, of lists, too; masked values, ragged rows
+// and dtypes of another kind are refused, and an array without numbers may have any dtype. Whole numbers are read as
+// 64-bit ones, signed or not as they come, and each must fit in 32 bits: numpy's own conversion would wrap them
+// silently.
 #include "python/arrays.h"
 
 #include <cstring>
@@ -11,7 +16,7 @@ namespace {
 
 std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
 
-// Whatever numpy makes an array of. `kinds`: of dtypes that are good.
+// Returns the array that numpy makes of an object. `kinds`: the kinds of dtypes that are allowed.
 py::array as_array(const py::object& object, const char* name, const char* kinds, const char* wanted) {
     const py::module_ numpy = py::module_::import("numpy");
     if (numpy.attr("ma").attr("is_masked")(object).cast<bool>())
@@ -33,7 +38,7 @@ py::array as_array(const py::object& object, const char* name, const char* kinds
     return array;
 }
 
-// Rows of `columns`, or single numbers where that is 0.
+// Requires rows of `columns` numbers, or single numbers where that is 0.
 void check_shape(const py::array& array, py::ssize_t columns, const char* name) {
     if (array.ndim() > 0 && array.shape(0) > std::numeric_limits<std::int32_t>::max())
         throw py::value_error(fmt::format("{} has {} rows, but at most {} are possible.", name, array.shape(0),
@@ -45,13 +50,13 @@ void check_shape(const py::array& array, py::ssize_t columns, const char* name) 
                                       columns == 0 ? std::string("(n,)") : fmt::format("(n, {})", columns)));
 }
 
-// The same numbers in one piece of memory, as T.
+// Returns the numbers as T, in one piece of memory.
 template <class T>
 py::array_t<T> in_one_piece(const py::array& array) {
     return py::module_::import("numpy").attr("require")(array, py::dtype::of<T>(), "CA");
 }
 
-// Adds them to `rows`, N in each. Throws ValueError for the first that is no number of 32 bits.
+// Adds the numbers of an array to `rows`, N in each. Throws ValueError for the first that does not fit in 32 bits.
 template <class Wide, std::size_t N>
 void append_rows(std::vector<std::array<std::int32_t, N>>& rows, const py::array& array, const char* name) {
     using Limits = std::numeric_limits<std::int32_t>;
@@ -67,7 +72,7 @@ void append_rows(std::vector<std::array<std::int32_t, N>>& rows, const py::array
     }
 }
 
-// `is_flat`: N is 1, and the array has one dimension.
+// Returns whole numbers as rows. `is_flat`: N is 1, and the array has one dimension.
 template <std::size_t N>
 std::vector<std::array<std::int32_t, N>> rows_of(const py::object& object, const char* name, bool is_flat = false) {
     const py::array array = as_array(object, name, "iu", "whole numbers");

@@ -16,7 +16,7 @@ namespace kerf::python {
 
 namespace py = pybind11;
 
-/// An array that shares the memory of `owner`, read-only.
+/// Returns a read-only array that shares the memory of `owner`.
 template <class T>
 py::array_t<T> view(const T* data, std::vector<py::ssize_t> shape, py::handle owner) {
     py::array_t<T> result(std::move(shape), data, owner);
@@ -37,7 +37,7 @@ inline py::array_t<double> view(const std::vector<Vec3>& points, py::handle owne
     return view(points.empty() ? nullptr : points.front().data(), {std::ssize(points), 3}, owner);
 }
 
-/// A read-only array that keeps the rows itself.
+/// Returns a read-only array that keeps the rows itself.
 template <class Rows>
 py::array owned(Rows rows) {
     auto kept = std::make_unique<Rows>(std::move(rows));
@@ -46,14 +46,14 @@ py::array owned(Rows rows) {
     return view(*data, owner);
 }
 
-/// The getter of a member of an object: a view of it.
+/// Returns the getter of a member of an object: a view of it.
 template <class Object, class Values>
 auto array_of(Values Object::*member) {
     return [member](const py::object& self) { return view(self.cast<Object&>().*member, self); };
 }
 
-/// Whatever numpy makes an array of, as rows of N numbers; N = 1: as numbers. Throws ValueError or TypeError, naming
-/// the argument, its shape or type and, for whole numbers that do not fit in 32 bits, the row.
+/// Each returns rows of N numbers, or for N = 1 numbers, of any object of which numpy makes an array. Throws ValueError
+/// or TypeError, naming the argument, its shape or type and, for whole numbers that do not fit in 32 bits, the row.
 std::vector<std::array<double, 3>> points_of(const py::object& array, const char* name);
 std::vector<std::array<std::int32_t, 3>> triangles_of(const py::object& array, const char* name);
 std::vector<std::array<std::int32_t, 2>> pairs_of(const py::object& array, const char* name);

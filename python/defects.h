@@ -9,10 +9,10 @@
 
 namespace kerf::python {
 
-/// A kerf.Defect for each.
+/// Returns a kerf.Defect for each.
 pybind11::list defects_of(const std::vector<SurfaceDefect>& defects);
 
-/// kerf._kerf.Check and what makes one.
+/// Registers kerf._kerf.Check and the functions that return one.
 void register_check(pybind11::module_& module);
 
 }  // namespace kerf::python

@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 namespace {
 
-// Knows ranks as messages alone: kerf._mpi makes them of a communicator of MPI.
+// Meshes on ranks that are known as messages alone: kerf._mpi makes them of a communicator of MPI.
 void mesh_on_ranks_into(Communicator& ranks, std::int32_t processors, const SurfaceObject& surface,
                         const std::string& folder, const py::object& sizes, const py::object& progress,
                         const std::string& programs, const py::kwargs& options) {

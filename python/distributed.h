@@ -1,4 +1,4 @@
-// Meshes on ranks: what kerf/distributed.py calls.
+// Meshes on ranks: the functions that kerf/distributed.py calls.
 #pragma once
 
 #include <pybind11/pybind11.h>

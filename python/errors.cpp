@@ -40,7 +40,7 @@ py::list parts_of(const PartsFailed& error) {
     return list;
 }
 
-// All that Python is told of it.
+// Returns the error as an exception of Python, with all that this is told of it.
 py::object exception_of(const Error& error) {
     const auto* of_surface = dynamic_cast<const SurfaceError*>(&error);
     const auto* of_parts = dynamic_cast<const PartsFailed*>(&error);

@@ -5,7 +5,7 @@
 
 namespace kerf::python {
 
-/// kerf::Error is the class of kerf/errors.py that its code has, with `.code` and `.elements`.
+/// Makes kerf::Error the class of kerf/errors.py for its code, with `.code` and `.elements`.
 void register_errors(pybind11::module_& module);
 
 }  // namespace kerf::python

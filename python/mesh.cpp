@@ -1,3 +1,7 @@
+// kerf._kerf.Mesh holds MeshArrays, and its properties are views that keep it alive; kerf/mesh.py adds everything that
+// needs no C++. Long calls release the interpreter's lock and ask a Watch, which takes it back for a moment. A pickle
+// is a dict of arrays by names, so that it does not depend on the version of Kerf, and names are bytes in it, since
+// they may be no UTF-8.
 #include "python/mesh.h"
 
 #include <pybind11/stl.h>
@@ -21,7 +25,7 @@ std::shared_ptr<MeshArrays> mesh(const SurfaceObject& surface, const py::object&
     return without_lock(watch, [&] { return std::make_shared<MeshArrays>(mesh_to_arrays(surface.surface, wanted)); });
 }
 
-// `surface`: a Surface, or the path of a file.
+// Meshes into a folder. `surface`: a Surface, or the path of a file.
 void mesh_into(const py::object& surface, const std::string& folder, const py::object& sizes,
                const py::object& progress, const std::string& programs, const py::kwargs& options) {
     Watch watch(progress);
@@ -35,7 +39,7 @@ void mesh_into(const py::object& surface, const std::string& folder, const py::o
     }
 }
 
-// What follows from a mesh, without the interpreter's lock.
+// Returns a measure of a mesh, computed without the interpreter's lock.
 template <class Measure>
 auto measured(const MeshArrays& mesh, Measure measure) {
     const py::gil_scoped_release released;
@@ -48,7 +52,7 @@ py::list as_bytes(const std::vector<std::string>& names) {
     return list;
 }
 
-// Of a pickle: arrays by names, which numpy knows in any version.
+// Returns the state of a pickle: arrays by names, which numpy knows in any version.
 py::dict state_of(const py::object& self) {
     using namespace py::literals;
     const MeshArrays& mesh = self.cast<MeshArrays&>();

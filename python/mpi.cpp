@@ -20,7 +20,7 @@ std::string library_version() {
     return text;
 }
 
-// Calls work(ranks, processors of this one) while there are ranks of the communicator at an address. What it raises on
+// Calls work(ranks, processors of this one) while there are ranks of the communicator at an address. An exception on
 // one rank alone ends the others, which may wait for it.
 py::object with_ranks(std::uintptr_t address, const py::function& work) {
     std::optional<kerf::MpiRanks> ranks;
@@ -42,7 +42,7 @@ py::object with_ranks(std::uintptr_t address, const py::function& work) {
 }  // namespace
 
 PYBIND11_MODULE(_mpi, module) {
-    py::module_::import("kerf._kerf");  // registers kerf::Communicator, and what errors are in Python
+    py::module_::import("kerf._kerf");  // registers kerf::Communicator and the errors of Python
     py::class_<kerf::MpiRanks, kerf::Communicator>(module, "Ranks");
     module.def("library_version", &library_version);
     module.def("with_ranks", &with_ranks, py::arg("address"), py::arg("work"));

@@ -1,3 +1,8 @@
+// The table of options comes from the kernel (request/options.h), so that keyword arguments, their kinds, defaults and
+// help follow it without a list of their own; their text is made in kerf/options.py. A Watch is asked from any thread
+// of a call without the interpreter's lock, and takes the lock to look at signals, at most every 100 ms, and to call
+// `progress`. An exception of Python cannot cross the kernel: the first is kept, the call ends as cancelled, and
+// without_lock() raises it again.
 #include "python/options.h"
 
 #include <algorithm>
@@ -39,7 +44,7 @@ py::dict row_of(const OptionField& field, bool is_of_surface) {
                     "is_of_surface"_a = is_of_surface);
 }
 
-// The table of the command line, in its order, with the values of options that are not given.
+// Returns the table of the command line, in its order, with the values of options that are not given.
 py::list option_rows() {
     RunOptions options;
     py::list rows;

@@ -1,3 +1,7 @@
+// A part as arrays of numpy. Arrays that the part has itself are views; those that are put together (nodes of order 2,
+// regions, owners) are copies, made each time. In arrays over nodes the vertices come first, then the nodes on edges. A
+// pickle has the bytes in which processes of Kerf send values to each other, which only the same version reads; the
+// table of edges is left out, because it follows from the tetrahedra.
 #include "python/part.h"
 
 #include <algorithm>
@@ -14,7 +18,7 @@ namespace py = pybind11;
 
 namespace {
 
-// Values of the vertices, then those of nodes on edges.
+// Returns values of the vertices, then those of nodes on edges.
 template <class T>
 py::array of_nodes(const std::vector<T>& of_vertices, const std::vector<T>& of_edges, const py::object& self) {
     if (of_edges.empty()) return view(of_vertices, self);
@@ -72,7 +76,7 @@ py::list shared_of(const py::object& self) {
     return list;
 }
 
-// The values of a solution, of points or of tetrahedra, by name: (n,) or (n, components).
+// Returns the values of a solution, of points or of tetrahedra, by name: (n,) or (n, components).
 py::dict values_of(const py::object& self, PartValues::Of of) {
     py::dict values;
     for (const PartValues& each : self.cast<Part&>().values) {
@@ -88,7 +92,7 @@ py::dict values_of(const py::object& self, PartValues::Of of) {
     return values;
 }
 
-// Of a part all but its solution, in their order; of order 2 the edges follow from the tetrahedra.
+// Archives a part but for the values of its solution, and but for its edges, which follow from the tetrahedra.
 template <class Archive, class AnyPart>
 void archive_mesh(Archive& a, AnyPart& part) {
     a(part.id, part.mesh.vertices, part.mesh.boundary_vertex_count, part.mesh.tets, part.mesh.neighbours, part.facets,

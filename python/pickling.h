@@ -15,7 +15,7 @@
 
 namespace kerf::python {
 
-/// The rows of an array of a pickle. Throws ValueError, naming it, for another shape.
+/// Returns the rows of an array of a pickle. Throws ValueError, naming it, for another shape.
 template <class T, std::size_t N>
 std::vector<std::array<T, N>> rows_of_state(const pybind11::dict& state, const char* name) {
     const auto array = state[name].cast<pybind11::array_t<T, pybind11::array::c_style | pybind11::array::forcecast>>();
@@ -25,15 +25,15 @@ std::vector<std::array<T, N>> rows_of_state(const pybind11::dict& state, const c
     if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(rows[0]));
     return rows;
 }
-/// The numbers of one.
+/// Returns the numbers of an array of a pickle.
 template <class T>
 std::vector<T> numbers_of_state(const pybind11::dict& state, const char* name) {
     const auto array = state[name].cast<pybind11::array_t<T, pybind11::array::c_style | pybind11::array::forcecast>>();
     return {array.data(), array.data() + array.size()};
 }
 
-/// The pickle of a T by `write(ByteWriter&, const T&)` and `read(ByteReader&, T&)`. It throws ValueError for one of
-/// another version, whose bytes may mean something else, and for one that is damaged.
+/// Returns the pickling of a T by `write(ByteWriter&, const T&)` and `read(ByteReader&, T&)`. It throws ValueError for
+/// a pickle of another version, whose bytes may mean something else, and for one that is damaged.
 template <class T, class Write, class Read>
 auto pickled_as_bytes(Write write, Read read) {
     return pybind11::pickle(
@@ -59,7 +59,7 @@ auto pickled_as_bytes(Write write, Read read) {
         });
 }
 
-/// The same of a T with archive().
+/// Returns the pickling of a T by its archive().
 template <class T>
 auto pickled_as_bytes() {
     return pickled_as_bytes<T>([](ByteWriter& writer, const T& self) { writer(self); },

@@ -1,4 +1,4 @@
-// What kerf.plot() writes for kerf-view.
+// The files that kerf.plot() writes for kerf-view.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,3 +1,7 @@
+// A run folder, or the folder of a solution on one, which then gives the values of its parts. Parts are loaded one at a
+// time, without the interpreter's lock, when Python asks for them; names of patches and regions are those of the whole
+// run, so that numbers mean the same in all parts. The commands on folders (verify, quality, export, merge) are the
+// functions of the command line, whose JSON and text are returned as they are.
 #include "python/run.h"
 
 #include <pybind11/stl.h>
@@ -27,7 +31,7 @@ struct RunObject {
           mesh(solution.empty() ? folder : mesh_of_solution(solution)),
           parts(std::make_unique<RunParts>(mesh, solution)) {}
 
-    std::string solution;  // empty: none
+    std::string solution;  // empty: no solution
     std::string mesh;
     std::unique_ptr<PartSource> parts;
 };
@@ -48,7 +52,7 @@ py::array_t<Count> of_parts(const RunObject& run, Count PartExtent::*count) {
 std::shared_ptr<Part> load_part_of(const RunObject& run, std::size_t index) {
     const py::gil_scoped_release released;
     auto part = std::make_shared<Part>(run.parts->load(PartIndex(index)));
-    part->patch_names = run.parts->outline().patch_names;  // rows of them are the numbers of arrays
+    part->patch_names = run.parts->outline().patch_names;  // numbers in the part's arrays are rows of these names
     part->region_names = run.parts->outline().region_names;
     return part;
 }

@@ -9,7 +9,7 @@
 
 namespace kerf::python {
 
-/// What kerf.SizeField holds; never null.
+/// The value of a kerf.SizeField; `sizes` is never null.
 struct SizesObject {
     std::shared_ptr<const GivenSizes> sizes;
 };

@@ -1,3 +1,7 @@
+// kerf._kerf.Surface holds a ClosedSurface with its arrays (python/surface_object.h); kerf/surface.py adds everything
+// that needs no C++. Long calls release the interpreter's lock and ask a Watch. Names go through decoded(), because
+// they may be no UTF-8. A matrix of axes has them as columns in the kernel and as rows in Python: its memory is handed
+// over as it is.
 #include "python/surface.h"
 
 #include <pybind11/stl.h>
@@ -65,7 +69,7 @@ py::object wrapped(const SurfaceObject& self) {
 SolidProperties solid_of(const SurfaceObject& self) { return solid_properties(self.surface.input().complex); }
 
 py::array array_of(const Vec3& vector) { return py::array_t<double>(3, vector.data()); }
-// Columns as rows, because those are in one piece of memory here, and these there.
+// Returns the columns as rows: a column of Eigen's matrix is in one piece of memory, and so is a row of numpy's.
 py::array array_of(const Eigen::Matrix3d& columns) { return py::array_t<double>({3, 3}, columns.data()); }
 
 }  // namespace

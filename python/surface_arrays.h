@@ -9,7 +9,7 @@
 
 namespace kerf::python {
 
-/// As the facade takes them; `sides` and `regions` are both empty or both not.
+/// The arguments of a surface as the facade takes them; `sides` and `regions` are both empty or both not.
 struct SurfaceArguments {
     std::vector<std::array<double, 3>> points;
     std::vector<std::array<std::int32_t, 3>> triangles;
@@ -19,7 +19,7 @@ struct SurfaceArguments {
     std::vector<std::string> regions;
 };
 
-/// Copies what kerf.Surface is given; all but the first two may be None. Throws TypeError or ValueError, naming the
+/// Copies the arguments of kerf.Surface; all but the first two may be None. Throws TypeError or ValueError, naming the
 /// argument, for dtypes, shapes and lengths that do not fit.
 SurfaceArguments surface_arguments(const pybind11::object& points, const pybind11::object& triangles,
                                    const pybind11::object& patches, const pybind11::object& names,

@@ -1,4 +1,4 @@
-// What kerf.Surface holds.
+// The value of a kerf.Surface.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace kerf::python {
 
-/// Its arrays are made once; what numpy sees shares them.
+/// A surface with its arrays, which are made once; arrays of numpy share their memory.
 struct SurfaceObject {
     ClosedSurface surface;
     std::vector<std::array<double, 3>> points = surface.vertices();

@@ -1,4 +1,4 @@
-// Text of the kernel, which may be anything that a file or a file system has, as str.
+// Text of the kernel as str; it may have any bytes that a file or a file system has.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace kerf::python {
 
-/// Bytes that are no UTF-8 become surrogates, as os.fsdecode() has them; os.fsencode() takes them back.
+/// Returns text as str. Bytes that are no UTF-8 become surrogates, as os.fsdecode() has them; os.fsencode() takes them
+/// back.
 inline pybind11::str decoded(const std::string& text) {
     PyObject* made = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape");
     if (!made) throw pybind11::error_already_set();

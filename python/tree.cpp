@@ -1,3 +1,7 @@
+// The tree of cuts in memory (kerf/cut_tree.h). Nodes, cuts and parts are references into one CutTree, which each of
+// them keeps alive, and their points and contours are views of its memory. Matrices are copied element by element, so
+// that row and column mean the same as in the kernel: `principal_axes` has the axes as columns here, and as rows in
+// python/surface.cpp.
 #include "python/tree.h"
 
 #include <pybind11/stl.h>
@@ -21,7 +25,7 @@ py::array_t<double> view_of(const std::vector<EdgeEnds>& segments, py::handle ow
 }
 py::array_t<double> view_of(const Vec3& vector, py::handle owner) { return view(vector.data(), {3}, owner); }
 
-// By columns, as the kernel has it: rows of numpy are those of the matrix.
+// Returns a copy whose rows and columns are those of the matrix, which Eigen stores by columns.
 py::array_t<double> copy_of(const Eigen::Matrix3d& matrix) {
     py::array_t<double> result({3, 3});
     for (int row = 0; row < 3; ++row)
@@ -29,13 +33,13 @@ py::array_t<double> copy_of(const Eigen::Matrix3d& matrix) {
     return result;
 }
 
-// A property whose array shares the memory of what a member or function of T gives.
+// Returns a property whose array shares the memory of a member of T, or of the result of a function of it.
 template <class T, class Get>
 auto shared(Get get) {
     return [get](const py::object& self) { return view_of(std::invoke(get, self.cast<T&>()), self); };
 }
 
-// Items that keep their owner.
+// Returns a list of items that keep their owner alive.
 template <class T>
 py::list list_of(const std::vector<T>& items, py::handle owner) {
     py::list list;
