@@ -1,11 +1,11 @@
 // Messages and collectives in which no rank waits for one that has left with an error. Every collective begins with a
 // number from each rank, the bytes that it brings or `has_left` (`begin_collective()`); if a rank has left, all take
-// part in its last broadcast, of its error, and every later call throws that. A rank that waits outside of a collective
-// looks for a message with the tag `leave_tag` beside its own, and then joins that broadcast. Room for a result is
-// taken before data moves, and ranks agree on whether all have it, so that std::bad_alloc is thrown on all or none.
-// Counts of MPI have 32 bits: longer messages go in pieces. Memory of requests that nobody waits for any more is kept
-// until the process ends (`abandoned()`), since MPI may use it until then. Posted messages are counted by receiver, so
-// that drop_messages() knows how many are still under way.
+// part in its last broadcast, of its error, which later calls that wait or look for messages throw. A rank that waits
+// outside of a collective looks for a message with the tag `leave_tag` beside its own, and then joins that broadcast.
+// Room for a result is taken before data moves, and ranks agree on whether all have it, so that std::bad_alloc is
+// thrown on all or none. Counts of MPI have 32 bits: longer messages go in pieces. Memory of requests that nobody waits
+// for any more is kept until the process ends (`abandoned()`), since MPI may use it until then. Posted messages are
+// counted by receiver, so that drop_messages() knows how many are still under way.
 #include "mpi/mpi_ranks.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 namespace kerf {
 
-/// Pauses between looks at what may have arrived: short at first, and a millisecond at last.
+/// Pauses between looks for messages: short at first, and a millisecond at last.
 class Patience {
  public:
     void pause() {

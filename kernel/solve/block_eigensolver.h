@@ -1,4 +1,4 @@
-// The lowest eigenvalues of two large symmetric matrices, by blocks.
+// The lowest eigenvalues of a pair of large symmetric matrices, by blocks.
 #pragma once
 
 #include <functional>

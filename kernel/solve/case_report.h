@@ -16,7 +16,7 @@ struct RegionResult {
     std::string name;
     double energy = 0;  ///< strain energy
     Extreme von_mises;
-    std::vector<ForceAndMoment> reactions;  ///< of each support and spring, on the cells of the region
+    std::vector<ForceAndMoment> reactions;  ///< as CaseReport::reactions, on the cells of the region
     std::optional<Extreme> safety;          ///< as CaseReport::safety
 };
 
@@ -25,7 +25,7 @@ struct CaseReport {
     std::string name;
     SolveOutcome outcome;
     Vec3 load = Vec3::Zero();               ///< sum of all nodal forces, without inertia
-    std::vector<ForceAndMoment> reactions;  ///< of each support and spring; moments about their places
+    std::vector<ForceAndMoment> reactions;  ///< of each of ElasticProblem::supports; moments about their places
     double imbalance = 0;                   ///< |loads + reactions + inertia| over the largest of them
     EnergyNorms norms;
     Extreme displacement, von_mises;

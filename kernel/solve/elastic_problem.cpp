@@ -24,7 +24,7 @@ void add_springs(ElasticProblem& problem, const std::vector<Spring>& springs, co
     }
 }
 
-// Displacements that are not zero would be multiplied, too.
+// Refuses combinations where supports prescribe displacements that are not zero: these would be multiplied, too.
 void require_sums_of_loads(const ElasticCase& wanted) {
     if (wanted.combinations.empty()) return;
     for (const Support& support : wanted.supports)

@@ -38,8 +38,8 @@ struct ProblemCase {
     std::vector<std::pair<std::size_t, double>> factors;  ///< of a combination: numbers of earlier cases, and factors
 };
 
-/// Degrees of freedom are 3 * node + component, along x, y and z but where `frames` says otherwise. Arrays over local
-/// nodes hold the same for a node on every rank.
+/// A case on the mesh of a space. Degrees of freedom are 3 * node + component, along x, y and z but where `frames` says
+/// otherwise. Arrays over local nodes hold the same for a node on every rank.
 struct ElasticProblem {
     const FeSpace* space = nullptr;
     std::vector<Material> materials;

@@ -18,13 +18,13 @@ namespace kerf {
 
 namespace {
 
-constexpr double cube_width = 2;  // at least half of it, in edges of the cells
+constexpr double cube_width = 2;  // the most, in edges of the cells; at least half of it
 constexpr int deepest = 18;
-constexpr double least_ratio = 0.25, largest_ratio = 2;  // of lengths
+constexpr double least_ratio = 0.25, largest_ratio = 2;  // of a length to the present one
 constexpr double more_cells = 4;                         // limit for the next mesh, in multiples of the present one
 constexpr double below_target = 0.9;                     // so that the mesh after it is not needed
 constexpr double edge_of_cells = 1.16;                   // mean of a mesh, over that of the regular tetrahedron
-constexpr double steps_of_two = 16;                      // rounding: within a factor of two
+constexpr double steps_of_two = 16;                      // rounded lengths in a factor of two
 
 using Corner = std::array<std::int32_t, 3>;
 

@@ -84,7 +84,7 @@ struct CornerNodes {
     std::vector<std::int32_t> number;  // of each local node; negative: a middle
     std::vector<std::int32_t> nodes;   // the local node of each corner
     std::vector<MiddleOf> middles;     // of each owned node
-    std::int32_t owned = 0;            // corners
+    std::int32_t owned = 0;            // number of owned corners
 };
 
 CornerNodes corners_of(const FeSpace& space) {

@@ -22,8 +22,8 @@ class LargestPlace {
     void tell(double value, const Vec3& place) {
         if (value > found_[0]) found_ = {value, place.x(), place.y(), place.z()};
     }
-    /// Returns the largest value, of equal ones that of the first rank, there the first told; nothing if none was told.
-    /// Collective.
+    /// Returns the largest value; of equal ones that of the first rank, and there the first told; nothing if none was
+    /// told. Collective.
     std::optional<Extreme> of_all(MpiRanks& ranks) const;
 
  private:

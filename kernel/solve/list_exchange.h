@@ -1,4 +1,4 @@
-// Lists for neighbouring ranks, which do not know their lengths.
+// The exchange of lists between neighbouring ranks, which do not know their lengths.
 #pragma once
 
 #include <cstdint>

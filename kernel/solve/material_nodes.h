@@ -15,7 +15,7 @@ namespace kerf {
 /// other ranks have numbers for those of their own cells.
 class MaterialNodes {
  public:
-    /// Collective. O(n), and O(k log k) in the k cells at nodes between materials.
+    /// Numbers the pairs. Collective. O(n), and O(k log k) in the k cells at nodes between materials.
     explicit MaterialNodes(const ElasticProblem& problem);
 
     std::int32_t count() const { return static_cast<std::int32_t>(material_.size()); }
@@ -32,8 +32,8 @@ class MaterialNodes {
     std::int32_t number(std::int32_t node, MaterialNumber material) const;
 
     const ElasticProblem& problem_;
-    std::vector<std::int32_t> first_;       // of each local node, and the end
-    std::vector<MaterialNumber> material_;  // of each number
+    std::vector<std::int32_t> first_;       // first number of each local node, and the end
+    std::vector<MaterialNumber> material_;  // material of each number
     GhostExchange exchange_;
 };
 

@@ -1,9 +1,8 @@
 // A loop over run() and solve_run(): the second and further meshes have the sizes that the estimated errors of the last
-// solution ask for, read as a file of --size-field. Everything that can be refused about the case and the folder is
-// refused before the first mesh, which takes longest. A number of cells that was asked for holds for the first mesh
-// alone; the size that followed from it stays as the largest one. The output folder must hold nothing but results of
-// this kind; those of an earlier run go at the end, when all steps are done, so that a run that fails takes nothing
-// away.
+// solution ask for, read as a file of --size-field. The folder is checked and the case is read before the first mesh,
+// which takes longer than both. A number of cells that was asked for holds for the first mesh alone; the size that
+// followed from it stays as the largest one. The output folder must hold nothing but results of this kind; those of an
+// earlier run go at the end, when all steps are done, so that a run that fails takes nothing away.
 #include "solve/mesh_and_solve.h"
 
 #include <algorithm>

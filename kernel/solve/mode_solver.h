@@ -16,7 +16,7 @@ class ModeSolver {
     /// Assembles the equations and their multigrid for `count` modes. Collective.
     ModeSolver(const ElasticProblem& problem, int count);
 
-    /// Collective. Throws as find_modes() does.
+    /// Finds the modes. Collective. Throws as find_modes() does.
     FoundModes find(const AfterModesIteration& after_iteration);
 
  private:

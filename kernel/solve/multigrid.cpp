@@ -26,7 +26,7 @@ constexpr std::int64_t little_fill = 3;
 
 // The numbers of the local nodes among the nodes of all ranks, in their order.
 struct GlobalNumbers {
-    std::int64_t before = 0, all = 0;  // nodes of earlier ranks, of all
+    std::int64_t before = 0, all = 0;  // numbers of nodes: of earlier ranks, of all ranks
     std::vector<std::int64_t> of_node;
 };
 
@@ -191,7 +191,7 @@ void drop_held(const std::vector<std::uint8_t>& is_held, std::vector<double>& va
         if (is_held[dof]) values[dof] = 0;
 }
 
-// The level of elements of order 2 above those of order 1. Between the two vectors are along x, y and z.
+// The level of elements of order 2 above those of order 1. Between the two levels vectors are along x, y and z.
 class MiddlesLevel : public MultigridLevel {
  public:
     MiddlesLevel(MpiRanks& ranks, const LevelMatrix<3>& matrix, std::vector<std::uint8_t> is_held,

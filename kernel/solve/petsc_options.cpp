@@ -14,7 +14,8 @@ namespace {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-// No quotes, which would hide blanks, and nothing of which PETSc makes the name of a file.
+// Returns whether options may have the character: no quotes, which would hide blanks, and nothing of which PETSc makes
+// the name of a file.
 bool is_plain(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
            std::string_view(" -+.,_").find(c) != std::string_view::npos;
@@ -29,7 +30,8 @@ bool is_of_solver(const std::string& name) {
     });
 }
 
-// Viewers that write into files whose names are their own, or open windows, and code in another language.
+// Returns whether a value leads out of the terminal: viewers that write into files whose names are their own, or open
+// windows, and code in another language.
 bool is_outside(const std::string& value) {
     constexpr std::array<std::string_view, 14> words = {"socket",      "binary", "string", "draw",    "vu",
                                                         "mathematica", "hdf5",   "vtk",    "matlab",  "saws",

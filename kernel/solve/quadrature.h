@@ -25,7 +25,7 @@ inline constexpr double inner = 0.13819660112501051518, outer = 1 - 3 * inner;
 /// The rule for integrands that are constant.
 inline constexpr std::array<TetPoint, 1> one_point = {{{{outer, inner, inner, inner}, 1}}};
 
-/// Exact for polynomials of degree 2.
+/// A rule that is exact for polynomials of degree 2.
 inline constexpr std::array<TetPoint, 4> four_points = {{{{outer, inner, inner, inner}, 0.25},
                                                          {{inner, outer, inner, inner}, 0.25},
                                                          {{inner, inner, outer, inner}, 0.25},
@@ -37,7 +37,7 @@ inline constexpr double b = 0.092735250310891226402, b4 = 1 - 3 * b, b_weight = 
 inline constexpr double c = 0.045503704125649649492, c2 = 0.5 - c, c_weight = 0.042546020777081466438;
 }  // namespace of_fourteen
 
-/// Exact for polynomials of degree 5; all inside, with positive weights (walkington2000).
+/// A rule that is exact for polynomials of degree 5; all points are inside, with positive weights (walkington2000).
 inline constexpr std::array<TetPoint, 14> fourteen_points = [] {
     using namespace of_fourteen;
     return std::array<TetPoint, 14>{{{{a4, a, a, a}, a_weight},
@@ -61,7 +61,7 @@ inline constexpr double a = 0.44594849091596488632, a3 = 1 - 2 * a, a_weight = 0
 inline constexpr double b = 0.091576213509770743460, b3 = 1 - 2 * b, b_weight = 0.10995174365532186764;
 }  // namespace of_six
 
-/// Exact for polynomials of degree 4 on a triangle (dunavant1985).
+/// A rule that is exact for polynomials of degree 4 on a triangle (dunavant1985).
 inline constexpr std::array<TrianglePoint, 6> six_points = [] {
     using namespace of_six;
     return std::array<TrianglePoint, 6>{{{{a3, a, a}, a_weight},

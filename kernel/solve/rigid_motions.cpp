@@ -52,7 +52,7 @@ class HeldMotions {
     std::vector<double> products_;
 };
 
-// Returns the motions of bodies, with nothing said of the free ones.
+// Returns the motions of all bodies, without free ones, which are found later.
 std::vector<BodyMotions> motions_of(const FeSpace& space, const SpaceBodies& bodies) {
     std::vector<double> middles(4 * bodies.count, 0), scales(bodies.count, 0);
     for (std::int32_t n = 0; n < space.owned_count(); ++n) {

@@ -1,9 +1,9 @@
 // The order of the stages: read the case and the parts, number the nodes, put the case on them, assemble, solve each
 // case and recover its stresses, add up combinations, write. All ranks go through all stages. Work that one rank may
-// fail at alone, as reading or writing its files, is done in_agreement(), so that all throw alike. Everything that the
-// case and the folder may be refused for is refused before PETSc starts. The stresses of a combination are recovered
-// from the sum of the displacements, since von Mises stresses and errors do not add up. The result is written beside
-// its place and gets that place at the end (io/run_folder.h); if a case does not converge there is none.
+// fail at alone, as reading or writing its files, is done in_agreement(), so that all throw alike. The mesh, the case
+// and the result folder are checked before PETSc starts. The stresses of a combination are recovered from the sum of
+// the displacements, since von Mises stresses and errors do not add up. The result is written beside its place and gets
+// that place at the end (io/run_folder.h); if a case does not converge there is none.
 #include "solve/solve_run.h"
 
 #include <algorithm>
