@@ -1,4 +1,4 @@
-// From cell to cell, from the outside on.
+// A walk through the cells of facets, from the unbounded cell to its neighbours and on to theirs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace kerf {
 
-/// Cells and what is beyond each of their facets. Keeps the reference.
+/// The facets on the boundary of each cell, by which a walk comes to the cells beyond them. Keeps the reference.
 class CellWalk {
  public:
     explicit CellWalk(const Cells& cells) : cells_(cells), first_(cells.count + 2, 0) {
@@ -24,7 +24,8 @@ class CellWalk {
                 facets_[next[cell + 1]++] = static_cast<std::int32_t>(f);
     }
 
-    /// Calls enter(from, facet, to) for each bounded cell once, the cell that one comes from before; O(#F).
+    /// Calls enter(from, facet, to) once for each bounded cell `to`, breadth first; `from` is the unbounded cell, -1,
+    /// or a cell that was entered before. O(#F).
     template <class Enter>
     void run(Enter enter) const {
         std::vector<char> is_seen(cells_.count + 1, 0);
@@ -42,7 +43,8 @@ class CellWalk {
 
  private:
     const Cells& cells_;
-    std::vector<std::int32_t> first_, facets_;  // those of cell c: from first_[c + 1] on
+    std::vector<std::int32_t> first_, facets_;  // the facets of cell c are facets_[first_[c + 1]] to facets_[first_[c +
+                                                // 2]]
 };
 
 }  // namespace kerf

@@ -1,7 +1,8 @@
-// Each facet has two sides. Those that face each other in the wedge between two facets, one after the other around an
-// edge, belong to one cell. What hangs together over edges is a component: one of its sets of sides is its outside, the
-// others are closed by facets of it alone. A point of another component is in at most one of these, so that the outside
-// of a component is joined with the innermost such set around it.
+// Each facet has two sides. Two sides that face each other in the wedge between consecutive facets around an edge
+// belong to one cell, which joins sides to sets. Facets that edges connect form a component. One set of sides of a
+// component is its outside; each other one is closed by facets of the component alone and bounds a cell. The outside of
+// a component is joined with the innermost such set, of other components, around a point of it; it lies in at most one
+// set of each.
 #include "surface/cells.h"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ class CellFinder {
         }
     }
 
-    // Joins the outside of each component with what is around it.
+    // Joins the outside of each component with the cell around it.
     void nest(UnionFind& joined) {
         std::vector<Shell> inner;
         std::vector<std::int32_t> set_of;
@@ -117,7 +118,7 @@ class CellFinder {
             joined.join(outside_[c], around[c] < 0 ? unbounded : set_of[around[c]]);
     }
 
-    // Of the boundaries around each component the innermost, or -1: as in locate_shells(), the first one from the
+    // Returns for each component the innermost boundary around it, or -1: as in locate_shells(), the first one from the
     // smallest box on.
     std::vector<std::int32_t> find_innermost(const std::vector<Shell>& inner,
                                              const std::vector<std::int32_t>& set_of) const {
@@ -154,7 +155,8 @@ class CellFinder {
         }
     }
 
-    // Whether a component lies inside of the facets of another one. Vertices that are its own decide, else midpoints.
+    // Whether a component lies inside of the facets of another one. Vertices that it has alone decide, else midpoints
+    // of edges.
     bool lies_in(std::int32_t component, const Shell& outer) const {
         constexpr int most_points = 24;
         int left = most_points;

@@ -11,39 +11,41 @@
 namespace kerf {
 
 struct Cells {
-    std::vector<FacetSides> sides;  ///< #F; the cells in front of each facet and behind it; -1: the unbounded one
-    std::int32_t count = 0;         ///< bounded ones
+    std::vector<FacetSides> sides;  ///< #F; the cells in front of each facet and behind it, -1 for the unbounded cell
+    std::int32_t count = 0;         ///< number of bounded cells
 };
 
-/// Cells of conforming facets: each is there once, any number of them may meet at an edge or a vertex, and they meet
-/// nowhere else. Cells that touch at edges or vertices only are two; one with cells inside of it has their outer facets
-/// on its boundary, too. A facet that ends nothing has one cell on both sides. Numbered by their smallest facets, of
-/// these the front first. Nothing is returned if facets lie on one another or have no area; other facets that do not
-/// conform give some cells or other, whose facets close.
+/// Finds the cells into which conforming facets divide space. Facets conform if each is there once and they meet in
+/// common edges and vertices only; any number of them may meet at an edge or a vertex. Cells that touch only at edges
+/// or vertices are different cells; a cell with others inside of it has their outer facets on its boundary, too. A
+/// facet that closes nothing has the same cell on both sides. Cells are numbered by their smallest facets, the front of
+/// a facet before its back. Returns nothing if facets lie on one another or have no area; facets that fail to conform
+/// in other ways give unspecified cells, whose facets close.
 ///
-/// Exact signs decide which sides face each other around an edge, and what lies inside of what; where all vertices of
-/// what lies inside are vertices of what is around it, midpoints of edges decide, which are rounded. `facets`: corners
-/// in range and different. O(#F log #F) plus the questions that locate_shells() asks, of what hangs together over
-/// edges. Deterministic.
+/// Exact signs decide which sides face each other around an edge, and which component lies inside of which; where all
+/// vertices of the inner component are vertices of the outer one, midpoints of edges decide, which are rounded. The
+/// corners of `facets` must be in range and different. O(#F log #F) plus the questions that locate_shells() asks, once
+/// for each set of facets that edges connect. Deterministic.
 std::optional<Cells> find_cells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 
-/// The volume of each cell, what lies inside of it left out. O(#F).
+/// Returns the volume of each cell, without the volume of cells inside of it. O(#F).
 std::vector<double> cell_volumes(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                  const Cells& cells);
 
-/// Where points lie among cells. Keeps a reference to the vertices. Not for several threads.
+/// Finds the cell that contains a point. Keeps a reference to the vertices. Not for several threads.
 class CellLocator {
  public:
     CellLocator(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const Cells& cells);
 
-    /// The number of the cell, -1: the unbounded one; nothing if the point lies on the boundary of a cell. Exact.
-    /// O(log #cells), and a question to each cell whose box contains the point, see encloses().
+    /// Returns the number of the cell that contains the point, -1 for the unbounded one, or nothing if the point lies
+    /// on the boundary of a cell. Exact. O(log #cells), and a question to each cell whose box contains the point, see
+    /// encloses().
     std::optional<std::int32_t> find(const Vec3& point) const;
 
  private:
     const std::vector<Vec3>& vertices_;
     std::vector<Shell> shells_;
-    BoxTree boxes_;  // of these
+    BoxTree boxes_;  // of the shells
 };
 
 }  // namespace kerf

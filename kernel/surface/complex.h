@@ -1,4 +1,4 @@
-// Closed bodies that share walls: what is cut.
+// Closed bodies that share walls: the input of the decomposition.
 #pragma once
 
 #include <span>
@@ -18,16 +18,16 @@ namespace kerf {
 class Complex {
  public:
     Complex() = default;
-    /// One region without a name, which has this surface. Copies no half-edges.
+    /// A complex of one region without a name, bounded by this surface. Copies no half-edges.
     explicit Complex(Surface surface);
-    /// Several regions. `sides`: of each facet, by the numbers of `region_names`. Throws Error(input), naming region
-    /// and place, for a facet with the same on both sides, a region without facets, and one whose facets do not close.
-    /// A single region loses its name: it is the complex of its surface, and Error(input) is thrown where that touches
-    /// itself. O(#F log #F).
+    /// A complex of several regions. `sides` has the regions beside each facet, as indices into `region_names`. Throws
+    /// Error(input), naming region and place, for a facet with the same region on both sides, a region without facets,
+    /// and a region whose facets do not close. A single region loses its name: the complex is that of its surface, and
+    /// Error(input) is thrown where the surface touches itself. O(#F log #F).
     Complex(SurfaceArrays facets, std::vector<FacetSides> sides, std::vector<std::string> region_names);
 
     std::int32_t region_count() const { return names_.empty() ? 1 : static_cast<std::int32_t>(names_.size()); }
-    /// Of all regions; empty if there is one, which needs no name.
+    /// The names of the regions; empty if there is only one, which needs no name.
     std::span<const std::string> region_names() const { return names_; }
     std::int32_t vertex_count() const;
     std::int32_t facet_count() const;
@@ -36,28 +36,29 @@ class Complex {
     Triangle vertices(std::int32_t facet) const;
     std::int32_t patch(std::int32_t facet) const;
     FacetSides sides(std::int32_t facet) const { return sides_.empty() ? FacetSides{} : sides_[facet]; }
-    /// Of all facets; empty if there is one region, whose facets have it behind them.
+    /// The sides of all facets; empty if there is one region, which then lies behind every facet.
     std::span<const FacetSides> all_sides() const { return sides_; }
 
-    /// The surface of the one region; the complex is empty then.
+    /// Moves the surface of the only region out and leaves the complex empty.
     Surface take_only_region();
-    /// All facets, each once, as the complex has them. O(#F).
+    /// Returns all facets, each once and turned as in the complex. O(#F).
     SurfaceArrays arrays() const;
-    /// The facets of a region turned outwards, and their vertices, both in the order of the complex with their keys.
-    /// Where the region touches itself, more than two facets meet in an edge, or several fans of them in a vertex.
-    /// O(n log n), n: facets of the region.
+    /// Returns the facets of a region, turned outwards, and their vertices, both in the order of the complex and with
+    /// their keys. Where the region touches itself, more than two facets meet in an edge, or several fans of them in a
+    /// vertex. O(n log n) for n facets of the region.
     SurfaceArrays arrays_of(RegionIndex region) const;
-    /// The closed surface of a region: where it touches itself each fan of facets has a vertex of its own, with the
-    /// same key. O(1) for one region, else as arrays_of().
+    /// Returns the closed surface of a region: where it touches itself, each fan of facets has a vertex of its own with
+    /// the same key. O(1) for one region, else as arrays_of().
     Surface surface_of(RegionIndex region) const;
-    /// Where regions touch without a wall between them; none where there is one region. O(#V + #F).
+    /// Returns the vertices and edges at which regions may touch without a wall between them; none if there is one
+    /// region. O(#V + #F).
     Contacts find_contacts() const;
 
  private:
     void find_facets_of_regions();
     void become_only_region();
 
-    Surface only_;  // if there is one region; else what follows
+    Surface only_;  // used if there is one region, else the members below are
     SurfaceArrays facets_;
     std::vector<FacetSides> sides_;
     std::vector<std::string> names_;

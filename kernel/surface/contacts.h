@@ -1,4 +1,4 @@
-// Where bodies touch without a facet between them.
+// Vertices and edges at which bodies touch without having a facet in common.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace kerf {
 
-/// Vertices and edges at which bodies may touch that have no facet in common there: outside of all of them lies
-/// between. Ascending, each once.
+/// Vertices and edges at which bodies may touch without a common facet: several wedges of the outside meet there.
+/// Ascending, each once.
 struct Contacts {
-    std::vector<Key> vertices;              ///< the ends of the edges are among them
+    std::vector<Key> vertices;              ///< include the ends of `edges`
     std::vector<std::array<Key, 2>> edges;  ///< the smaller key first
 
     bool empty() const { return vertices.empty(); }
@@ -20,8 +20,8 @@ struct Contacts {
     bool has(Key a, Key b) const;
 };
 
-/// Of all facets that have outside on one side: an edge with more than two of them, and a vertex at which they form
-/// several fans. `outer`: these facets. `key`: #V. O(#V + #F).
+/// Finds the edges at which more than two facets of `outer` meet, and the vertices at which they form several fans.
+/// `outer` holds the facets that have the outside on one side, `key` the key of each vertex (#V). O(#V + #F).
 Contacts find_contacts(const std::vector<Triangle>& outer, std::span<const Key> key);
 
 }  // namespace kerf

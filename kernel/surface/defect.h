@@ -1,4 +1,4 @@
-// One thing that is wrong with a triangle soup, with the numbers of the offenders.
+// A single defect of a triangle soup, with the numbers of its facets and vertices.
 #pragma once
 
 #include <cstdint>
@@ -56,25 +56,25 @@ struct Defect {
 const char* name(DefectKind kind);
 const char* name(Severity severity);
 
-/// What to do about it, in the imperative: "remove the copies"; or that repairs do it.
+/// Returns the way to mend the defect, in the imperative ("remove the copies"), or a note that repairs mend it.
 const char* advice(const Defect& defect);
 
-/// "3 open edge loops", "1 needle".
+/// Returns the number with the name of the kind: "3 open edge loops", "1 needle".
 std::string counted(std::int64_t n, DefectKind kind);
 
-/// Whether it lies between two bodies, Defect::measure being a distance.
+/// Whether the defect lies between two bodies, so that Defect::measure is a distance.
 bool is_between_bodies(const Defect& defect);
 
-/// In the order of kinds, then of first facets.
+/// Sorts by kind, then by first facet; stable.
 void sort_defects(std::vector<Defect>& defects);
 
-/// Where it is, as one phrase: "facets 3, 8, vertex 4 near (0, 0, 1)", "facets 3, 8 of 'bone' and 'cement', up to 0.01
-/// apart near (0, 0, 1)". Facets have the numbers that the file gives them
-/// (Soup::polygon), counted from 0; vertices those that the file gives them (Soup::vertex_number).
+/// Returns the place of the defect as a phrase: "facets 3, 8, vertex 4 near (0, 0, 1)", "facets 3, 8 of 'bone' and
+/// 'cement', up to 0.01 apart near (0, 0, 1)". Facets and vertices have the numbers of the file (Soup::polygon,
+/// Soup::vertex_number), counted from 0.
 std::string place(const Defect& defect, const Soup& soup);
 
-/// Its facets, and its vertices or the edge that they are, with the numbers that place() tells and the names of
-/// patches.
+/// Returns the facets of the defect, with the names of their patches, and its vertices or its edge, all with the
+/// numbers that place() gives.
 std::vector<ErrorElements> elements_of(const Defect& defect, const Soup& soup);
 
 }  // namespace kerf

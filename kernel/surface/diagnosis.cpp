@@ -1,5 +1,8 @@
-// Checks in the order of DefectKind. Facets that repairs leave out are left out of the checks that follow, so that what
-// is listed is what is there after the repairs. Everything is found by sorting and by exact predicates.
+// The checks follow each other in the order of DefectKind. Facets that repairs leave out are ignored by all later
+// checks, so that these list the defects that are there after the repairs. Everything is found by sorting and by exact
+// predicates, so that the list depends neither on threads nor on rounding. `unbounded_` marks vertices whose
+// coordinates no predicate can work with, `ignored_` facets left out, `no_area_` facets that only the checks of edges
+// look at.
 #include "surface/diagnosis.h"
 
 #include <algorithm>
@@ -240,7 +243,7 @@ void Examination::find_misplaced_shells(const std::vector<ShellPlace>& shells) {
     }
 }
 
-// The middle of what the bounding boxes of two facets have in common.
+// The middle of the intersection of the bounding boxes of two facets.
 Vec3 common_place(const Soup& soup, const Triangle& s, const Triangle& t) {
     return box_around(soup.vertices, s).intersection(box_around(soup.vertices, t)).center();
 }
@@ -256,7 +259,7 @@ bool are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& c
     return nested_shells_are_apart(vertices, consistent, shell_of_facet, parent);
 }
 
-// What one body is bounded by: its shells and how they lie.
+// The shells that bound one body, and their places.
 void Examination::find_shells() {
     const FacetShells shells = find_facet_shells(facets(), partner_);
     std::vector<Triangle> turned;  // a copy only where facets differ

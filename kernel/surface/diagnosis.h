@@ -12,7 +12,8 @@
 
 namespace kerf {
 
-/// A shell inside another one that is turned like it may be a second body or a void: refused, or taken as a void.
+/// Treatment of a shell inside another one that is turned like it, which may be a second body or a void: refused
+/// (`as_given`), or taken as a void (`parity`).
 enum class Voids { as_given, parity };
 
 struct DiagnosisOptions {
@@ -20,31 +21,32 @@ struct DiagnosisOptions {
     double needle_angle_deg = 1;  ///< facets with a smaller angle are needles
 };
 
-/// Defects ordered by kind, then by first facet.
+/// The defects of a soup, ordered by kind, then by first facet.
 struct Diagnosis {
     std::vector<Defect> defects;
-    std::array<std::int64_t, defect_kind_count> counts = {};  ///< found of each kind; more than listed of some
-    std::vector<char> dropped;                                ///< #F; facets that repairs leave out. Empty: none
-    /// What turns the soup, where it is known: of a surface of one body that is clean, and as it is.
+    std::array<std::int64_t, defect_kind_count> counts = {};  ///< defects found of each kind, of which not all need be
+                                                              ///< listed
+    std::vector<char> dropped;                                ///< #F; 1: a facet that repairs leave out. Empty: none
+    /// The facets to be turned outwards. Known only for a clean surface of a single body.
     std::optional<Orientation> orientation = {};
 
-    /// The surface can be meshed, after repairs.
+    /// Whether the surface can be meshed, after repairs.
     bool clean() const;
     std::int64_t count(DefectKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
-    /// One sentence: the most fundamental error, how many, the first with numbers and coordinates, and what to do.
+    /// Returns one sentence: the most fundamental error, how many there are of it, the first of them with numbers and
+    /// coordinates, and the way to mend it.
     std::string summary(const Soup& soup) const;
-    /// The elements of all errors of that kind, in their order.
+    /// Returns the facets and vertices of all errors of the kind that summary() names, in their order.
     std::vector<ErrorElements> elements(const Soup& soup) const;
 };
 
-/// Finds all defects in one pass, each check on what it can work with: edges on facets without repeated vertices,
-/// intersections on those with an area. Shells are located only where the surface is otherwise a closed manifold. All
-/// decisions about topology and intersections are exact. Where the soup says what lies on the sides of its facets, a
-/// Complex tells whether its regions close. `soup`: its numbers in range; welded, without unused vertices;
-/// Soup::polygon ascending. At most 10,000
-/// self-intersections, and the 1000 worst needles and shortest edges, are listed. O(#F log #F), on threads, with the
-/// same result for any number of them. Beside the soup some 20 B a facet at the end, and 40 B on the way there, without
-/// what find_self_intersections() needs.
+/// Finds all defects in one pass. Each check looks at the facets that it can work with: that of edges at facets without
+/// repeated vertices, that of intersections at facets with an area. Shells are located only where the surface is
+/// otherwise a closed manifold. All decisions about topology and intersections are exact. Where the soup has
+/// Soup::sides, a Complex tells whether its regions close. `soup`: numbers in range; welded, without unused vertices;
+/// Soup::polygon ascending. At most 10,000 self-intersections, and the 1000 worst needles and shortest edges, are
+/// listed. O(#F log #F), on threads, with the same result for any number of them. Takes some 20 B a facet at the end
+/// and 40 B before, beside the soup and the memory of find_self_intersections().
 Diagnosis diagnose(const Soup& soup, const DiagnosisOptions& options = {});
 
 }  // namespace kerf

@@ -1,3 +1,8 @@
+// From facets to cells to walls. Copies of a facet, whichever way they are turned, are found by sorting facets by their
+// sorted corners; the first stands for all of them, because find_cells() takes no copies. Once the cells have regions,
+// a facet is a wall if these differ on its sides; it is turned so that the smaller number, and never the outside, -1,
+// is behind it. All other facets and all copies are dropped and counted in notes.
+
 #include "surface/divided_space.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// A counting sort by the smaller end vertex; within such a bucket (six entries on average) those with the same larger
-// end are at one edge. No hashing, so the order of edges, and with it everything that follows, depends on the input
+// A counting sort by the smaller end vertex; within such a bucket (six entries on average) corners with the same larger
+// end are at one edge. There is no hashing, so the order of edges, and all that follows from it, depends on the input
 // alone. Partners are found for a range of smaller ends at a time, in the blocks of facets that have such ends: files
-// number vertices as facets come, so that each range has few blocks, and what is sorted stays in the cache.
+// number vertices as facets come, so that each range has few blocks, and the entries to be sorted stay in the cache.
 #include "surface/edge_corners.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Whether pieces of a facet are the facet.
+// The test whether pieces of a facet cover it.
 #pragma once
 
 #include <array>

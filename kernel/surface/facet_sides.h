@@ -1,11 +1,11 @@
-// What lies on the two sides of a facet.
+// The regions on the two sides of a facet.
 #pragma once
 
 #include <cstdint>
 
 namespace kerf {
 
-/// The regions that a facet separates, by their numbers; -1: outside of all of them.
+/// The numbers of the two regions that a facet separates; -1: outside of all regions.
 struct FacetSides {
     std::int32_t front = -1;  ///< where its normal points to
     std::int32_t back = 0;

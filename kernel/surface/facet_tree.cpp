@@ -1,3 +1,10 @@
+// Trees of facets that survive vertices of many facets (facet_tree.h). A fan is the set of facets at an apex of at
+// least `least_of_fan` facets; a facet at several of these is in the fan of the vertex of the highest degree. A node of
+// a FanTree has, beside the box of its facets, a box around their unit directions from the apex. A facet g in question
+// is seen from the apex within a ViewCone of at most four half-spaces, given by inward normals: a node may be left out
+// if its directions lie outside of one of them. All this is computed in doubles; a side counts only if it is certain,
+// by more than `least_sure`, so that rounding adds pairs but loses none.
+
 #include "surface/facet_tree.h"
 
 #include <algorithm>
@@ -15,7 +22,8 @@ Vec3 unit_towards(const Vec3& from, const Vec3& to) {
     return (d / d.cwiseAbs().maxCoeff()).normalized();
 }
 
-// All directions of the facet's sector: an arc stands off its chord by what is left to the unit sphere in its middle.
+// Returns a box around all unit directions in the facet's sector: the arc between the two end directions lies within
+// the sagitta of its chord.
 Box directions_of(const std::vector<Vec3>& vertices, const Triangle& facet, std::int32_t apex) {
     std::array<Vec3, 2> ends;
     std::size_t count = 0;

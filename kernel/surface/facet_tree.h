@@ -1,9 +1,9 @@
-// Pairs of facets that may meet, in n log n also where many facets have one vertex.
+// A search for pairs of facets that may meet, in O(n log n) also where many facets share one vertex.
 //
-// Boxes tell which facets may meet, but those of the facets at one vertex all do. Two facets at a vertex meet beyond it
-// if and only if there is a direction from it in which both lie. So facets at a vertex of many, a fan, are in a tree of
-// their own, by their directions from there, and each other facet asks it for those in the directions in which it is
-// seen itself. All others are in one OverlapTree.
+// Boxes tell which facets may meet, but the boxes of all facets at one vertex meet there. Two facets at a vertex meet
+// beyond it if and only if both lie in some common direction from it. So the facets at a vertex of many, a fan, are in
+// a tree of their own, by their directions from that vertex, and each other facet is compared with those that lie in
+// the directions in which it is seen from there. All facets of no fan are in one OverlapTree.
 #pragma once
 
 #include <array>
@@ -20,12 +20,13 @@
 
 namespace kerf {
 
-/// Half-spaces through a point that hold all directions from there to a facet; of one at the point itself, its sector.
+/// Half-spaces through an apex that hold all directions from it to a facet; for a facet with a corner there, all
+/// directions of its sector.
 class ViewCone {
  public:
     ViewCone(const std::vector<Vec3>& vertices, const Triangle& facet, std::int32_t apex);
 
-    /// Whether no direction to the facet is in this box of unit vectors for sure.
+    /// Whether certainly no direction to the facet is in this box of unit vectors.
     bool misses(const Box& directions) const;
 
  private:
@@ -35,7 +36,7 @@ class ViewCone {
     std::size_t count_ = 0;
 };
 
-/// Facets at one vertex. Keeps references.
+/// A tree of the facets at one vertex, by boxes and directions. Keeps references.
 class FanTree {
  public:
     /// `fan`: facets with the corner `apex`.
@@ -44,8 +45,8 @@ class FanTree {
 
     Box box() const { return tree_.nodes().front().box; }
 
-    /// Calls visit(f) for the facets of the fan that may meet the facet g beyond the apex, or at the apex where g lies
-    /// on it without having it, until it returns true. Returns whether it did.
+    /// Calls visit(f) for the facets of the fan that may meet facet g beyond the apex, or at the apex if g lies on it
+    /// without having it as a corner, until visit returns true. Returns whether it did.
     template <class Visit>
     bool any_near(std::int32_t g, const Visit& visit) const {
         const ViewCone cone(vertices_, facets_[g], apex_);
@@ -73,22 +74,22 @@ class FanTree {
     BoxHierarchy<Node> tree_;
 };
 
-/// A tree of facets. Keeps references. Built in O(n log n) on threads, of which it does not depend.
+/// A tree of facets. Keeps references. Built in O(n log n) on threads, with the same result for any number of them.
 class FacetTree {
  public:
-    static constexpr std::int32_t least_of_fan = 256;  ///< facets at a vertex: fewer are quicker found by their boxes
+    static constexpr std::int32_t least_of_fan = 256;  ///< facets at a vertex; fewer are found faster by their boxes
 
-    /// Of all facets.
+    /// A tree of all facets.
     FacetTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
-    /// Of some of them, ascending.
+    /// A tree of the `chosen` facets, ascending.
     FacetTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
               const std::vector<std::int32_t>& chosen);
 
-    /// Units of work, for any_pair().
+    /// The number of units of work, for any_pair().
     std::size_t unit_count() const { return tree_.leaf_count() + (fans_.empty() ? 0 : facets_.size()); }
 
-    /// Of a tree of all facets: calls visit(f, g) for pairs that may meet, until it returns true. Returns whether it
-    /// did. All units give each pair once, in an order that depends on the facets alone.
+    /// Calls visit(f, g) for the pairs of these units that may meet, until it returns true. Returns whether it did. All
+    /// units together give each pair once, in an order that depends on the facets alone. Only for a tree of all facets.
     template <class Visit>
     bool any_pair(const IndexRange& units, const Visit& visit) const {
         const std::size_t leaves = tree_.leaf_count();
@@ -107,8 +108,8 @@ class FacetTree {
         return false;
     }
 
-    /// Calls visit(f) for the facets of the tree that may meet the facet g, itself among them, until it returns true.
-    /// Returns whether it did. The same order every time.
+    /// Calls visit(f) for the facets of the tree that may meet facet g, g itself included, until it returns true.
+    /// Returns whether it did. The order is the same every time.
     template <class Visit>
     bool any_near(std::int32_t g, const Visit& visit) const {
         return tree_.any_meeting(box_around(vertices_, facets_[g]), [&](auto i) { return visit(plain(i)); }) ||
@@ -121,7 +122,7 @@ class FacetTree {
     bool any_fan_near(std::int32_t g, const Visit& visit) const {
         return !fans_.empty() && fan_tree_.any_meeting(box_around(vertices_, facets_[g]), visit);
     }
-    // What is left of `chosen` is not in a fan.
+    // Moves the facets at vertices of many from `chosen` into fans.
     void make_fans(std::vector<std::int32_t>& chosen);
 
     const std::vector<Vec3>& vertices_;
@@ -129,7 +130,7 @@ class FacetTree {
     std::vector<std::int32_t> plain_;   // facets of no fan, by items of the tree; empty: all facets in their order
     std::vector<std::int32_t> fan_of_;  // per facet, -1: none; empty if there is no fan
     std::vector<FanTree> fans_;
-    OverlapTree tree_, fan_tree_;  // of these facets; of the fans
+    OverlapTree tree_, fan_tree_;  // of the facets of no fan; of the fans
 };
 
 }  // namespace kerf

@@ -1,6 +1,6 @@
-// The facet is projected by leaving out the coordinate along which its normal is longest: what is left are numbers of
-// the file, so that corners on a straight line stay on one. All corners become vertices, then all edges constraints.
-// What can be reached from infinity, or from a hole point, without crossing a constraint is outside.
+// The facet is projected by leaving out the coordinate along which its normal is longest: the others are numbers of the
+// file, so that corners on a straight line stay on one. All corners become vertices, then all edges constraints.
+// Triangles that can be reached from infinity, or from a hole point, without crossing a constraint are outside.
 #include "surface/facet_triangulation.h"
 
 #include <algorithm>

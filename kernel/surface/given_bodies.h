@@ -1,4 +1,4 @@
-// Closed bodies that are meshed together, while they are not known to be regions yet.
+// Closed bodies that are meshed together, before they are known to be regions.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +9,29 @@
 
 namespace kerf {
 
-/// Who each facet of a soup belongs to.
+/// The body that each facet of a soup belongs to.
 struct GivenBodies {
-    std::vector<std::int32_t> of_facet;  ///< #F; numbers of `names`
+    std::vector<std::int32_t> of_facet;  ///< #F; index into `names`
     std::vector<std::string> names;
 };
 
-/// The patches of a soup, if each of them that has facets is closed by itself: an even number of its facets is at every
-/// edge. Else nothing, and where there is only one. O(#F log #F).
+/// Makes each patch a body, if there are several and each of them that has facets is closed by itself: an even number
+/// of its facets meets at every edge. Returns nothing otherwise. O(#F log #F).
 GivenBodies closed_patches(const Soup& soup);
 
-/// Patches that have vertices in common are one body, called as the first of them. Of closed bodies that are apart
-/// these are the bodies. O(#V + #F).
+/// Joins patches with common vertices to one body, which has the name of the first of them. Closed bodies that are
+/// apart are told from each other in this way. O(#V + #F).
 GivenBodies separate_patches(const Soup& soup);
 
-/// Everything that is wrong with each body alone, as diagnose() finds it, Defect::bodies naming it; and, if these can
-/// be meshed, where two of them overlap or have unlike facets in one place (surface/wall_mismatch.h). Requires what
-/// diagnose() does.
+/// Finds the defects of each body alone, as diagnose() does, with its name in Defect::bodies; and, if none of these
+/// keeps a body from being meshed, the places where two bodies overlap or have unlike facets (surface/wall_mismatch.h).
+/// Requirements as diagnose().
 Diagnosis diagnose_bodies(const Soup& soup, const GivenBodies& bodies, const DiagnosisOptions& options = {});
 
-/// Adds where two regions, by Soup::sides, or two of `bodies` without them, are a hundredth of their facets apart, or
-/// less: that is a warning; an error below 1e-4, which is what rounding leaves of a common wall. `soup`: without
-/// errors; normals point out of the bodies. `facet_number`: of its facets, in the soup of the diagnosis; empty: the
-/// same. Cost as find_gaps().
+/// Adds the places where two regions (by Soup::sides), or two of `bodies` without sides, are at most a hundredth of a
+/// facet's longest edge apart. A gap is a warning; up to 1e-4, which rounding leaves of a common wall, it is an error.
+/// `soup`: without errors; normals point out of the bodies. `facet_number`: the number of each facet in the soup of the
+/// diagnosis; empty if they agree. Cost as find_gaps().
 void add_gaps(Diagnosis& diagnosis, const Soup& soup, const GivenBodies& bodies,
               const std::vector<std::int32_t>& facet_number = {});
 

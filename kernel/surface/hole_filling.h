@@ -1,4 +1,4 @@
-// Small holes of an open surface.
+// The filling of small holes in an open surface.
 #pragma once
 
 #include "surface/soup.h"

@@ -7,10 +7,10 @@
 
 namespace kerf {
 
-/// Triangles over positions in a closed rim, in its direction; empty if there are none. Of all triangulations of its
-/// vertices the one whose largest angle between neighbours is the smallest, then that of the least area (Liepa 2003),
-/// by CGAL. `apexes`: of the facet at each edge its third corner, with which the angles at the rim count, too; none if
-/// empty. O(n^3) at worst. Deterministic.
+/// Returns triangles over positions in a closed rim, in its direction, or none if there is no triangulation. Of all
+/// triangulations of the rim's vertices it is that whose largest angle between neighbours is smallest, and of these
+/// that of the least area (Liepa 2003, liepa2003), by CGAL. `apexes`: the third corner of the facet at each edge of the
+/// rim, so that the angles at the rim count, too; if empty, they do not. O(n^3) at worst. Deterministic.
 std::vector<Triangle> triangulate_hole(const std::vector<Vec3>& rim, const std::vector<Vec3>& apexes);
 
 }  // namespace kerf

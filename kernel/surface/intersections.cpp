@@ -4,7 +4,7 @@
 // exact; at least one of them maps the plane one to one, hence sets of one plane meet if and only if all three
 // projections do.
 //
-// What the triangles share by number leaves less to test:
+// Vertices that the triangles share by number leave less to test:
 //   a vertex a: apart from a they meet if and only if the edge opposite to a of one meets the other triangle;
 //   an edge ab: if and only if they are coplanar with the third vertices c and d on the same side of ab.
 //

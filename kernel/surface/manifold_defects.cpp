@@ -1,5 +1,6 @@
-// Corners whose edge has two facets are partners, if they are opposite. At what is left are the defects of edges; a
-// vertex is proven to have one fan by going around it.
+// The two corners of an edge with two facets are partners if they are opposite to each other. Every other edge is a
+// defect. A vertex is proven to have one fan by going around it over partners: if that does not meet all corners at the
+// vertex, there is another fan.
 #include "surface/manifold_defects.h"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ std::vector<std::int32_t> sizes_of_fans(const std::vector<Triangle>& facets, con
 // Facets around a vertex that are joined over proper edges form one fan at a manifold vertex.
 void find_vertex_defects(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner,
                          const std::vector<VertexCheck>& check, std::vector<ManifoldDefect>& defects) {
-    // What is left of the corners of a vertex where those of one fan are taken away.
+    // The corners of a vertex that remain when those of one fan are taken away.
     std::size_t corners = 0;
     std::vector<std::int32_t> rest = sizes_of_fans(facets, partner, check, corners);
     if (std::accumulate(rest.begin(), rest.end(), std::size_t{0}) == corners) return;

@@ -1,5 +1,5 @@
-// Vertices carry unit mass, as in Ivanov's decomposition: the inertia then follows the mesh density, and with it the
-// work. Notation: p vertices, c centroid, I inertia = sum |p - c|^2 E - (p - c)(p - c)^T.
+// Vertices carry unit mass (Ivanov, Andrä and Kudryavtsev 2006, ivanov2006): the inertia then follows the density of
+// the mesh, and with it the work. Notation: p vertices, c centroid, I inertia = sum |p - c|^2 E - (p - c)(p - c)^T.
 #include "surface/mass_properties.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class VolumeSum {
     long double sum_ = 0;
 };
 
-// What rounding may have made of that sum; corners relative to the origin of the sum, as they are rounded.
+// The rounding error of that sum; corners are relative to the origin of the sum, as they are rounded.
 class VolumeErrorSum {
  public:
     void add(const Vec3& a, const Vec3& b, const Vec3& c) {

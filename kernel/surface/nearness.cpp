@@ -1,3 +1,13 @@
+// The proof of Nearness::holds(): a stack of convex polygons, beginning with the triangle in question. A polygon is
+// done when all its corners are within the limit of one facet, as the distance to a convex set is convex. Otherwise it
+// is cut along the three planes that stand on the sides of the facet below its centre; the pieces outside begin with
+// the neighbours as their facets `near`. A polygon much longer than the facet below it, or one that this does not
+// divide, is halved across its longest extent. Pieces thinner than `thinnest` of the limit are none, which is what
+// stops the division at common edges. The proof gives up on a polygon with a corner that is near no facet, and on
+// pieces too small to be divided.
+// A frame has the directions of a facet: its normal, and for each edge the unit vector in its plane that points out of
+// it. Those of needles are noise, so the distance to a needle is computed by its edges.
+
 #include "surface/nearness.h"
 
 #include <algorithm>

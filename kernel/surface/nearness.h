@@ -1,4 +1,4 @@
-// Whether all of a triangle is near a surface: proven, not sampled.
+// A proof, instead of a sampling, that all of a triangle is near a surface.
 #pragma once
 
 #include <algorithm>
@@ -11,20 +11,22 @@
 
 namespace kerf {
 
-/// The distance to a convex set is a convex function, so a polygon is as near to a triangle as its corners are. What
-/// does not lie near one triangle of the surface as a whole is divided along the sides of the triangle below it. Right
-/// up to the rounding of these divisions, some 1e-15 of the coordinates; so is directed_distance().
+/// Proves that triangles are near a surface. The distance to a convex set is a convex function, so a polygon is as near
+/// to a triangle as its corners are. A polygon that is not near one triangle of the surface as a whole is divided along
+/// the sides of the triangle below it. Right up to the rounding of these divisions, some 1e-15 of the coordinates; so
+/// is directed_distance().
 ///
-/// Has scratch memory: one for each thread.
+/// Holds scratch memory: each thread needs its own.
 class Nearness {
  public:
-    /// Keeps the reference. `facets`: those of the tree. O(#F).
+    /// Keeps the reference. `facets` are the facets of the tree. O(#F).
     Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets);
 
-    /// Whether every point of triangle `t` is within limit(f) of some facet f of the surface; limit(f) is negative for
-    /// facets that do not count, and `largest_limit` not less than any. False, too, if that takes more than `steps`
-    /// divisions, or where it is nearly not so, by a thousandth of the limit. `hint` is a facet to begin with, -1 for
-    /// none, and the one met last. O(log #F) where `t` is about as large as the facets below it.
+    /// Whether every point of triangle `t` is within limit(f) of some facet f of the surface. limit(f) is negative for
+    /// facets that do not count, and `largest_limit` at least as large as any limit. Also false if the proof takes more
+    /// than `steps` divisions, or if the triangle is nearly too far, within a thousandth of the limit. `hint` is a
+    /// facet to begin with, -1 for none, and becomes the facet met last. O(log #F) if `t` is about as large as the
+    /// facets below it.
     template <class Limit>
     bool holds(const std::array<Vec3, 3>& t, double largest_limit, Limit limit, int steps, std::int32_t& hint) {
         open_.clear();
@@ -61,11 +63,12 @@ class Nearness {
         return true;
     }
 
-    /// The facet that p lies over, from facet `start` on from neighbour to neighbour; -1: none, or not found that way.
+    /// Returns the facet that p lies over, found by walking from neighbour to neighbour, or -1 if there is none or the
+    /// walk does not find it.
     std::int32_t facet_below(const Vec3& p, std::int32_t start) const;
 
-    /// A bound on what holds() has found near since this was made: no point is further away, and some corner of a
-    /// division is as far from the facet that it was compared with.
+    /// An upper bound on the distance from the surface of all that holds() has found near so far. It is attained: some
+    /// corner of a division is as far from the facet that it was compared with.
     double directed_distance() const { return std::sqrt(squared_distance_); }
 
  private:
@@ -73,14 +76,15 @@ class Nearness {
         static constexpr int most_corners = 12;
         std::array<Vec3, most_corners> corners;
         int count = 0;
-        std::int32_t near = -1;  // a facet that may be
+        std::int32_t near = -1;  // a facet that may be near, or -1
 
         Vec3 centre() const;
-        /// Whether there was room.
+        /// Returns false if there is no room for the corner.
         bool add(const Vec3& corner);
     };
 
-    /// The facets closest to a point, `distance` away, of those that count: several beside an edge or a vertex.
+    /// Finds the facets that count and are closest to a point, `distance` away; there are several beside an edge or a
+    /// vertex.
     template <class Limit>
     void find_beside(const Vec3& p, double distance, double largest_limit, Limit limit) {
         constexpr double as_close = 1 + 1e-6, next_to_nothing = 1e-6;  // of the distance, of the limit
@@ -96,8 +100,7 @@ class Nearness {
                 return !beside_.empty();
             });
     }
-    /// Whether some corner is near no facet: what has such a one is not worth being divided. `facet` is looked at
-    /// first.
+    /// Whether some corner is near no facet, so that dividing the polygon is not worth while. `facet` is tried first.
     template <class Limit>
     bool has_far_corner(const Polygon& p, std::int32_t facet, double largest_limit, Limit limit) const {
         const auto is_near = [&](std::int32_t f, double squared) {
@@ -110,25 +113,25 @@ class Nearness {
         });
     }
     bool is_within(const Polygon& p, std::int32_t facet, double limit);
-    /// Puts pieces of p in its place, what is over the facet and what is not; false if that divides nothing.
+    /// Replaces p by its pieces over the facet and beside it; false if there is only one.
     bool divide(const Polygon& p, std::int32_t facet, double limit);
-    /// Across its longest way; false if it is too small.
+    /// Halves p across its longest extent; false if it is too small.
     bool halve(const Polygon& p, double limit);
-    /// The squared distance of a facet, by its frame where p lies over it.
+    /// Returns the squared distance of p from a facet, by the facet's frame where p lies over it.
     double squared_distance(const Vec3& p, std::int32_t facet) const {
         const Frame& frame = frames_[facet];
         if (frame.is_needle || !frame.has_below(p)) return surface_.squared_distance_to(p, facet);
         const double height = frame.normal.dot(p - frame.corners[0]);
         return height * height;
     }
-    /// The pieces below and above a plane, if any; false without room. `normal` is as long as the inverse of a length
-    /// that counts as nothing.
+    /// Cuts p into its pieces below and above a plane, of which one may be empty; false if there is no room. `normal`
+    /// has the inverse of a length that counts as zero as its own length.
     static bool cut(const Polygon& p, const Vec3& origin, const Vec3& normal, Polygon& below, Polygon& above);
 
-    struct Frame {                              // of a facet
-        std::array<Vec3, 3> corners, outwards;  // across the edges from the corners, of length 1
-        Vec3 normal;                            // of length 1
-        bool is_needle;                         // the directions are noise
+    struct Frame {                              // the directions of a facet
+        std::array<Vec3, 3> corners, outwards;  // across the edges from the corners, unit length
+        Vec3 normal;                            // unit length
+        bool is_needle;                         // so flat that its directions are noise
 
         bool has_below(const Vec3& p) const {
             return outwards[0].dot(p - corners[0]) <= 0 && outwards[1].dot(p - corners[1]) <= 0 &&

@@ -60,7 +60,7 @@ class LoopTracer {
     }
 
  private:
-    // Where the path comes back to a vertex of its own, the loop is cut off; what is left when it ends is a chain.
+    // Where the path comes back to a vertex of its own, the loop is cut off; the rest is a chain when the path ends.
     void trace(std::size_t first) {
         std::vector<std::size_t> path;
         for (std::size_t e = first; e < edges_.size() && !used_[e]; e = next_edge(edges_[e].to)) {

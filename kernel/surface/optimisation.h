@@ -1,4 +1,4 @@
-// Better shaped triangles on the same surface: vertices slide, the topology stays.
+// Better shaped triangles on the same surface, by moving vertices along it; the topology stays.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@ namespace kerf {
 struct OptimisationOptions {
     double feature_angle_deg = 30;  ///< between the normals of two facets: their edge is kept if it is larger
     double spring = 0.03;           ///< weight of the spring energy, dimensionless, > 0
-    int sweeps = 10;                ///< at most; fewer if nothing moves any more
+    int sweeps = 10;                ///< most sweeps; fewer if nothing moves any more
     double tolerance_rel = 0.05;    ///< largest distance from the original surface, per edge length at the vertex
-    double max_turn_deg = 10;       ///< of a facet against its own original normal
+    double max_turn_deg = 10;       ///< largest turn of a facet against its original normal
 };
 
 /// Moves vertices so that the distance energy plus the spring energy of Hoppe et al. 1993 falls: the squared distances

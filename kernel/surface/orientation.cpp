@@ -1,9 +1,9 @@
-// Where all neighbours agree, as they do in most files, shells are found by union-find; else a search over the edges of
-// two facets turns facets until they do.
+// Shells are found by union-find if all neighbours agree, as they do in most files; otherwise a breadth-first search
+// over the edges of two facets turns facets until they agree.
 //
-// Nesting by parity: shells do not meet, so one vertex of a shell tells whether the whole shell lies within another
-// one. Of those around a shell each lies within the next, so that they have the order of their boxes: the innermost is
-// the first to be found from the smallest box on, and has the others around itself.
+// Nesting is found by parity: shells do not meet, so one vertex of a shell tells whether the whole shell lies within
+// another one. The shells around a shell are nested in each other, and so are their boxes: the innermost is the first
+// that is found from the smallest box on, and its own place tells the others.
 #include "surface/orientation.h"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ class Propagation {
     FacetShells result_;
 };
 
-// What the neighbours of a range of facets have shown.
+// The findings about the neighbours of a range of facets.
 struct RangeOfShells {
     bool agree = true;
     std::vector<std::int32_t> crossing;  // corners whose partners lie in an earlier range

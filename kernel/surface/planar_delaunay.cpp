@@ -1,3 +1,9 @@
+// A thin layer over CGAL's constrained Delaunay triangulation, so that its headers, which are slow to compile, are
+// included here alone. The predicates are exact; circumcentres are rounded. Each CGAL vertex has the first number of
+// its point as its info, each face whether it is inside; edges of the user are constraints. Crossing constraints are
+// refused by an exception of CGAL, which becomes `false`. Handles of faces leave this source as void pointers and are
+// valid until the next insertion, because insertions may delete faces.
+
 #include "surface/planar_delaunay.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -40,7 +46,8 @@ struct PlanarDelaunay::Cdt {
     std::vector<PlanarVertex> vertices;
     PlanarFace hint;
 
-    // Goes on to neighbours across what is no edge, and leaves what is outside already.
+    // Marks a face and all that can be reached from it without crossing an edge as outside; stops at faces that are
+    // outside.
     void mark_outside_from(PlanarFace start) {
         std::vector<PlanarFace> stack = {start};
         while (!stack.empty()) {

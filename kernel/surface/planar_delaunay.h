@@ -1,4 +1,4 @@
-// Constrained Delaunay triangulations in the plane.
+// A constrained Delaunay triangulation in the plane.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,25 @@
 
 namespace kerf {
 
-/// A triangulation of all points that were inserted, with edges that stay. Points have numbers, from 0 on as they come;
-/// where one comes again, all its numbers mean the first. Each triangle is inside or outside of what the edges enclose.
-/// By CGAL, with exact predicates; deterministic.
+/// The constrained Delaunay triangulation of all points and edges that were inserted. Points are numbered from 0 on as
+/// they come; if a point comes again, all its numbers mean the first. Each triangle is inside or outside of the area
+/// that the edges enclose. By CGAL, with exact predicates; deterministic.
 class PlanarDelaunay {
  public:
-    /// A triangle, counter-clockwise, and where it is found; good until something is inserted.
+    /// A triangle, counter-clockwise, with its handle in the triangulation; valid until the next insertion.
     struct Face {
         Triangle corners;
         void* handle;
     };
-    /// A place for a point, good until something is inserted.
+    /// A place to insert a point at; valid until the next insertion.
     struct Place {
         void* face;
         int type, index;
     };
-    /// Of a triangle, counter-clockwise.
+    /// A side of a triangle, counter-clockwise.
     struct Side {
         std::int32_t from, to;
-        bool is_edge;  ///< it was inserted, and stays
+        bool is_edge;  ///< an inserted edge, which stays
     };
 
     PlanarDelaunay();
@@ -36,37 +36,40 @@ class PlanarDelaunay {
     PlanarDelaunay& operator=(const PlanarDelaunay&) = delete;
     ~PlanarDelaunay();
 
-    /// Returns the number. Takes long far from the point before.
+    /// Inserts a point and returns its number. Slow if the point is far from the one before.
     std::int32_t insert(const Vec2& point);
-    /// False if it crosses an edge. Vertices on it divide it; one of a single place is none.
+    /// Inserts an edge; false if it would cross another one. Vertices on the edge divide it; an edge from a point to
+    /// itself is none.
     bool insert_edge(std::int32_t from, std::int32_t to);
-    /// The first number of this point.
+    /// Returns the first number that was given to the point.
     std::int32_t first_number(std::int32_t number) const;
-    /// Whether there are triangles: not all points lie on a line.
+    /// Whether there are triangles: the points do not all lie on one line.
     bool has_triangles() const;
 
-    /// Inside is where an odd number of edges has to be crossed from far away.
+    /// Marks as inside the triangles that an odd number of edges separates from infinity.
     void mark_by_parity();
-    /// Inside is where an edge has to be crossed from far away.
+    /// Marks as inside the triangles that some edge separates from infinity.
     void mark_enclosed();
-    /// What can be reached from the point without crossing an edge becomes outside. False if it lies on an edge or at a
-    /// vertex, and nothing is done.
+    /// Marks as outside all triangles that can be reached from the point without crossing an edge. Does nothing and
+    /// returns false if the point lies on an edge or at a vertex.
     bool mark_hole(const Vec2& point);
 
-    /// Those inside.
+    /// Returns the triangles inside.
     std::vector<Triangle> triangles() const;
-    /// Those inside around a point that is no end of an edge.
+    /// Returns the triangles inside around a point that is no end of an edge.
     std::vector<Triangle> triangles_around(std::int32_t number) const;
-    /// The triangle of three points if there is one.
+    /// Returns the triangle of three points if there is one.
     std::optional<Face> find(const Triangle& corners) const;
-    /// Whether there is such an edge, with the inside on its left alone.
+    /// Whether there is such an edge with the inside on its left, but not on its right.
     bool has_border(std::int32_t from, std::int32_t to) const;
 
-    /// Where a point would be inserted inside, neither at a vertex nor on an edge. Begins at a face, or anywhere.
+    /// Returns the place of a point that lies inside, neither at a vertex nor on an edge. The search starts at a face,
+    /// or anywhere if null.
     std::optional<Place> find_place(const Vec2& point, const Face* start) const;
-    /// Of all triangles that have no room for the point.
+    /// Sets `sides` to the sides of all triangles that would vanish with the point's insertion: their circumcircles
+    /// contain it.
     void find_cavity(const Vec2& point, const Place& place, std::vector<Side>& sides) const;
-    /// Returns the number. Triangles around are inside.
+    /// Inserts a point at a place and returns its number. The triangles around it become inside.
     std::int32_t insert(const Vec2& point, const Place& place);
 
  private:
@@ -74,16 +77,16 @@ class PlanarDelaunay {
     std::unique_ptr<Cdt> cdt_;
 };
 
-/// As its rounding has it in this order of the corners.
+/// Returns the circumcentre, whose rounding depends on the order of the corners.
 Vec2 circumcentre(const Vec2& a, const Vec2& b, const Vec2& c);
 
-/// Whether segments meet, exactly.
+/// Whether two segments meet, exactly.
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
-/// Whether two segments from one end to others lie on each other, exactly.
+/// Whether two segments from a common end lie on each other, exactly.
 bool segments_overlap(const Vec2& end, const Vec2& a, const Vec2& b);
 
-/// 1 if the points are counter-clockwise, 0 if they lie on a line, exactly.
+/// Returns 1 if the points are counter-clockwise, 0 if they lie on a line, -1 if they are clockwise; exact.
 int planar_orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
 }  // namespace kerf

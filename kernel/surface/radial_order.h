@@ -1,4 +1,4 @@
-// The facets at an edge, in the order in which one meets them going around it.
+// The order of the facets around their common edge.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace kerf {
 
-/// Why facets at an edge have no order.
+/// The reason why facets at an edge have no order.
 enum class RadialDefect {
     none,
     no_area,     ///< one of them is a segment
@@ -17,32 +17,33 @@ enum class RadialDefect {
 };
 
 struct RadialOrder {
-    std::vector<std::int32_t> corners;  ///< counter-clockwise seen from the larger end of the edge; empty if a defect
+    std::vector<std::int32_t> corners;  ///< counter-clockwise seen from the larger end of the edge; empty at a defect
     RadialDefect defect = RadialDefect::none;
 };
 
-/// Sorts the corners at one edge, as EdgeCorners has them with the smaller end `low`, by the directions of their
-/// facets. It begins with the first corner. Decided by exact signs. O(k log k).
+/// Sorts the corners at one edge, as EdgeCorners gives them with the smaller end `low`, by the directions of their
+/// facets, beginning with the first corner. Exact signs decide. O(k log k) for k corners.
 RadialOrder radial_order(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, std::int32_t low,
                          std::span<const EdgeCorners::Corner> corners);
 
-/// Whether turning on from a facet around the edge with the smaller end `low`, in the sense of radial_order(), one
-/// comes to its back, not to its front.
+/// Whether the back of the facet at a corner, not its front, lies ahead of it in the sense of radial_order() around the
+/// edge with the smaller end `low`.
 inline bool has_back_ahead(const std::vector<Triangle>& facets, std::int32_t low, std::int32_t corner) {
     return start_vertex(facets, corner) != low;
 }
 
-/// Numbers for the two sides of each facet.
+/// The numbers of the two sides of facet f: 2 f for its front, 2 f + 1 for its back.
 constexpr std::int32_t front_side(std::int32_t facet) { return 2 * facet; }
 constexpr std::int32_t back_side(std::int32_t facet) { return 2 * facet + 1; }
 
-/// The sides of a facet that one leaves and meets when turning on around an edge of it: between a facet and the next
-/// one lie the side ahead of the one and the side behind the other.
+/// The sides of a facet seen by one who turns around an edge of it in the sense of radial_order(): `behind` is met
+/// first, `ahead` is left last. Between a facet and the next one lie the side ahead of the former and the side behind
+/// the latter.
 struct EdgeSides {
     std::int32_t ahead, behind;
 };
 
-/// Of the facet of a corner at the edge with the smaller end `low`, in the sense of radial_order().
+/// Returns the sides of the facet of a corner at the edge with the smaller end `low`, in the sense of radial_order().
 inline EdgeSides sides_at(const std::vector<Triangle>& facets, std::int32_t low, std::int32_t corner) {
     const std::int32_t f = corner / 3;
     if (has_back_ahead(facets, low, corner)) return {back_side(f), front_side(f)};

@@ -1,5 +1,7 @@
-// All facets, each once, divide space into cells; who is told by points, or by walking from cell to cell: each facet
-// that is crossed leads into the bodies that have it in that direction, and out of those that have it in the other one.
+// All facets, each once, divide space into cells (divided_space.h), and each cell gets a region. Either points tell the
+// region of a cell, or a walk from cell to cell (cell_walk.h) does: crossing a facet leads into the bodies that have it
+// in that direction, and out of those that have it in the opposite one. `Windings` counts how often each body is around
+// a cell; they are well defined only if all bodies are closed, because a cell may be reached over several facets.
 #include "surface/region_finder.h"
 
 #include <algorithm>
@@ -58,7 +60,7 @@ std::optional<std::vector<Windings>> find_windings(const DividedSpace& space, co
     return of;
 }
 
-// Whether a facet ends within a cell, where none but those of some formats may: a wall with a hole parts no regions.
+// Whether a facet ends within a cell and the format does not allow that: a wall with a hole parts no regions.
 bool has_open_wall(const Soup& soup, const DividedSpace& space) {
     bool is_open = false;
     if (!soup.may_end_inside)
@@ -167,8 +169,8 @@ bool name_by_directions(DividedSpace& space) {
     return has_wall(space);
 }
 
-// Whether every facet is there once, and a wall between different cells or in the midst of one. What is closed,
-// directions and all, is a body that touches itself.
+// Whether every facet is there once, and is a wall between different cells or lies within one. Facets that close with
+// their directions bound a body that touches itself, and are refused here.
 bool name_between_walls(Soup& soup, DividedSpace& space) {
     if (space.single.facets.size() != soup.facets.size() || has_open_wall(soup, space)) return false;
     const auto& sides = space.cells.sides;
@@ -264,7 +266,8 @@ std::string quoted_region(const std::string& name) { return name.empty() ? "the 
                             quoted_region(wall.regions[0]), quoted_region(wall.regions[1]), place_text(place), what));
 }
 
-// What a facet leads to from a region; refused where it is none of its two.
+// Gives each cell its region: a facet leads from one of its patch's two regions into the other. Throws where that
+// fails.
 void place_walls(const Soup& soup, const std::vector<NamedWall>& walls, DividedSpace& space) {
     const std::vector<std::array<std::int32_t, 2>> numbers = number_walls(walls, space.names);
     const auto place_of = [&](std::int32_t facet) {

@@ -1,4 +1,4 @@
-// Patches of a surface that bounds several regions.
+// The patches of a surface that bounds several regions.
 #pragma once
 
 #include <string>
@@ -8,19 +8,20 @@
 
 namespace kerf {
 
-/// What the facets between two regions are called: A_to_B, of the regions A and B, that with the smaller number first.
+/// Returns the name of the wall between two regions: A_to_B, where A is the region with the smaller number.
 std::string wall_name(const std::vector<std::string>& region_names, FacetSides sides);
 
-/// Gives walls patches of their own, of a soup with Soup::sides; without them nothing happens. No patch has walls and
-/// outer facets, and none is called like a region, afterwards:
-/// - A patch of nothing but walls that is not called like a region stays: the file has drawn it.
+/// Gives the walls of a soup with Soup::sides patches of their own; does nothing to a soup without them. Afterwards no
+/// patch has both walls and outer facets, and none has the name of a region:
+/// - A patch of walls alone whose name is not that of a region stays: the file has drawn it.
 /// - Walls of other patches become A_to_B, see wall_name(), for each pair of regions.
-/// - Outer facets of a patch that is called like a region become A_outer, A: the region behind them.
+/// - Outer facets of a patch with the name of a region become A_outer, where A is the region behind them.
 /// New patches are told from others that stay by _2, _3, ... at their ends, and have the colour of the patch of their
-/// first facet. All are numbered by their first facets; none without a facet is left. O(#F log n) for n patches.
+/// first facet. All patches are numbered by their first facets; patches without facets are left out. O(#F log n) for n
+/// patches.
 void name_walls(Soup& soup);
 
-/// Numbers patches by their first facets, with their colours, and leaves those without any out. O(#F).
+/// Numbers patches by their first facets, keeping their colours, and leaves patches without facets out. O(#F).
 void drop_unused_patches(Soup& soup);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Polygons in space, whatever their size and place.
+// Polygons in space, scaled so that their size and place do not matter.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace kerf {
 
-/// A polygon scaled to the size 1 with its first corner at the origin. Refers to what it is made of; `corners` are
+/// A polygon scaled to the size 1 with its first corner at the origin. Keeps references to its arguments; `corners` are
 /// indices into `vertices`, at least one.
 class ScaledPolygon {
  public:
@@ -30,12 +30,12 @@ class ScaledPolygon {
     bool is_finite() const {
         return std::all_of(corners_.begin(), corners_.end(), [&](auto v) { return vertices_[v].allFinite(); });
     }
-    /// The rounding of the coordinates of a corner: most programs write six digits.
+    /// The rounding of the coordinates of a corner, scaled; most programs write six digits.
     double rounding() const {
         constexpr double relative_rounding = 1e-5;
         return relative_rounding * largest_ / scale_;
     }
-    /// Corner i, counted on over the last.
+    /// Corner i, scaled; i is counted on beyond the last corner.
     Vec3 corner(std::size_t i) const { return (vertex(i % size()) - vertex(0)) / scale_; }
 
  private:
@@ -46,16 +46,16 @@ class ScaledPolygon {
     double largest_ = 0, scale_ = 0;
 };
 
-/// Newell's sum of the cross products of consecutive corners: along the normal, twice the area long.
+/// Newell's sum of the cross products of consecutive corners: a vector along the normal, twice the area in length.
 inline Vec3 newell_sum(const ScaledPolygon& polygon) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < polygon.size(); ++i) sum += polygon.corner(i).cross(polygon.corner(i + 1));
     return sum;
 }
 
-/// The lowest and the highest corner above a plane through the first one. `normal`: of length 1.
+/// The lowest and the highest corner, measured from the plane through the first one. `normal` has unit length.
 struct PlaneHeights {
-    std::size_t lowest = 0, highest = 0;  ///< corners
+    std::size_t lowest = 0, highest = 0;  ///< indices of corners
     double low = 0, high = 0;             ///< scaled
 
     PlaneHeights(const ScaledPolygon& polygon, const Vec3& normal) {
@@ -67,7 +67,7 @@ struct PlaneHeights {
             high = std::max(high, height);
         }
     }
-    /// Whether rounding may be all there is.
+    /// Whether the corners lie in the plane up to rounding.
     bool is_flat(const ScaledPolygon& polygon) const { return high - low <= 2 * polygon.rounding(); }
 };
 

@@ -13,7 +13,8 @@ struct SolidProperties {
     PrincipalAxes principal;                            ///< of the inertia
 };
 
-/// Of all regions together, by the divergence theorem: sums over facets, relative to the first vertex. O(#F).
+/// Returns the properties of all regions together, by the divergence theorem: sums over facets, relative to the first
+/// vertex. O(#F).
 SolidProperties solid_properties(const Complex& complex);
 
 }  // namespace kerf

@@ -1,5 +1,6 @@
-// Welding by one pass over a hash table, filled in the order of the vertices: the first of equals is found by every
-// later one. With a tolerance the table holds cells of a grid, and the 27 cells around a vertex are looked through.
+// Vertices are welded in one pass over a hash table that is filled in the order of the vertices, so that each vertex
+// finds the first of its equals. With a tolerance the table holds the cells of a grid, and the 27 cells around a vertex
+// are searched. In both cases the first vertex of a group stays.
 #include "surface/soup.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices
     return representative;
 }
 
-// Leaves out what has lost an end, or has become a point.
+// Removes model edges that have lost an end or have become a point.
 void renumber_edges(std::vector<ModelEdge>& edges, const std::vector<std::int32_t>& new_number) {
     std::erase_if(edges, [&](ModelEdge& edge) {
         const auto [a, b] = edge.vertices;

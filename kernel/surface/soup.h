@@ -1,4 +1,4 @@
-// What a surface file said, with nothing repaired.
+// The content of a surface file, with nothing repaired.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@
 
 namespace kerf {
 
-/// An edge of the facets on a curve of the model behind them, as CAD files have: a bound of patches, or a crease.
+/// An edge of the facets that lies on a curve of the CAD model behind them: a border of patches, or a crease.
 struct ModelEdge {
     UndirectedEdge vertices;
-    std::int32_t sharp;  ///< 0: the faces of the model are tangent there, so that only patches end; else 1
+    std::int32_t sharp;  ///< 1; or 0 if the faces of the model are tangent there, so that the edge only divides patches
 };
 
-/// A point of a region that a file, or its user, names.
+/// A point in a region, with the name of the region, from a file or from the user.
 struct RegionSeed {
     std::string name;
     Vec3 point;               ///< units of the file
-    double largest_cell = 0;  ///< volume that its cells may have at most; 0: no bound
+    double largest_cell = 0;  ///< largest volume of a cell of the region; 0: no bound
 
     template <class Archive>
     void archive(Archive& a) {
@@ -38,23 +38,24 @@ struct Soup {
     /// #F; number of the face of the file, counted from 0, that the facet was cut from. Empty if every face is a
     /// triangle, so that facets and faces have the same numbers.
     std::vector<std::int32_t> polygon = {};
-    /// Faces of the file, ascending, whose facets are not the face: it is not planar, or no fan covers it.
+    /// Faces of the file, ascending, that their facets do not represent: the face is not planar, or no fan covers it.
     std::vector<std::int32_t> unfit_polygons = {};
     /// #V; number of the vertex in the file, counted from 0. Empty if the numbers agree.
     std::vector<std::int32_t> vertex_number = {};
     std::vector<Vec3> holes = {};         ///< points in voids that the file names; units of the file
-    std::vector<std::string> notes = {};  ///< what the reader passed over: "12 tetrahedra were ignored."
+    std::vector<std::string> notes = {};  ///< things that the reader passed over: "12 tetrahedra were ignored."
     bool is_of_model = false;  ///< the facets stand for curved faces: a CAD file, whose triangles nobody chose
     /// Edges of the model, each once; the same vertices as the facets. Empty if the file has no model.
     std::vector<ModelEdge> model_edges = {};
-    /// sRGB and 255 for each patch; four zeros where the file gives no colour. Empty if it gives none at all.
+    /// #patches; sRGB and 255, or four zeros if the file gives the patch no colour. Empty if it gives no colours at
+    /// all.
     std::vector<std::array<std::uint8_t, 4>> patch_colours = {};
-    /// #F, each facet once: what lies on its sides, by numbers of `region_names`. Empty: the facets bound one body, or
-    /// what they bound is yet to be found.
+    /// #F, and then each facet occurs once; the regions on its sides, as indices into `region_names`. Empty if the
+    /// facets bound one body, or if the regions are yet to be found.
     std::vector<FacetSides> sides = {};
-    std::vector<std::string> region_names = {};  ///< of the numbers in `sides`; empty if these are
-    std::vector<RegionSeed> seeds = {};          ///< which cells of the facets are regions, where the file tells that
-    /// Facets may end within a region, as those of .poly and .smesh may; else a wall that does so has a hole.
+    std::vector<std::string> region_names = {};  ///< empty if `sides` is empty
+    std::vector<RegionSeed> seeds = {};          ///< points that tell which cells of the facets are regions
+    /// Whether facets may end within a region, as those of .poly and .smesh may; otherwise such a wall has a hole.
     bool may_end_inside = false;
 
     template <class Archive>
@@ -63,7 +64,7 @@ struct Soup {
           model_edges, patch_colours, sides, region_names, seeds, may_end_inside);
     }
 
-    /// The numbers that the file gives to facets and vertices; facets of one face that follow each other count once.
+    /// Returns the numbers that the file gives to facets or vertices; successive facets of one face count once.
     std::vector<std::int32_t> file_facets(const std::vector<std::int32_t>& own) const;
     std::vector<std::int32_t> file_vertices(const std::vector<std::int32_t>& own) const;
 };

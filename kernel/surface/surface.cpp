@@ -1,4 +1,8 @@
-// Half-edges from facets: those at one edge are partners, if they are two and opposite (manifold_defects.h).
+// Corner 3 f + i, the edge of facet f from its vertex i to the next, becomes a half-edge. Two corners at one edge are
+// partners if they are the only ones there and run in opposite directions; all else is a manifold defect, found by
+// manifold_defects.h. Partners get the half-edge numbers 2 e and 2 e + 1, so that the opposite of h is h ^ 1, and edges
+// ascend by their first corners: numbers depend on the arrays alone, not on threads. OpenMesh's connectivity is written
+// directly, because its add_face() would search for edges that are known.
 #include "surface/surface.h"
 
 #include <numeric>

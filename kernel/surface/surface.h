@@ -30,7 +30,7 @@ struct SurfaceArrays {
     }
 };
 
-/// Whether the sizes fit together, and every facet has three different vertices in range. O(#F).
+/// Whether the sizes agree, and every facet has three different vertices in range. O(#F).
 bool is_well_formed(const SurfaceArrays& arrays);
 
 struct SurfaceTraits : OpenMesh::DefaultTraits {
@@ -49,7 +49,7 @@ struct ManifoldDefect {
     Kind kind;
     std::vector<std::int32_t> vertices;  ///< the two ends of the edge, or the vertex
     std::vector<std::int32_t> facets;    ///< facets at the place, ascending
-    Vec3 where = Vec3::Zero();           ///< the first vertex; of Surface::build() alone, which knows the points
+    Vec3 where = Vec3::Zero();           ///< the first vertex; set only by Surface::build(), which knows the points
 };
 
 /// Every place where `facets` over `vertex_count` vertices fail to be a closed, oriented 2-manifold, ordered by vertex.
@@ -58,8 +58,8 @@ struct ManifoldDefect {
 /// Vertices without facets are allowed. O(#V + #F).
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
 
-/// Closed, oriented 2-manifold. Facet and vertex numbers are those of the arrays it was built from. Immutable; copies
-/// share the half-edges. Numbers of vertices, facets and half-edges that are given to it must be in range.
+/// A closed, oriented 2-manifold. Facets and vertices have the numbers of the arrays that it was built from. Immutable;
+/// copies share the half-edges. Numbers of vertices, facets and half-edges passed to it must be in range.
 class Surface {
  public:
     Surface();
@@ -106,7 +106,7 @@ class Surface {
         const auto h = half_edges(facet);
         return {to_vertex(h[2]), to_vertex(h[0]), to_vertex(h[1])};
     }
-    /// The facet across half-edge i, for each i.
+    /// Returns for each i the facet across half-edge i.
     std::array<std::int32_t, 3> neighbours(std::int32_t facet) const {
         const auto h = half_edges(facet);
         return {facet_of(opposite(h[0])), facet_of(opposite(h[1])), facet_of(opposite(h[2]))};
@@ -125,13 +125,14 @@ class Surface {
         return mesh_->next_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
     }
     static std::int32_t opposite(std::int32_t half_edge) { return half_edge ^ 1; }
-    /// The half-edges that start at a vertex which has facets, clockwise seen from outside: a range of h with h.idx().
+    /// The half-edges that start at a vertex, which must have facets, clockwise seen from outside: a range of handles h
+    /// with h.idx().
     auto around(std::int32_t vertex) const {
         KERF_CHECK(has_vertex(vertex) && !mesh_->is_isolated(HalfEdgeMesh::VertexHandle(vertex)));
         return mesh_->voh_cw_range(HalfEdgeMesh::VertexHandle(vertex));
     }
 
-    /// The half-edge between two vertices, -1 if there is none. `from` must have facets. O(degree).
+    /// Returns the half-edge between two vertices, or -1 if there is none. `from` must have facets. O(degree).
     std::int32_t find_half_edge(std::int32_t from, std::int32_t to) const;
 
     SurfaceArrays arrays() const;
@@ -144,13 +145,13 @@ class Surface {
     Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partner);
 
     std::shared_ptr<const HalfEdgeMesh> mesh_;  // OpenMesh cannot be moved, only copied
-    const Vec3* points_ = nullptr;              // of the mesh; its own accessor is no array access
+    const Vec3* points_ = nullptr;              // the points of the mesh, whose own accessor is slower than an array
     std::vector<Key> vertex_key_;
     std::vector<Key> facet_key_;
     std::vector<std::int32_t> patch_;
 };
 
-/// Connected components of facets (shells). O(#F).
+/// Returns the connected components of facets (shells). O(#F).
 Components find_shells(const Surface& surface);
 
 }  // namespace kerf

@@ -1,5 +1,6 @@
-// Edges of two facets say themselves who are partners. At others the facets are sorted around the edge, and those
-// beside each other that have the body between them are partners. All else follows from partners, without coordinates.
+// The two facets of an ordinary edge are partners. At an edge of more facets these are sorted around it
+// (radial_order.h), and two that follow each other with the body between them are partners. Fans are the cycles of
+// partners around a vertex. All else follows from partners, without coordinates.
 #include "surface/touching.h"
 
 #include <algorithm>

@@ -1,3 +1,9 @@
+// A BoxHierarchy over triangles. A triangle whose box is much larger than itself, such as a needle across the axes, is
+// halved at its longest edge, up to three times, and each piece has a leaf with a box of its own: otherwise every query
+// in the nearly empty box would have to look at the triangle. So a triangle may be met several times; distances are
+// always those of the whole triangle. Corners are stored in the order of the leaves, so that a query reads memory in a
+// row: order_[leaf] is the facet, place_[facet] one of its leaves.
+
 #include "surface/triangle_tree.h"
 
 #include <algorithm>
@@ -24,7 +30,7 @@ double area_of(const Box& box) {
     return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
 }
 
-// The boxes of triangles: several for one that its box does not describe, as those of needles across the axes.
+// The boxes of triangles, or of their pieces where the box of the triangle would be mostly empty.
 struct Pieces {
     std::vector<Box> boxes;
     std::vector<std::int32_t> facets;

@@ -1,4 +1,4 @@
-// What of a set of triangles is near a point: a hierarchy of boxes over triangles.
+// Finds the triangles near a point, or the first one along a ray, in a hierarchy of boxes.
 #pragma once
 
 #include <algorithm>
@@ -12,30 +12,30 @@
 
 namespace kerf {
 
-/// The closest point of triangle a, b, c to p. Right for needles, whatever their height: there the edges decide,
+/// Returns the point of triangle a, b, c closest to p. Right for needles of any height: for these the edges decide,
 /// because the plane of the triangle is lost to rounding.
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// A binary tree over the boxes of triangles, of their pieces where needles lie across the axes, split at the median of
-/// the longest side of their centres. Built in O(n log n) on threads, immutable; a query is O(log n) where few
-/// triangles are near.
+/// A binary tree over the boxes of triangles, or of their pieces where needles lie across the axes. It is split at the
+/// median of the centres along the longest side of their box. Built in O(n log n) on threads, immutable; a query is
+/// O(log n) if few triangles are near.
 class TriangleTree {
  public:
     struct Closest {
         std::int32_t facet = -1;  ///< -1: none within the limit
         double squared_distance = std::numeric_limits<double>::infinity();
-        Vec3 point = Vec3::Zero();  ///< of the facet
+        Vec3 point = Vec3::Zero();  ///< on the facet
     };
 
     /// Vertex numbers must be in range, coordinates finite.
     TriangleTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 
-    /// The facet closest to p of those nearer than sqrt(squared_limit); of equally close ones that which the tree meets
-    /// first, which depends on the triangles alone.
+    /// Returns the facet closest to p of those nearer than sqrt(squared_limit). Of equally close ones it is that which
+    /// the tree meets first, which depends on the triangles alone.
     Closest closest(const Vec3& p, double squared_limit = std::numeric_limits<double>::infinity()) const;
 
-    /// Calls accept(facet, squared_distance) for facets within `radius` of p, some of them several times, until it
-    /// returns true. Returns whether it did.
+    /// Calls accept(facet, squared_distance) for the facets within `radius` of p, for some of them several times, until
+    /// it returns true. Returns whether it did.
     template <class Accept>
     bool any_within(const Vec3& p, double radius, Accept accept) const {
         const double limit = radius * radius;
@@ -46,9 +46,9 @@ class TriangleTree {
                               });
     }
 
-    /// Distance along the ray from `origin` in `direction` (any length, which is the unit of the distance) to the first
-    /// triangle it meets beyond `from` that accept(facet) takes; infinity: none up to `to`. Not exact: rays through
-    /// edges may pass.
+    /// Returns the distance along the ray to the first triangle between `from` and `to` that accept(facet) takes, or
+    /// infinity if there is none. Distances are measured in lengths of `direction`, which is arbitrary. Not exact: a
+    /// ray may pass through an edge.
     template <class Accept>
     double first_hit(const Vec3& origin, const Vec3& direction, double from, double to, Accept accept) const {
         double nearest = std::numeric_limits<double>::infinity();
@@ -71,9 +71,10 @@ class TriangleTree {
  private:
     double squared_distance(const Vec3& p, std::int32_t place) const;
 
-    std::vector<std::array<Vec3, 3>> corners_;  // in the order of the leaves; several times where pieces have boxes
-    std::vector<std::int32_t> order_;           // their facets
-    std::vector<std::int32_t> place_;           // of each facet, somewhere in order_
+    std::vector<std::array<Vec3, 3>> corners_;  // in the order of the leaves; repeated if its pieces have boxes of
+                                                // their own
+    std::vector<std::int32_t> order_;           // the facet of each of these
+    std::vector<std::int32_t> place_;           // #F; a place of the facet in order_
     BoxHierarchy<> hierarchy_;
 };
 

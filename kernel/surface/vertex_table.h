@@ -1,5 +1,5 @@
-// The first of equal points, by a hash table with open addressing. The hash only decides who is compared with whom, so
-// that no result depends on it.
+// A hash table with open addressing that finds the first of equal points. The hash only decides which points are
+// compared, so no result depends on it.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace kerf {
 
-/// The same for equal points; -0 equals 0.
+/// Returns a hash that is the same for equal points; -0 equals 0.
 inline std::uint64_t hash_of_point(const Vec3& p) {
     std::uint64_t h = 0;
     for (int i = 0; i < 3; ++i) {
@@ -23,17 +23,17 @@ inline std::uint64_t hash_of_point(const Vec3& p) {
     return h;
 }
 
-/// Which of the vertices of an array came first, of those with equal coordinates. NaN equals nothing. Vertices that
-/// were entered must stay as they are. 8 to 16 bytes for each that stands for itself; expected O(1) a vertex.
+/// A table that finds the first of several vertices with equal coordinates. NaN equals nothing. Vertices that were
+/// entered must stay as they are. Takes 8 to 16 bytes for each distinct vertex; expected O(1) a vertex.
 class VertexTable {
  public:
     /// Grows beyond `expected` vertices.
     explicit VertexTable(std::size_t expected = 0) : slots_(std::bit_ceil(2 * expected + 16), -1) {}
 
-    /// Asks for the memory that enter() will look at first: worth it some vertices ahead.
+    /// Prefetches the memory that enter() looks at first: useful some vertices ahead.
     void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & mask()]); }
-    /// Enters vertices[v], with its hash_of_point(). Returns the first equal vertex that was entered: v, if there was
-    /// none.
+    /// Enters vertices[v] with its hash_of_point(). Returns the first equal vertex that was entered, which is v if
+    /// there was none.
     std::int32_t enter(std::int32_t v, std::uint64_t hash, const std::vector<Vec3>& vertices) {
         const Vec3& p = vertices[static_cast<std::size_t>(v)];
         if (p.hasNaN()) return v;  // many of them would only lengthen the probes

@@ -1,3 +1,11 @@
+// Chords of a convex face lie inside of it, so that facets enclose too little. Each vertex v has a wanted move m_v,
+// which lifts its facets by the mean height (`rise`) of their faces over them: the damped least-squares solution of one
+// equation for each curved face at v, within all planar faces at v. The vertices go to start_v + s_v m_v. The scales
+// s_v begin at 1 and are corrected by at most `secant_steps` steps: the derivatives of the volumes by the scales
+// (`gain`, an entry for each vertex and region) are computed anew, and of all changes of the scales that make up for
+// the missing volumes the smallest one, weighted by the gains, is found by conjugate gradients on one multiplier for
+// each region. If facets have turned too far, the moves of their corners are set to 0, and the balance begins again.
+
 #include "surface/volume_balance.h"
 
 #include <algorithm>
@@ -37,7 +45,7 @@ std::vector<FaceCorner> corners_by_face(const FacetsOfFaces& mesh) {
     return corners;
 }
 
-// What the faces around a vertex ask of it.
+// The move of a vertex that fits the faces around it.
 class MoveOfFaces {
  public:
     void stay_in_plane(const Vec3& normal) {
@@ -90,8 +98,9 @@ class RegionVolumes {
         for (const Entry& e : entries_) weight_[e.vertex] += std::abs(e.gain);
     }
 
-    /// The smallest changes of the scales of vertices, weighted by what they change, that make up for what the regions
-    /// miss: by conjugate gradients, since there are as many ways as there are walls that two regions could use.
+    /// Returns the smallest changes of the scales of vertices, weighted by the volume that each changes, that give the
+    /// regions their missing volumes. Found by conjugate gradients, since there are as many ways as there are walls
+    /// that two regions could use.
     Eigen::VectorXd scales_for(const Eigen::VectorXd& missing) const {
         Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(missing.size()), residual = missing, direction = residual;
         double square = residual.squaredNorm();

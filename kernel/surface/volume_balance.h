@@ -1,4 +1,4 @@
-// Facets that hold what curved faces hold, with few chords.
+// Moves vertices off curved faces so that facets enclose the volume of the faces.
 #pragma once
 
 #include <span>
@@ -9,52 +9,51 @@
 
 namespace kerf {
 
-/// Facets in place of faces, which may be curved. Refers to arrays that have to outlive it.
+/// Facets that stand for faces, which may be curved. Refers to arrays that must outlive it.
 struct FacetsOfFaces {
     std::span<const Triangle> facets;
-    std::span<const std::int32_t> patch;  ///< #F; the face that each is of
-    std::span<const Vec3> plane;          ///< #F; normal of the face if that is planar, else 0
-    std::span<const double> rise;         ///< #F; height of the face over the facet, along its normal, in the mean
+    std::span<const std::int32_t> patch;  ///< #F; the face of each facet
+    std::span<const Vec3> plane;          ///< #F; normal of a planar face, else 0
+    std::span<const double> rise;         ///< #F; mean height of the face over the facet, along the facet's normal
     std::span<const FacetSides> sides;    ///< #F; empty: region 0 is behind all facets
 
     FacetSides sides_of(std::size_t facet) const { return sides.empty() ? FacetSides{} : sides[facet]; }
 };
 
-/// Of the moves that facets ask for, which balances take multiples of.
+/// The range of the factors by which a balance may scale the moves of moves_to_faces().
 struct ScaleRange {
     double least, most;
 };
 
-/// How far balances go.
+/// The limits of a balance.
 namespace balance_limits {
-// What is far from 1 has other causes than chords.
+// A factor far from 1 has other causes than chords.
 inline constexpr ScaleRange chords = {0.4, 2.5};
 inline constexpr int secant_steps = 3, most_rounds = 12;
-inline constexpr double precision = 1e-7;  // of a volume
+inline constexpr double precision = 1e-7;  // relative, per volume
 }  // namespace balance_limits
 
-/// A move is right for a vertex if it makes up for what the chords around it leave out of their faces: by the mean rise
-/// of its facets, away from each curved face and within each planar one. O(#F log #F).
+/// Returns for each vertex the move that makes up for the space between its facets, as chords, and their faces: by the
+/// mean rise of the facets, away from each curved face and within each planar one. O(#F log #F).
 std::vector<Vec3> moves_to_faces(const std::vector<Vec3>& vertices, const FacetsOfFaces& faces);
 
-/// Normals with the areas as their lengths.
+/// Returns the normals of facets, with their areas as lengths.
 std::vector<Vec3> area_vectors(const std::vector<Vec3>& vertices, std::span<const Triangle> facets);
 
-/// Takes their moves from the corners of facets that have turned by much: `normals` as area_vectors() had them before.
-/// True if there are any.
+/// Sets the moves of the corners to 0 for facets that have turned too far. `normals` are the area_vectors() before the
+/// moves. Returns whether some move has become 0.
 bool keep_turned(const std::vector<Vec3>& vertices, std::span<const Triangle> facets, const std::vector<Vec3>& normals,
                  std::vector<Vec3>& moves);
 
-/// Volumes of the regions.
+/// Returns the volumes of the regions, numbered from 0 to `regions` - 1.
 std::vector<double> region_volumes(const std::vector<Vec3>& vertices, const FacetsOfFaces& faces, std::size_t regions);
 
-/// Moves vertices off their faces until the regions have the `volumes`. Chords on a curve leave out what is between
-/// them and it; vertices that stand out by the mean of that give it back, and their distance from the curve is no
-/// larger than that of the chords was. A vertex of a wall moves for both of its regions: of all moves that give every
-/// region its volume those are taken that differ the least from what the faces ask for. `is_fixed`: of each vertex,
-/// whether it stays.
+/// Moves vertices off their faces until the regions have the `volumes`. Chords on a curve leave out the space between
+/// them and the curve; vertices that stand out by its mean height give it back, and then are no farther from the curve
+/// than the chords were. A vertex of a wall moves for both of its regions: of all moves that give every region its
+/// volume, the method takes those that differ least from the moves_to_faces(). `is_fixed` (#V): vertices that stay.
 ///
-/// False, and nothing is moved, if that takes multiples out of `range`, or turns too many facets. The result may
+/// Returns false, and moves nothing, if that takes factors out of `range`, or turns too many facets. The result may
 /// intersect itself. O(#F (log #F + regions)), deterministic.
 bool balance_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& faces, const std::vector<double>& volumes,
                      const std::vector<char>& is_fixed, const ScaleRange& range);

@@ -1,6 +1,7 @@
-// A gap: what of one facet lies over the other is a convex polygon, so that its corners have the largest and the
-// smallest distance. An overlap: the pairs of facets that intersect tell where it is and whether they lie flat upon
-// each other, the points that lie in the other body how deep it is.
+// A gap is measured between two facets that face each other: the part of one that lies over the other is a convex
+// polygon, so that its corners have the largest and the smallest distance. An overlap is measured between two bodies:
+// the pairs of facets that intersect tell where it is and whether the bodies lie flat upon each other, and points of
+// one body inside of the other tell how deep it is.
 #include "surface/wall_mismatch.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ double longest_edge(const FacetCorners& p) {
     return std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(), (p[0] - p[2]).norm()});
 }
 
-// What of a convex polygon lies on the side of a plane that its normal points to.
+// Returns the part of a convex polygon on the side of a plane that its normal points to.
 void clip(std::vector<Vec3>& polygon, const Vec3& origin, const Vec3& normal) {
     std::vector<Vec3> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -156,7 +157,7 @@ class DepthGauge {
         const double inside = furthest(a, b, true, std::numeric_limits<double>::infinity());
         return inside > 0 ? std::min(inside, furthest(a, b, false, inside)) : 0;
     }
-    // Ends at what is further than `enough`.
+    // Ends once a distance exceeds `enough`.
     double furthest(std::int32_t a, std::int32_t b, bool is_inside, double enough) {
         ClosedBody& other = bodies_[b];
         if (!other.tree) other.tree = std::make_unique<TriangleTree>(vertices_, other.shell.facets);
