@@ -1,5 +1,6 @@
 // The area of the section is the sum over crossing facets of the signed triangles that their cut line forms with the
-// plane's origin: no loops have to be traced. What is added up is found on threads and added in its order.
+// plane's origin: no loops have to be traced. Terms are computed on threads and summed in order (ordered_terms.h), so
+// that the last bits do not depend on threads.
 #include "cut/band.h"
 
 #include <algorithm>

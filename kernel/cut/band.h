@@ -8,29 +8,32 @@
 
 namespace kerf {
 
-/// How far a facet reaches: the lowest and highest distance of its vertices from the plane.
+/// The reach of a facet: the lowest and highest distance of its vertices from the plane.
 struct SlabFacet {
     std::int32_t facet;
     double low, high;
 };
 
-/// Facets that meet the plane or whose centroid is nearer than three crossing edges. All other facets lie on one side.
+/// The facets of a surface that meet the plane or whose centroid is nearer to it than three crossing edges. All other
+/// facets lie on one side of the plane.
 struct Band {
     Plane plane;
-    double edge_length = 0;              ///< mean length of the edges that cross the plane, h; 0: none does
-    double section_area = 0;             ///< of the body with the plane
-    double half_width = 0;               ///< three crossing edges
+    double edge_length = 0;              ///< h, mean length of the edges that cross the plane; 0: none does
+    double section_area = 0;             ///< area in which the plane cuts the body
+    double half_width = 0;               ///< three crossing edges, 3 h
     std::vector<double> distance;        ///< per vertex of the surface, signed
     std::vector<std::int32_t> facets;    ///< ascending
     std::vector<std::int32_t> index_of;  ///< per facet of the surface: its index in `facets`, or -1
     std::vector<std::array<std::int32_t, 3>> half_edges;  ///< per band facet
-    std::vector<std::int32_t> vertices;                   ///< of the band's facets, in the order in which they are met
+    std::vector<std::int32_t> vertices;                   ///< vertices of the band's facets, in the order in which they
+                                                          ///< are met
     std::vector<std::int32_t> vertex_index_of;            ///< per vertex of the surface: its index in `vertices`, or -1
     std::vector<Side> majority;   ///< per facet of the surface: the side of most vertices (Ivanov)
-    std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; all of the band do
-    double rounding = 0;          ///< bound of the error of a projection or a height
+    std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; the whole band is
+                                  ///< among them
+    double rounding = 0;          ///< bound on the error of a projection or a height
 
-    /// Whether it has the sizes of a band of this surface: required wherever both are taken together.
+    /// Whether the sizes are those of a band of this surface: required wherever both are passed together.
     bool fits(const Surface& surface) const {
         return distance.size() == static_cast<std::size_t>(surface.vertex_count()) &&
                vertex_index_of.size() == distance.size() && majority.size() == index_of.size() &&
@@ -60,18 +63,18 @@ struct Band {
     }
 };
 
-/// Whether there is a label for every facet of the surface: required wherever labels are taken.
+/// Whether there is a label for every facet of the surface: required wherever labels are passed.
 inline bool fit(const std::vector<Side>& side, const Surface& surface) {
     return side.size() == static_cast<std::size_t>(surface.facet_count());
 }
 
-/// O(#V + #F), on threads.
+/// Makes the band of a plane. O(#V + #F), on threads.
 Band make_band(const Surface& surface, const Plane& plane);
 
-/// Mean length of the edges that cross a plane, 0 if none does. O(#V + #F).
+/// Returns the mean length of the edges that cross a plane, 0 if none does. O(#V + #F).
 double crossing_edge_length(const Surface& surface, const Plane& plane);
 
-/// Edges with one end below and one end above the plane, oriented from below to above.
+/// Returns the edges with one end below and one end above the plane, oriented from below to above.
 std::vector<SurfaceEdge> crossed_edges(const Surface& surface, const Band& band);
 
 }  // namespace kerf

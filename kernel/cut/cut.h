@@ -1,5 +1,6 @@
-// Everything that one bisection of a closed surface did, as plain data. The viewer draws it, the report counts it,
-// tests check it. Method: E. Ivanov, a-priori domain decomposition; contour by minimum cut and local repair are ours.
+// A record of one bisection of a closed surface, as plain data: the viewer draws it, the report counts it, tests check
+// it. Method: a-priori domain decomposition (Ivanov, Andrä and Kudryavtsev 2006, ivanov2006); the contour by minimum
+// cut and the local repair are Kerf's own.
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace kerf {
 
-/// Cutting plane with its own coordinates. u, v, normal are orthonormal and right-handed.
+/// The cutting plane with its own coordinates. u, v and normal are orthonormal and right-handed.
 struct Plane {
     Vec3 origin = Vec3::Zero();  ///< a point on the plane
     Vec3 normal = Vec3::UnitX();
@@ -19,9 +20,9 @@ struct Plane {
 
     Plane() = default;
     Plane(const Vec3& point, const Vec3& unit_normal);
-    /// Up to 1e-6.
+    /// Whether u, v and normal are orthonormal, up to 1e-6.
     bool is_orthonormal() const;
-    /// Signed distance: negative below, positive above.
+    /// The signed distance of a point: negative below the plane, positive above.
     double distance(const Vec3& p) const { return normal.dot(p - origin); }
     Vec2 project(const Vec3& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
     Vec3 lift(const Vec2& q, double height) const { return origin + q.x() * u + q.y() * v + height * normal; }
@@ -33,14 +34,14 @@ struct Plane {
     }
 };
 
-/// The half that a facet goes to. `below` becomes child 2i, `above` child 2i + 1.
+/// The half that a facet belongs to. `below` becomes child 2i of node i, `above` child 2i + 1.
 enum class Side : std::uint8_t { below = 0, above = 1 };
 constexpr Side other(Side side) { return side == Side::below ? Side::above : Side::below; }
 
-/// How a contour is found on the surface.
+/// The method by which a contour is found on the surface.
 enum class ContourMethod {
     min_cut,   ///< minimum cut of the facet graph in a band around the plane
-    edges,     ///< majority of the facet's vertices (Ivanov)
+    edges,     ///< majority of the facet's vertices (ivanov2006)
     straight,  ///< facets are split at a coordinate plane
 };
 
@@ -58,24 +59,24 @@ enum class CutStrategy {
 };
 const char* name(CutStrategy strategy);
 
-/// Why a try was refused.
+/// The reason why a try was refused.
 enum class Refusal {
     none,                 ///< accepted
     empty_side,           ///< all facets fell on one side
     flow_limit,           ///< the minimum cut was not found within its bound of steps
-    pinched_contour,      ///< a vertex with more than two contour edges, or where the surface touches itself
+    pinched_contour,      ///< a vertex of more than two contour edges, or at which the surface touches itself
     crossing_projection,  ///< contour edges cross or touch in the plane
     nesting,              ///< the section is not on the left of every contour edge
     chord,                ///< an interface edge coincides with a surface edge off the contour
     intersection,         ///< interface and surface meet off the contour
     not_manifold,         ///< a half is not a closed 2-manifold
     misplaced_shell,      ///< a shell without contour lies in the wrong half
-    coincident_vertices,  ///< of a straight cut: a vertex on the plane, or two new ones in one place
+    coincident_vertices,  ///< in a straight cut: a vertex on the plane, or two new ones in one place
     soft,                 ///< valid, but an angle or gap is below its threshold
 };
 const char* name(Refusal refusal);
 
-/// Smallest measures of an interface; the thresholds of a good cut are in CutOptions.
+/// The smallest measures of an interface; the thresholds of a good cut are in CutOptions.
 struct InterfaceQuality {
     double dihedral_deg = 180;  ///< smallest angle between interface and surface along the contour
     double angle_deg = 180;     ///< smallest angle of an interface triangle
@@ -90,30 +91,30 @@ struct InterfaceQuality {
 /// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
 using SurfaceEdge = std::array<std::int32_t, 2>;
 
-/// Two triangles that meet where they must not.
+/// Two triangles that meet off their common corners.
 struct Collision {
-    std::array<Vec3, 3> first;   ///< of the interface; of a straight cut: a facet that it has split
-    std::array<Vec3, 3> second;  ///< a facet of the surface, or another triangle like the first
+    std::array<Vec3, 3> first;   ///< a triangle of the interface; in a straight cut: a piece of a split facet
+    std::array<Vec3, 3> second;  ///< a facet of the surface, or another triangle like `first`
 
     template <class Archive>
     void archive(Archive& a) {
         for (std::size_t i = 0; i < 3; ++i) a(first[i], second[i]);
     }
 };
-inline constexpr std::size_t max_collisions = 1000;  ///< of a try that are kept
+inline constexpr std::size_t max_collisions = 1000;  ///< most collisions kept of a try
 
-/// One attempt: a plane, a round of local repair, and what came of it.
+/// One attempt: a plane, a round of local repair, and the outcome.
 struct CutTry {
     Plane plane;
-    ContourMethod method = ContourMethod::min_cut;  ///< by which its contour was sought
-    std::int32_t axis = 0;    ///< rank of the direction, 0 is tried first; of a straight cut: coordinate axis
-    std::int32_t step = 0;    ///< step along the axis, 0 at the load's bisection; of a straight cut: rank of the plane
+    ContourMethod method = ContourMethod::min_cut;  ///< method by which the contour was sought
+    std::int32_t axis = 0;    ///< rank of the direction, 0 is tried first; in a straight cut: coordinate axis
+    std::int32_t step = 0;    ///< step along the axis, 0 at the load's bisection; in a straight cut: rank of the plane
     std::int32_t repair = 0;  ///< round of local repair
     Refusal refusal = Refusal::none;
-    std::vector<Vec3> places;           ///< where it failed
-    std::vector<Collision> collisions;  ///< if refused for an intersection, the first of them; empty without a
-                                        ///< listener, but for the one of a straight cut
-    std::vector<SurfaceEdge> contour;   ///< pinched ones too; empty without a listener
+    std::vector<Vec3> places;           ///< positions at which the try failed
+    std::vector<Collision> collisions;  ///< the first ones, if refused for an intersection; empty without a listener,
+                                        ///< but for one in a straight cut
+    std::vector<SurfaceEdge> contour;   ///< pinched contours, too; empty without a listener
     InterfaceQuality quality;           ///< meaningful if refusal is none or soft
 
     template <class Archive>
@@ -136,11 +137,12 @@ struct ContourStages {
     }
 };
 
-/// Triangulation of the section inside of the contour, in the plane and lifted to meet the surface.
+/// The triangulation of the section inside of the contour, in the plane and lifted to meet the surface.
 struct Interface {
     std::vector<std::int32_t> contour;  ///< #C; vertex of the parent surface of each contour vertex
-    std::vector<Vec2> planar;           ///< #P; contour vertices first; plane coordinates while it was triangulated
-    std::vector<Vec3> points;           ///< #P; contour vertices at their place on the surface
+    std::vector<Vec2> planar;           ///< #P; contour vertices first; coordinates in the plane during the
+                                        ///< triangulation
+    std::vector<Vec3> points;           ///< #P; contour vertices are at their place on the surface
     std::vector<Triangle> triangles;    ///< indices into `planar`; counter-clockwise seen from above
 
     template <class Archive>
@@ -149,9 +151,9 @@ struct Interface {
     }
 };
 
-/// Where the first plane of a cut goes.
+/// The place of the first plane of a cut.
 struct CutPlace {
-    double fraction = 0.5;  ///< of the load below the plane
+    double fraction = 0.5;  ///< share of the load below the plane
     std::int32_t axis = 0;  ///< rank of the direction in the order of preference of the criterion
     double section_gain =
         0;  ///< share of the section's area that is saved against axis 0 and half of the leaves; estimate
@@ -162,27 +164,29 @@ struct CutPlace {
     }
 };
 
-/// One bisection.
+/// The record of one bisection.
 struct Cut {
     NodeId node = 1;
     CutStrategy strategy = CutStrategy::whole;
     ContourMethod method = ContourMethod::min_cut;
     Plane plane;
-    std::vector<CutTry> tries;                     ///< all, the accepted one included
-    std::vector<std::vector<std::int32_t>> loops;  ///< closed contours as parent vertices; below is on the left
+    std::vector<CutTry> tries;                     ///< all tries, the accepted one included
+    std::vector<std::vector<std::int32_t>> loops;  ///< closed contours as parent vertices; the half below is on the
+                                                   ///< left
     std::vector<Side> side;                        ///< per facet of the parent; empty without a listener
     ContourStages stages;                          ///< empty without a listener
-    SurfaceArrays split_parent;                    ///< of a straight cut: the parent, its facets split; with a listener
+    SurfaceArrays split_parent;                    ///< in a straight cut with a listener: the parent, its facets split
     Interface interface;
     InterfaceQuality quality;
     std::int64_t contour_edges = 0;
     double contour_length = 0;
     double max_deviation = 0;   ///< largest distance of a contour vertex from the plane
-    CutPlace place;             ///< of the first plane
-    double section_area = 0;    ///< of the surface with the plane
-    double interface_area = 0;  ///< of the lifted interface
+    CutPlace place;             ///< place of the first plane
+    double section_area = 0;    ///< area of the section of the surface with the plane
+    double interface_area = 0;  ///< area of the lifted interface
     double seconds = 0;         ///< wall clock; goes into the report only
-    FileHash hash = {0, 0};     ///< of all that the halves follow from, bit for bit; {0, 0}: not made, or from a trace
+    FileHash hash = {0, 0};     ///< of all data that determine the halves, bit for bit; {0, 0}: no cut, or read from a
+                                ///< trace
 
     bool made() const { return strategy != CutStrategy::whole; }
     template <class Archive>
@@ -192,7 +196,7 @@ struct Cut {
     }
 };
 
-/// What a cut, made or not, came to in numbers: kept by the tree, listed by the report, compared by the viewer.
+/// The numbers of a cut, made or not, that the tree keeps, the report lists and the viewer compares.
 struct CutSummary {
     Plane plane;
     ContourMethod method = ContourMethod::min_cut;

@@ -1,6 +1,9 @@
-// Obstacles are the vertices of the surface near the plane that do not touch the contour: tips and pockets that poke
-// through the section without changing a label.
-// The points inside of an unfolded contour are moved back with it: harmonically, as they are lifted.
+// The section inside of the contour is triangulated in the plane, either over the contour as it projects or over one
+// whose steps down steep walls are unfolded (contour_layout.h), and then lifted by harmonic heights (lift.h) within the
+// ranges that leave good angles at the contour (dihedral_ranges.h). Points inside of an unfolded contour are moved back
+// with it by harmonic displacements. Obstacles are the vertices of the surface near the plane that do not touch the
+// contour: tips and pockets that poke through the section without changing a label. The interface must pass them at a
+// distance, and the nearest ones become points of it, above or below themselves.
 #include "cut/interface.h"
 
 #include <algorithm>

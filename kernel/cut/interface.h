@@ -9,23 +9,23 @@
 
 namespace kerf {
 
-/// An interface, or why there is none and at which vertices of the surface.
+/// An interface, or the reason why there is none and the vertices of the surface at which it failed.
 struct InterfaceAttempt {
     Refusal refusal = Refusal::none;
     std::vector<std::int32_t> failed;
     Interface interface;
 };
 
-/// Spans the contour's loops, each a closed path of edges of the surface, with triangles as small as a volume bound of
-/// `options` asks for. `hits` (per vertex of the band) counts how often an interface has run into it before: its
-/// clearance grows with it. A contour that needs no unfolding is refused (crossing_projection, at no vertex) if that is
-/// asked for: the interface would be that of its projection.
+/// Spans the contour's loops, each a closed path of edges of the surface, with triangles as small as the volume bound
+/// of `options` asks for. `hits` (per vertex of the band) counts how often an interface has run into the vertex before:
+/// its clearance grows with that. With ContourLayout::unfolded, a contour that needs no unfolding is refused
+/// (crossing_projection, at no vertex), since the interface would be the same as for its projection.
 InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
                                  const std::vector<std::vector<std::int32_t>>& loops,
                                  const std::vector<std::int32_t>& hits, const CutOptions& options,
                                  ContourLayout layout = ContourLayout::projected);
 
-/// Area of the lifted triangles.
+/// Returns the area of the lifted triangles.
 double interface_area(const Interface& interface);
 
 }  // namespace kerf

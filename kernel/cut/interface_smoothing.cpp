@@ -1,3 +1,9 @@
+// Gauss-Seidel sweeps over the interior points of an interface in space; the contour stays. The measure of a triangle
+// is the smallest of its angles and of its dihedral angles with the surface at contour edges, each over its threshold,
+// and no more than `enough`, so that triangles that are good do not count against each other. A point moves towards the
+// mean of its neighbours by 1, 1/2, 1/4 or -1/4 of the way, and takes the first step that raises the smallest measure
+// around it; hence the worst measure never falls.
+
 #include "cut/interface_smoothing.h"
 
 #include <algorithm>
@@ -17,7 +23,7 @@ namespace {
 constexpr int interface_sweeps = 10;
 constexpr double enough = 1.1;  // of a threshold: better is not asked for
 
-// What each triangle measures is kept, so that only those around points that are tried are measured again.
+// The measures of all triangles are kept, so that only those around points that are tried are computed again.
 class InterfaceSmoother {
  public:
     InterfaceSmoother(const Surface& surface, const CutOptions& options, Interface& interface);
@@ -85,7 +91,7 @@ double InterfaceSmoother::worst_around(std::int32_t point) const {
     return worst;
 }
 
-// The worst of what is in tried_ then.
+// Measures the triangles around a point, into tried_, and returns the worst.
 double InterfaceSmoother::measure_around(std::int32_t point) {
     tried_.clear();
     for (const std::int32_t i : around(point)) tried_.push_back(measure(interface_.triangles[i]));

@@ -1,4 +1,4 @@
-// Which half a facet goes to. The contour is the boundary between the labels: closed loops of surface edges.
+// The labels of facets, below or above. The contour is the boundary between them: closed loops of surface edges.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@ namespace kerf {
 ///
 /// An edge costs its length, times 1 + (distance / h)^2, times 1 + 3 |n_z|^4, times the larger `penalty` of its facets
 /// (per band facet, >= 1); a facet on the wrong side costs area times distance / h^2. Facets outside of the band keep
-/// their label, and all do where the plane crosses no edge. The steps of the flow are taken from `step_budget`; returns
-/// false, with `side` unchanged, if it took too many.
+/// their label, and so do all facets if the plane crosses no edge. The steps of the flow are taken from `step_budget`;
+/// returns false, with `side` unchanged, if the budget does not suffice.
 bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
                         std::vector<Side>& side, std::int64_t& step_budget);
 

@@ -1,8 +1,8 @@
 // Volume below the plane z = s by the divergence theorem with the field (0, 0, z - s): V(s) = sum over the surface
 // below of the integral of (z - s) n_z dA; the cap contributes nothing because z = s there. For a whole facet the
 // integral is (mean z - s) A n_z; for a crossing facet the part below is the facet minus the corner above, or the
-// corner below. The second moment, the integral of z^2, is the same with p(z) = z^3/3 in place of z: p' is what is
-// integrated over the volume.
+// corner below. The second moment, the integral of z^2, is the same with the potential p(z) = z^3/3 in place of z; the
+// volume integral is that of its derivative p'.
 #include "cut/load.h"
 
 #include <algorithm>

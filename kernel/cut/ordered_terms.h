@@ -1,5 +1,5 @@
-// Sums whose terms are computed on threads and added one after the other: those of numbers that round depend on the
-// order, and planes depend on their last bits.
+// Sums whose terms are computed on threads and added in order. Rounded sums depend on the order of their terms, and
+// planes depend on the last bits of such sums.
 #pragma once
 
 #include <cmath>
@@ -8,11 +8,11 @@
 
 namespace kerf {
 
-/// Items that a thread should take at once, where each costs some 10 ns.
+/// The number of items that a thread should take at once, if each costs some 10 ns.
 inline constexpr std::size_t items_of_thread = std::size_t{1} << 14;
 
-/// Calls add(term_of(i)) for each i below `count`, ascending; add() on the caller's thread alone. A block of terms is
-/// kept at a time.
+/// Calls add(term_of(i)) for each i below `count`, ascending: term_of() on threads, add() on the caller's thread alone.
+/// Keeps one block of terms at a time.
 template <class TermOf, class Add>
 void add_in_order(std::size_t count, const TermOf& term_of, const Add& add) {
     constexpr std::size_t block = 16 * items_of_thread;
@@ -26,7 +26,7 @@ void add_in_order(std::size_t count, const TermOf& term_of, const Add& add) {
     }
 }
 
-/// The lowest and highest of value_of(i) for i below `count`, which must not be zero.
+/// Returns the lowest and the highest value_of(i) for i below `count`, which must not be zero.
 template <class ValueOf>
 std::pair<double, double> bounds_on_threads(std::size_t count, const ValueOf& value_of) {
     std::pair<double, double> bounds = {INFINITY, -INFINITY};
@@ -45,7 +45,7 @@ std::pair<double, double> bounds_on_threads(std::size_t count, const ValueOf& va
     return bounds;
 }
 
-/// What select(i, items) appends for each i below `count`, in the order of i.
+/// Returns the items that select(i, items) appends for each i below `count`, in the order of i.
 template <class Item, class Select>
 std::vector<Item> selected_on_threads(std::size_t count, const Select& select) {
     std::vector<Item> all;

@@ -1,4 +1,4 @@
-// Buckets over the plane for finding what lies near.
+// A grid of buckets over the plane, by which near items are found.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace kerf {
 
 using PlanarBox = Eigen::AlignedBox2d;
 
-/// The box with all that is as near to it as `margin` along both axes.
+/// Returns the box enlarged by `margin` on all sides.
 inline PlanarBox grown(const PlanarBox& box, double margin) {
     return {box.min() - Vec2::Constant(margin), box.max() + Vec2::Constant(margin)};
 }

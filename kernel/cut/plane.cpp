@@ -1,3 +1,9 @@
+// Planes across one direction, whose heights are measured over the plane through the centroid. Gaps between bodies are
+// found by slices of the extent: each facet raises a counter in the slice where it begins and lowers it after that
+// where it ends, so that slices with the count 0 are empty. The bisection follows from a LoadProfile. Steps to both
+// sides are made only when a second plane is asked for, because most cuts need none: the profile, which is large, is
+// then made again instead of being kept while halves are built.
+
 #include "cut/plane.h"
 
 #include <algorithm>

@@ -1,7 +1,11 @@
 // Moving the plane helps little when a contour has several trouble spots, because each new plane has its own. So the
-// spots are repaired one by one on the same plane first: the facets around a failed vertex become expensive, and the
-// next minimum cut goes around them.
-// What an attempt takes is proportional to the band and the interface, but for the halves of one that is valid.
+// spots are repaired one by one on the same plane first: the facets around a failed vertex get a penalty (`penalty_`,
+// the factor of their edges in the minimum cut), and the next contour goes around them; the penalty rises until the
+// contour moves.
+// Each contour is spanned over its projection, and where that is not good over its unfolding, too; an interface that is
+// merely soft is smoothed in space; the better one is kept (`Spanned`). The labels `side_` are of the last attempt
+// alone, so complete() must follow attempt() before the next one. The cost of an attempt is proportional to the band
+// and the interface, but for the halves of a valid one.
 #include "cut/plane_trial.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Attempts at a cut along one plane.
+// Attempts at a cut along one plane: contour, interface, judgement, local repair.
 #pragma once
 
 #include <array>
@@ -12,29 +12,29 @@
 
 namespace kerf {
 
-/// All that one try produced. Labels of facets off the band are those of the plane, so that an attempt has none.
+/// The result of one try. It has no labels, as those of facets off the band follow from the plane.
 struct Attempt {
     CutTry record;
-    std::vector<Side> side;  ///< with a listener, once it is completed
+    std::vector<Side> side;  ///< set by complete(), with a listener
     std::vector<std::vector<std::int32_t>> loops;
     Interface interface;
     ContourStages stages;
     double section_area = 0;
     std::array<Surface, 2> halves;
-    FileHash hash = {0, 0};            ///< once it is completed
-    std::vector<std::int32_t> failed;  ///< vertices
+    FileHash hash = {0, 0};            ///< set by complete()
+    std::vector<std::int32_t> failed;  ///< vertices at which the attempt failed
 
     bool valid() const { return record.refusal == Refusal::none || record.refusal == Refusal::soft; }
 };
 
-/// The smallest measure over its threshold: 1 and more is good.
+/// Returns the smallest measure over its threshold; 1 and more is good.
 double goodness(const InterfaceQuality& quality, const CutOptions& options);
 
 /// One plane and its rounds of local repair.
 class PlaneTrial {
  public:
-    /// `copied`: copied_vertices() of the surface; `step_budget`: of the minimum cuts of all planes. What is given must
-    /// outlive it. O(#V + #F).
+    /// `copied` are the copied_vertices() of the surface, `step_budget` is that of the minimum cuts of all planes. All
+    /// arguments must outlive the trial. O(#V + #F).
     PlaneTrial(const Surface& surface, const std::vector<char>& copied, const PlaneCandidate& candidate, NodeId node,
                const CutOptions& options, bool record, std::int64_t& step_budget)
         : surface_(surface),
@@ -49,11 +49,11 @@ class PlaneTrial {
           penalty_(band_.facets.size(), 1),
           hits_(band_.vertices.size(), 0) {}
 
-    /// A contour and its interface, judged; without the halves.
+    /// Finds a contour and its interface, and judges it; makes no halves.
     Attempt attempt(std::int32_t repair);
     /// Builds the halves of the last attempt, if it is valid, or refuses it.
     void complete(Attempt& attempt) const;
-    /// Makes the places where the attempt failed expensive. False if there is nothing to repair.
+    /// Makes facets at the places where the attempt failed more expensive. Returns false if there is nothing to repair.
     bool learn(const Attempt& attempt);
 
  private:
@@ -72,12 +72,12 @@ class PlaneTrial {
     void raise_penalty();
 
     const Surface& surface_;
-    const std::vector<char>& copied_;  // vertices, or none
+    const std::vector<char>& copied_;  // vertices with a copy, or empty
     const PlaneCandidate& candidate_;
     NodeId node_;
     const CutOptions& options_;
     bool record_;
-    std::int64_t& step_budget_;  // of the minimum cuts of all planes
+    std::int64_t& step_budget_;  // shared by the minimum cuts of all planes
     Band band_;
     std::vector<Side> side_;               // labels of the last attempt
     std::vector<double> penalty_;          // per band facet
@@ -87,7 +87,7 @@ class PlaneTrial {
     std::vector<SurfaceEdge> last_contour_;
     std::vector<std::vector<std::int32_t>> last_loops_;
     std::vector<std::int32_t> last_failed_;
-    int stalled_ = 0;  // rounds that ended as the one before
+    int stalled_ = 0;  // rounds that ended like the one before
 };
 
 }  // namespace kerf

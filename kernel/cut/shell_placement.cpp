@@ -1,8 +1,8 @@
-// Around each point, the body has the winding number w = 0 or 1, and those of the halves add up to it, for they have
-// the interface in opposite directions. Along a shell of a half, w behind the shell is the same everywhere, and in
+// Around each point, the body has the winding number w = 0 or 1, and those of the halves add up to it, because they
+// have the interface in opposite directions. Along a shell of a half, w behind the shell is the same everywhere, and in
 // front of it one less, because nothing crosses it. Above the half below, that half has w = 0 and the other one that of
-// the body: a shell that reaches there is in its place. What is left are shells between the highest point of the half
-// below and the lowest one of the half above.
+// the body: a shell that reaches there is in its place. So only shells between the highest point of the half below and
+// the lowest one of the half above remain to be checked.
 #include "cut/shell_placement.h"
 
 #include <algorithm>

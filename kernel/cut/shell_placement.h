@@ -1,4 +1,4 @@
-// Whether the shells of a body that is cut, those of voids above all, have come into the half in which they lie.
+// The check that the shells of a body that is cut, above all those of voids, have come into the half in which they lie.
 #pragma once
 
 #include <cmath>
@@ -7,24 +7,24 @@
 
 namespace kerf {
 
-/// Heights over a plane.
+/// A range of heights over a plane.
 struct HeightSpan {
     double low = -INFINITY, high = INFINITY;
 };
 
-/// Where both halves of a cut have something, up to rounding: nothing of the half below lies higher, nothing of that
-/// above lower. The span has the plane in it. O(band and interface).
+/// Returns the heights that both halves of a cut reach, up to rounding: the half below ends where the span does, the
+/// half above begins where it begins. The span contains the plane. O(band and interface).
 HeightSpan shared_heights(const Band& band, const std::vector<Side>& side, const Interface& interface);
 
-/// Whether a half may have a shell that lies within these heights, which must be the shared ones of the labels `side`.
-/// Only such a shell can be misplaced. O(band); true without a search where they reach beyond the band.
+/// Whether a half may have a shell that lies within these heights, which must be the shared_heights() of the labels
+/// `side`. Only such a shell can be misplaced. O(band); true without a search if the heights reach beyond the band.
 bool may_misplace_shells(const Surface& surface, const Band& band, const std::vector<Side>& side,
                          const HeightSpan& shared);
 
-/// Every shell of a half must enclose positive volume if it lies outside of all others, negative inside of the
-/// material. Returns a vertex (of the half) of the first shell for which this fails, or -1. Only shells within the
-/// heights are asked, of which there must be some for all others. O(#F) plus, for every box in another one, the facets
-/// of that.
+/// Returns a vertex (of the half) of the first misplaced shell, or -1: every shell must enclose positive volume if it
+/// lies outside of all others, and negative volume inside of the material. Only shells within the heights are looked
+/// at; the caller must know that all others are right. O(#F) plus, for every box in another one, the facets of the
+/// latter.
 std::int32_t find_misplaced_shell(const Surface& half, const Plane& plane = {}, const HeightSpan& within = {});
 
 }  // namespace kerf

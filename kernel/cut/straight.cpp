@@ -1,6 +1,8 @@
 // Vertices are never moved to the plane: that folds strips of long triangles over. The plane moves instead, into a gap
-// between the coordinates of the vertices. The surface touches the plane in the contour alone, and the interface lies
-// in it exactly, so the two cannot meet elsewhere; only the children of split facets are rounded and need a check.
+// between the coordinates of the vertices, and facets are split there (facet_split.h). The surface touches the plane in
+// the contour alone, and the interface lies in the plane exactly, so the two cannot meet elsewhere; only the pieces of
+// split facets are rounded, and need a check for intersections. Planes are rated by a sum of penalties: for a narrow
+// gap, for the distance from the wanted load and for the share of facets that are split.
 #include "cut/straight.h"
 
 #include <algorithm>
@@ -90,7 +92,7 @@ class CrossingCount {
     }
 
  private:
-    // What lies beyond the window has no place among the heights that are asked for.
+    // The lower or the upper ends of facets. Ends above the window are dropped: no height above it is asked for.
     struct Ends {
         std::int64_t before = 0;
         std::vector<double> within;

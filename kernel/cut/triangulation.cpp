@@ -1,5 +1,8 @@
-// Delaunay refinement (Ruppert 1995, Chew 1993) without encroachment splits. A contour edge that no interior point
-// encroaches stays an edge of the triangulation by its constraint.
+// Delaunay refinement (Ruppert 1995, ruppert1995; Chew 1993, chew1993) that never splits a contour edge, because these
+// belong to the surface. Instead of splitting an edge that it encroaches, a point is not inserted; a contour edge stays
+// by its constraint. Sizes grow from the contour inwards, so triangles beside contour edges that are much shorter than
+// the bound do not become flat. Interior points are smoothed at the end, each move only if the worst triangle around
+// the point does not suffer.
 #include "cut/triangulation.h"
 
 #include <algorithm>
