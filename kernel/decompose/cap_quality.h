@@ -1,4 +1,4 @@
-// How good the interfaces of straight cuts have become.
+// The quality of the finished interfaces of straight cuts.
 #pragma once
 
 #include <map>
@@ -13,8 +13,8 @@ struct CapMeasures {
     InterfaceQuality quality;
 };
 
-/// Measures of every straight cut: angles of its triangles, dihedral angles with the other faces of both parts along
-/// their border. O(n log n), n: faces of caps and beside them.
+/// Measures the cap of every straight cut: the angles of its triangles, and the dihedral angles along its border with
+/// the other faces of both parts. O(n log n) for n faces in caps and beside them.
 std::map<NodeId, CapMeasures> measure_caps(const FaceComplex& complex);
 
 }  // namespace kerf

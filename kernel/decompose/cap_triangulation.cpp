@@ -1,7 +1,9 @@
-// Notation: a border edge is an edge between a region and another one, or the surface. It is hard if a face that is no
-// cap holds it, else soft: then it lies on the line in which two coordinate planes meet, exactly. A vertex on such a
-// line where nothing else meets is passed over, so what remains of a run of soft edges is a segment between two kept
-// vertices, which is divided anew.
+// The caps of straight cuts are divided into regions, one for each pair of parts in one plane, and each region is
+// triangulated in its plane (cut/triangulation.h). Notation: a border edge is an edge between a region and another one,
+// or the surface. It is hard if a face that is no cap holds it, else soft: then it lies exactly on the line in which
+// two coordinate planes meet. A vertex on such a line at which nothing else meets is passed over, so that a run of soft
+// edges becomes a segment between two kept vertices, which is divided anew; both regions at it use the same new
+// vertices.
 #include "decompose/cap_triangulation.h"
 
 #include <algorithm>

@@ -1,5 +1,9 @@
-// The halves of a cut are independent, so each branch of the tree is a value of its own, which its parent appends in
-// the order of the tree, whichever thread has finished first.
+// The recursion. A node is cut at the share of the load that its leaves demand (cut/bisect.h), and its halves are
+// descended, on two threads where some are free. The halves of a cut are independent, so each branch of the tree is a
+// value of its own, which its parent appends in the order of the tree, whichever thread has finished first: results do
+// not depend on threads. With `others` set, a half that belongs to another range is handed over instead of descended;
+// without, all nodes that lead to leaves of the range are cut here. Nodes without a valid cut become leaves that want
+// more than one part, for straight_division.h.
 #include "decompose/decomposition.h"
 
 #include <mutex>
@@ -13,7 +17,7 @@ namespace kerf {
 
 namespace {
 
-// Several of them, and the tree above their roots.
+// The regions of a complex, and the tree above their roots.
 struct Regions {
     const Complex& complex;
     std::vector<RegionMeasures> measures;
@@ -22,7 +26,7 @@ struct Regions {
 
 class Decomposer {
  public:
-    // `others` null: all of the range is cut here, whomever the branches that lead to it belong to.
+    // With `others` null, all nodes above leaves of the range are cut here, whichever range they belong to.
     Decomposer(const DecomposeOptions& options, LeafRange range, OtherRanges* others, CutListener* listener)
         : options_(options),
           range_(range),
@@ -121,7 +125,7 @@ Decomposition Decomposer::descend(Surface surface, const Branch& branch) {
     return result;
 }
 
-// Those who wait for a half get it before this thread goes on.
+// Halves for other ranges are handed over first, because others wait for them.
 void Decomposer::descend_halves(Halves halves, const std::array<Branch, 2>& branches, Decomposition& result) {
     const std::array<bool, 2> own = {is_own(branches[0]), is_own(branches[1])};
     for (const std::size_t i : {0, 1}) {

@@ -1,6 +1,7 @@
 // A part's surface is read out of the complex, cut by itself, and the result is written back: the pieces of a split
 // facet take its place, so that both owners of an interface facet hold the same pieces. Faces of other parts that only
-// share a crossed edge get the same vertex on it.
+// share a crossed edge get the same vertex on it. The faces at a vertex form a list in `at_vertex_`, from the last one
+// to earlier ones; entries stay when a face is split, so that a listed face may no longer have the vertex.
 #include "decompose/face_complex.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace kerf {
 
 namespace {
 
-// A vertex or facet of one leaf; sorted, equal keys come together.
+// A vertex or facet of one leaf; sorting brings equal keys together.
 struct KeyedItem {
     Key key;
     std::int32_t leaf, index;
@@ -81,7 +82,7 @@ void FaceComplex::index_faces() {
     for (std::size_t f = 0; f < faces_.size(); ++f) list_face(static_cast<std::int32_t>(f));
 }
 
-// The face must be the last one.
+// Adds a face to the lists of its parts and vertices; it must be the last face.
 void FaceComplex::list_face(std::int32_t face) {
     for (const NodeId part : faces_[face].owner)
         if (part != 0) faces_of_[part].push_back(face);
@@ -96,7 +97,7 @@ void FaceComplex::add_face(const ComplexFace& face) {
     list_face(static_cast<std::int32_t>(faces_.size()) - 1);
 }
 
-// By one with the same owners, or whose lists the caller mends.
+// Puts a face in the place of another one with the same owners; with other owners, the caller mends faces_of_.
 void FaceComplex::replace_face(std::int32_t at, const ComplexFace& face) {
     const Triangle before = std::exchange(faces_[at], face).corners;
     for (const std::int32_t v : face.corners) {
@@ -106,7 +107,7 @@ void FaceComplex::replace_face(std::int32_t at, const ComplexFace& face) {
     }
 }
 
-// Ascending; all that have one of the vertices, and perhaps some that had.
+// Returns the faces at some of these vertices, ascending, and perhaps faces that were there before they were split.
 std::vector<std::int32_t> FaceComplex::faces_at(std::vector<std::int32_t> vertices) const {
     const auto make_unique = [](std::vector<std::int32_t>& items) {
         std::sort(items.begin(), items.end());

@@ -1,3 +1,10 @@
+// Regions are ordered along Morton's curve through the box of the complex, by the centres of their boxes, so that
+// regions that follow each other are near each other and mostly come to the same rank. Leaves are shared out by highest
+// averages: the next leaf always goes to the region with the most load per leaf, from a priority queue in which the
+// smaller number wins ties. `order_` has the regions along the curve, and first_leaf_[i] the first leaf of the i-th of
+// them, so that a node is an interval of places. The hash of a node of several regions is that of their shares, by
+// which ranks compare their trees.
+
 #include "decompose/region_tree.h"
 
 #include <algorithm>
@@ -29,7 +36,7 @@ RegionMeasures measure(const SurfaceArrays& region, const LoadModel& model) {
     return measures;
 }
 
-// A place along a curve that visits neighbours one after the other: the bits of three coordinates by turns.
+// Returns a place along a curve on which neighbours mostly follow each other: the bits of three coordinates in turn.
 std::uint64_t place_on_curve(const Vec3& point, const Box& box) {
     constexpr int bits = 20;
     std::uint64_t place = 0;
@@ -64,11 +71,11 @@ std::vector<RegionIndex> spatial_order_of(const Complex& complex) {
     return order;
 }
 
-// Leaves of each region.
+// Returns the number of leaves of each region.
 std::vector<std::int32_t> share_out(std::span<const RegionMeasures> measures, std::int32_t parts) {
     std::vector<std::int32_t> leaves(measures.size(), 1);
     struct Share {
-        double load;  // a leaf
+        double load;  // per leaf
         std::int32_t region;
         bool operator<(const Share& other) const {
             return load != other.load ? load < other.load : region > other.region;

@@ -8,26 +8,27 @@
 
 namespace kerf {
 
-/// What is known of a region before it is cut.
+/// The measures of a region before it is cut.
 struct RegionMeasures {
     std::int32_t vertices = 0, facets = 0;
     double volume = 0, volume_error = 0, area = 0;
-    double load = 0;  ///< of the LoadModel
+    double load = 0;  ///< as LoadModel counts it
 };
 
-/// Of all regions, in their order. Throws Error(input) for a region whose facets enclose no volume, or are turned
-/// inwards. O(n log n), n: facets of the complex.
+/// Returns the measures of all regions, in their order. Throws Error(input) for a region whose facets enclose no
+/// volume, or are turned inwards. O(n log n) for n facets of the complex.
 std::vector<RegionMeasures> measure_regions(const Complex& complex, const DecomposeOptions& options);
 
-/// How the leaves of a tree are shared out to regions, and which nodes lead there.
+/// The distribution of a tree's leaves to regions, and the nodes above the regions' roots.
 ///
-/// A node that holds several regions is divided into the first half of them and the rest, in an order in which
-/// neighbours follow each other, without a plane; nodes are numbered as those of cuts are. One that holds a single
-/// region is its root. Depends on the measures and boxes of the regions alone.
+/// A node that holds several regions is divided into the first half of them and the rest, without a plane, in an order
+/// in which neighbours follow each other; nodes are numbered like those of cuts. A node that holds a single region is
+/// the root of that. The tree depends on the measures and boxes of the regions alone.
 class RegionTree {
  public:
-    /// `parts`: leaves wanted, at least as many as regions. Each region gets one, and each further one the region that
-    /// has the largest load a leaf then; of equal ones the first. O(parts log #regions).
+    /// Shares out `parts` leaves, at least as many as there are regions. Each region gets one, and each further leaf
+    /// goes to the region that then has the largest load per leaf, to the first of these if there are several. O(parts
+    /// log #regions).
     RegionTree(const Complex& complex, std::span<const RegionMeasures> measures, std::int32_t parts);
 
     /// A node of the tree: the regions numbered [first, first + regions) in the order of the tree.
@@ -44,12 +45,12 @@ class RegionTree {
     std::int32_t leaves(const Node& node) const {
         return first_leaf_[static_cast<std::size_t>(node.first + node.regions)] - first_leaf(node);
     }
-    /// The node as it is told of: the sums over its regions.
+    /// Returns the node in the form of the tree, with sums over its regions.
     TreeNode describe(const Node& node, std::span<const RegionMeasures> measures) const;
 
  private:
     std::vector<RegionIndex> order_;
-    std::vector<std::int32_t> first_leaf_;  // of each place in the order, and the number of all
+    std::vector<std::int32_t> first_leaf_;  // of each place in the order; at the end the number of all leaves
 };
 
 }  // namespace kerf

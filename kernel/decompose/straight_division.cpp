@@ -1,5 +1,8 @@
-// Depth first, the half below before the half above. When the turn of a part comes, cuts of others may have split its
-// facets, so it is read from the complex then and no sooner.
+// Straight cuts start when all contours of edges are found, because a straight cut through one part splits facets of
+// its neighbours' interfaces, too. All parts are then in one FaceComplex, which is divided depth first, the half below
+// before the half above. When the turn of a part comes, cuts of others may have split its facets, so it is read from
+// the complex then and no sooner. The caps are triangulated after the last cut (cap_triangulation.h), and only then are
+// keys assigned.
 #include "decompose/straight_division.h"
 
 #include <algorithm>
@@ -123,7 +126,7 @@ void StraightDivision::finish_interfaces() {
     for (const auto& [id, points] : corners) add_to_cut_hash(nodes_.at(id), std::span<const Vec3>(points));
 }
 
-// That of the leaf from which it was divided.
+// Returns the region of the leaf of `whole` from which this leaf was divided.
 RegionIndex StraightDivision::region_of(NodeId leaf) const {
     auto found = regions_.find(leaf);
     while (found == regions_.end()) found = regions_.find(leaf /= 2);

@@ -1,4 +1,4 @@
-// The strategy after all others: parts without a contour of edges are divided by straight cuts.
+// The division of parts without a contour of edges by straight cuts, after all other strategies.
 #pragma once
 
 #include "decompose/decomposition.h"
@@ -7,11 +7,11 @@ namespace kerf {
 
 /// Divides every leaf that wants more than one part by straight cuts, recursively, and returns the leaves of `range`.
 ///
-/// `whole` holds all nodes and leaves of decompose(). A straight cut splits facets, and those of interfaces belong to
-/// two parts, so the parts are not independent here: every rank does all of it, on one complex of faces, in the order
-/// of the tree. Interfaces are triangulated after the last cut. The result depends on `whole` and the options only.
-/// Contacts are those of `whole`, as straight cuts have divided them.
-/// A part that no plane divides stays whole. O(n log n) per cut, n: facets of the part and those beside its section.
+/// `whole` holds all nodes and leaves of decompose(). A straight cut splits facets, and facets of interfaces belong to
+/// two parts, so the parts are not independent here: every rank makes all straight cuts, on one complex of faces, in
+/// the order of the tree. Interfaces are triangulated after the last cut. The result depends on `whole` and the options
+/// only. Its contacts are those of `whole`, as straight cuts have divided them. A part that no plane divides stays
+/// whole. O(n log n) per cut for n facets of the part and beside its section.
 Decomposition divide_straight(Decomposition whole, const DecomposeOptions& options, LeafRange range,
                               CutListener* listener = nullptr);
 
