@@ -1,9 +1,9 @@
 // Vertices are never moved to the plane: that folds strips of long triangles over. The plane moves instead, into a gap
 // between the coordinates of the vertices, and facets are split there (facet_split.h). The surface touches the plane in
 // the contour alone, and the interface lies in the plane exactly, so the two cannot meet elsewhere; only the pieces of
-// split facets are rounded, and need a check for intersections. Planes are rated
-// by the width of their gap, less penalties for the distance from the wanted load, for the share of facets that are
-// split, and for directions in which the body is short.
+// split facets are rounded, and need a check for intersections. Planes are rated by the width of their gap, less
+// penalties for the distance from the wanted load, for the share of facets that are split, and for directions in which
+// the body is short.
 #include "cut/straight.h"
 
 #include <algorithm>

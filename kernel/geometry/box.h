@@ -11,10 +11,10 @@
 
 namespace kerf {
 
-/// A box along the axes. A new one is empty.
+/// A box along the axes, empty when it is constructed.
 using Box = Eigen::AlignedBox3d;
 
-/// The smallest box around all points of a range.
+/// Returns the smallest box around all points of a range.
 template <class Points>
 Box box_around(const Points& points) {
     Box box;
@@ -22,7 +22,7 @@ Box box_around(const Points& points) {
     return box;
 }
 
-/// The smallest box around those points of a range that have no infinite or undefined coordinate.
+/// Returns the smallest box around those points that have no infinite or undefined coordinate.
 inline Box box_around_finite(const std::vector<Vec3>& points) {
     Box box;
     for (const Vec3& p : points)
@@ -30,7 +30,7 @@ inline Box box_around_finite(const std::vector<Vec3>& points) {
     return box;
 }
 
-/// The smallest box around the corners of one facet or tetrahedron.
+/// Returns the smallest box around the corners of one facet or tetrahedron.
 template <std::size_t corners>
 Box box_around(const std::vector<Vec3>& vertices, const std::array<std::int32_t, corners>& element) {
     Box box;
@@ -38,7 +38,7 @@ Box box_around(const std::vector<Vec3>& vertices, const std::array<std::int32_t,
     return box;
 }
 
-/// The boxes of facets or tetrahedra, in their order.
+/// Returns the boxes of facets or tetrahedra, in their order.
 template <std::size_t corners>
 std::vector<Box> boxes_around(const std::vector<Vec3>& vertices,
                               const std::vector<std::array<std::int32_t, corners>>& elements) {

@@ -1,4 +1,4 @@
-// A binary tree of boxes over items that lie in an array, whatever they are.
+// A binary tree of boxes over items of any kind that lie in an array.
 #pragma once
 
 #include <algorithm>
@@ -12,28 +12,28 @@
 
 namespace kerf {
 
-/// What every node of a BoxHierarchy knows. Types that derive from it may know more of the items below.
+/// The data of every node of a BoxHierarchy. Derived types may add more data of the items below a node.
 struct BoxNode {
-    Box box;                           ///< of all items below
-    std::int32_t first = 0, last = 0;  ///< these items, as they lie in the array
+    Box box;                           ///< around all items below
+    std::int32_t first = 0, last = 0;  ///< range of these items in the array
     std::int32_t left = 0;             ///< the first child, which the other one follows; 0: a leaf
 
     void add(const BoxNode& other) { box.extend(other.box); }
 };
 
-/// The child that BoxHierarchy::least() looks at first where both promise the same.
+/// The child that BoxHierarchy::least() looks at first if both promise the same.
 enum class FirstOfEqual { left, right };
 
-/// A binary tree over items that its owner keeps in the order of the leaves. Built in O(n log n) on threads, of
-/// which it does not depend; immutable.
+/// A binary tree over items that its owner keeps in the order of the leaves. Built in O(n log n) on threads, with the
+/// same result for any number of them; immutable.
 template <class Node = BoxNode>
 class BoxHierarchy {
  public:
     BoxHierarchy() = default;
 
-    /// Over `count` items. `halve(first, last)` may put these items into another order and returns the first one of the
-    /// right child; `node_of(item)` is a node that knows of one item alone. No item moves once it is called. Both are
-    /// called from several threads, the first one for items that no other thread has then.
+    /// Builds a tree over `count` items. `halve(first, last)` may put these items into another order and returns the
+    /// first one of the right child; `node_of(item)` returns a node of one item alone. No item moves once node_of() is
+    /// called. Both are called from several threads, halve() for disjoint ranges at any time.
     template <class Halve, class NodeOf>
     BoxHierarchy(std::size_t count, const Halve& halve, const NodeOf& node_of) {
         add_child(0, static_cast<std::int32_t>(count));
@@ -47,11 +47,11 @@ class BoxHierarchy {
             gather_level(level_begin.back(), std::exchange(end, level_begin.back()), node_of);
     }
 
-    /// The root is the first; none where the hierarchy was not made of items.
+    /// All nodes, the root first; empty if there are no items.
     const std::vector<Node>& nodes() const { return nodes_; }
 
     /// Calls visit(item) for the items of all leaves that lie below wanted nodes only, in their order, until it returns
-    /// true. Returns whether it did. `is_wanted(node)` must hold for every node above one for which it does.
+    /// true. Returns whether it did. If `is_wanted(node)` holds for a node, it must hold for all nodes above it.
     template <class IsWanted, class Visit>
     bool any(const IsWanted& is_wanted, const Visit& visit) const {
         std::array<std::int32_t, most_open> open;
@@ -71,8 +71,8 @@ class BoxHierarchy {
         return false;
     }
 
-    /// The least of of_item() and `bound`. No item below a node has less than of_node() says of it; what cannot be less
-    /// than what was found is not looked at.
+    /// Returns the least of `bound` and all of_item(item). of_node(node) must be a lower bound of of_item() for all
+    /// items below the node; nodes that cannot have less than the least so far are skipped.
     template <FirstOfEqual first_of_equal = FirstOfEqual::left, class OfNode, class OfItem>
     double least(double bound, const OfNode& of_node, const OfItem& of_item) const {
         struct Open {
@@ -103,9 +103,9 @@ class BoxHierarchy {
  private:
     static constexpr std::int32_t most_of_leaf = 4;
     static constexpr std::size_t least_of_range = 4096;  // items that are worth a thread
-    static constexpr std::size_t most_open = 128;  // one sibling a level, and two levels at least halve what is below
+    static constexpr std::size_t most_open = 128;        // one sibling a level; two levels halve the items at least
 
-    // Of the nodes from `begin` on; their children go behind all of them.
+    // Divides the nodes from `begin` on; their children go behind all nodes.
     template <class Halve>
     void divide_level(std::size_t begin, std::size_t count, const Halve& halve) {
         const auto is_leaf = [&](const Node& node) { return node.last - node.first <= most_of_leaf; };
@@ -126,7 +126,7 @@ class BoxHierarchy {
             add_child(middle[n - begin], last);
         }
     }
-    // What these nodes know, once those of the next level do.
+    // Gathers the data of these nodes from those of the next level, which must be complete.
     template <class NodeOf>
     void gather_level(std::size_t begin, std::size_t end, const NodeOf& node_of) {
         for_ranges_on_threads(end - begin, least_of_range, [&](const IndexRange& range) {
@@ -147,8 +147,8 @@ class BoxHierarchy {
     std::vector<Node> nodes_;
 };
 
-/// Puts items into halves at the median along the longest side of the box around their centres and returns where the
-/// second one begins. Where centres are level, `tie_of(item)` decides, which must differ. Expected O(n).
+/// Puts items into halves at the median along the longest side of the box around their centres, and returns where the
+/// second half begins. For equal centres tie_of(item), which must differ, decides. Expected O(n).
 template <class Iterator, class CentreOf, class TieOf>
 Iterator halve_by_centre(Iterator begin, Iterator end, const CentreOf& centre_of, const TieOf& tie_of) {
     Box centres;
@@ -163,8 +163,8 @@ Iterator halve_by_centre(Iterator begin, Iterator end, const CentreOf& centre_of
     return middle;
 }
 
-/// A hierarchy of these boxes. Puts `order`, which is to number all of them, into its order: its item i is the box
-/// `order[i]`. 32 bytes a box meanwhile.
+/// Makes a hierarchy of these boxes. `order`, a permutation of the boxes' numbers, is put into the order of the leaves:
+/// item i is the box `order[i]`. Takes 32 bytes a box meanwhile.
 inline BoxHierarchy<> make_hierarchy(const std::vector<Box>& boxes, std::vector<std::int32_t>& order) {
     struct Item {
         Vec3 centre;

@@ -1,4 +1,4 @@
-// A hierarchy of boxes that finds those around a box, or those that meet it, without looking at all.
+// A hierarchy of boxes that finds the boxes around a box, or those that meet it, without looking at all of them.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace kerf {
 
-/// A binary tree over boxes, split at the median of the longest side of their centres. Built in O(n log n) on threads.
+/// A binary tree over boxes, split at the median of the centres along the longest side of their box. Built in O(n log
+/// n) on threads.
 class BoxTree {
  public:
     /// No box may be empty.
@@ -22,7 +23,8 @@ class BoxTree {
         hierarchy_ = make_hierarchy(boxes_, order_);
     }
 
-    /// The numbers of the boxes that contain `box`, borders included, ascending. O(log n) for each where few overlap.
+    /// Returns the numbers of the boxes that contain `box`, borders included, ascending. O(log n) for each if few
+    /// overlap.
     std::vector<std::int32_t> around(const Box& box) const {
         std::vector<std::int32_t> found;
         visit([&](const Box& other) { return other.contains(box); }, [&](std::int32_t i) { found.push_back(i); });

@@ -5,15 +5,15 @@
 
 namespace kerf {
 
-/// The point of segment ab closest to p: its ends bit for bit.
+/// Returns the point of segment ab closest to p; an end, where that is closest, bit for bit.
 inline Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;
     const double t = along.dot(p - a), length_sq = along.squaredNorm();
     return t <= 0 ? a : t >= length_sq ? b : Vec3(a + t / length_sq * along);
 }
 
-/// Barycentric coordinates of the point of triangle a, b, c closest to p, none negative, sum 1; by the regions of the
-/// triangle (Ericson 2005, section 5.1.5). Requires three different corners.
+/// Returns the barycentric coordinates of the point of triangle a, b, c closest to p, none negative, with the sum 1; by
+/// the regions of the triangle (Ericson 2005, section 5.1.5, ericson2005). Requires three different corners.
 inline Vec3 closest_barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, ac = c - a;
     const double b_from_a = ab.dot(p - a), c_from_a = ac.dot(p - a);
@@ -43,7 +43,7 @@ inline Vec3 closest_barycentric(const Vec3& p, const Vec3& a, const Vec3& b, con
     return {on_bc / sum, on_ac / sum, on_ab / sum};
 }
 
-/// Distance of p to triangle a, b, c, which must have three different corners.
+/// Returns the distance of p from triangle a, b, c, which must have three different corners.
 inline double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 t = closest_barycentric(p, a, b, c);
     return (p - t[0] * a - t[1] * b - t[2] * c).norm();

@@ -1,6 +1,9 @@
-// Two trees grow from source and sink over unsaturated arcs. Where they meet, the path is augmented; the nodes behind
-// saturated arcs become orphans and look for a new parent that still leads to a terminal, or become free. When no tree
-// can grow, the source tree is one side of a minimum cut.
+// Two trees grow from source and sink over unsaturated arcs (Boykov and Kolmogorov 2004, boykov2004). Where they meet,
+// the path is augmented; the nodes behind saturated arcs become orphans and look for a new parent that still leads to a
+// terminal, or become free. When no tree can grow, the source tree is one side of a minimum cut. Notation: arc a and
+// its reverse a ^ 1 are neighbours in `arcs_`; the terminals are no nodes, but a signed capacity of each node, positive
+// from the source. `stamp_` is the time at which the distance of a node to its terminal was last found; each
+// augmentation advances the time.
 #include "geometry/max_flow.h"
 
 #include <algorithm>

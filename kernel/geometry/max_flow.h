@@ -6,8 +6,8 @@
 
 namespace kerf {
 
-/// Augmenting paths from two search trees (Boykov and Kolmogorov 2004, see references.bib): fast on graphs with short
-/// paths between many terminals, as in a band of facets around a plane. Deterministic.
+/// The maximum flow by augmenting paths between two search trees (Boykov and Kolmogorov 2004, boykov2004): fast on
+/// graphs with short paths between many terminals, as in a band of facets around a plane. Deterministic.
 class MaxFlow {
  public:
     explicit MaxFlow(std::int32_t node_count);
@@ -17,9 +17,9 @@ class MaxFlow {
     /// Adds an edge between two different nodes with the same capacity >= 0 in both directions.
     void add_edge(std::int32_t a, std::int32_t b, double capacity);
 
-    /// False if more than `step_limit` arcs had to be looked at; the labels are then meaningless.
+    /// Returns false if more than `step_limit` arcs had to be looked at; the labels are then meaningless.
     bool solve(std::int64_t step_limit);
-    /// Arcs that solve() has looked at.
+    /// The number of arcs that solve() has looked at.
     std::int64_t steps() const { return steps_; }
     /// After solve(): true if the node is on the sink's side of the minimum cut (free nodes count to the source).
     bool on_sink_side(std::int32_t node) const { return tree_[node] == Tree::sink; }

@@ -1,5 +1,6 @@
-// A radix sort of the upper bits, from the lowest of these to the highest; each pass keeps the order of equal digits.
-// It leaves short runs of items whose upper bits are equal, which are sorted by comparison.
+// A radix sort of the upper bits, from the lowest of these to the highest; each pass keeps the order of equal digits,
+// in blocks on threads whose digits are counted first. It leaves short runs of items whose upper bits are equal, which
+// are sorted by comparison.
 #include "geometry/morton_order.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Items in the order of a curve that fills space, so that those near each other in it are near each other in space.
+// An order of items along a curve that fills space, so that items near each other in it are near each other in space.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,14 @@
 
 namespace kerf {
 
-/// An item and where it is on the curve.
+/// An item and its place on the curve.
 struct MortonItem {
     std::uint64_t code = 0;
     std::int32_t item = 0;
 };
 
-/// Where a point of the unit cube is on Morton's curve through 2^63 cells; what is outside counts as on its border.
+/// Returns the place of a point of the unit cube on Morton's curve through 2^63 cells; points outside count as on its
+/// border.
 inline std::uint64_t morton_code(const std::array<float, 3>& point) {
     constexpr float most = (1 << 21) - 1;
     std::uint64_t code = 0;
@@ -32,12 +33,12 @@ inline std::uint64_t morton_code(const std::array<float, 3>& point) {
     return code;
 }
 
-/// Sorts by code, and equal ones by number: those of a code must be ascending. Expected O(n), on threads; memory for a
-/// copy of the items.
+/// Sorts by code, then by item; items of one code must be ascending before. Expected O(n), on threads; takes memory for
+/// a copy of the items.
 void sort_by_code(std::vector<MortonItem>& items);
 
-/// The numbers below `count` in the order of the codes of `point_of(i)`, equal ones ascending. O(count), on threads, of
-/// which the result does not depend; 32 bytes a number meanwhile.
+/// Returns the numbers below `count` in the order of the codes of `point_of(i)`, equal ones ascending. O(count), on
+/// threads, with the same result for any number of them; takes 32 bytes a number meanwhile.
 template <class PointOf>
 std::vector<std::int32_t> morton_order(std::size_t count, const PointOf& point_of) {
     constexpr std::size_t grain = 1 << 14;

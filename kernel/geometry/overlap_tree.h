@@ -1,11 +1,12 @@
-// Which of many boxes meet: a tree that is built in the time that it takes to sort, and asked by four boxes at once.
+// A tree that finds which of many boxes meet; it is built in the time of a sort, and compares four boxes at once.
 //
-// The boxes lie in the order of their middles along a curve that fills space, four to a packet: the leaves. A packet of
-// the next level holds the boxes around four packets, and so on up to one. Children are found by counting: no pointers.
+// The boxes lie in the order of their middles along a curve that fills space, four to a packet: these are the leaves. A
+// packet of the next level holds the boxes around four packets, and so on up to a single one. Children are found by
+// counting: there are no pointers.
 //
 // Boxes are kept as floats. Each coordinate x goes through the same function, (x - origin) * scale rounded to a float,
-// which never turns the order of two numbers round: so where boxes meet, those of floats do, and so do those around
-// them. A few that do not meet look as if they did, by a ten millionth of the whole.
+// which is monotone: so where boxes meet, their float boxes do, and so do the boxes around these. A few boxes seem to
+// meet although they are apart, by a ten millionth of the whole.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +29,7 @@ using FloatFour = float __attribute__((vector_size(16)));
 
 inline FloatFour four(float x) { return FloatFour{x, x, x, x}; }
 
-/// A bit for each of four comparisons.
+/// Returns a bit for each of four comparisons.
 template <class Mask>
 unsigned bits_of(const Mask& mask) {
 #ifdef __SSE2__
@@ -38,7 +39,7 @@ unsigned bits_of(const Mask& mask) {
 #endif
 }
 
-/// A box that four others are compared with: each of its numbers four times.
+/// A box that four others are compared with: each of its numbers is there four times.
 struct BoxQuery {
     std::array<FloatFour, 3> low, high;
 };
@@ -47,7 +48,7 @@ struct BoxQuery {
 struct BoxPacket {
     std::array<FloatFour, 3> low, high;
 
-    /// Which of them meet the box, borders included: a bit for each.
+    /// Returns a bit for each of the four boxes, set if it meets the box, borders included.
     unsigned meeting(const BoxQuery& box) const {
         return bits_of((low[0] <= box.high[0]) & (box.low[0] <= high[0]) & (low[1] <= box.high[1]) &
                        (box.low[1] <= high[1]) & (low[2] <= box.high[2]) & (box.low[2] <= high[2]));
@@ -76,7 +77,7 @@ struct BoxPacket {
             high[axis][lane] = highest[axis];
         }
     }
-    /// Boxes that meet nothing.
+    /// Returns four boxes that meet nothing.
     static BoxPacket none() {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         BoxPacket packet;
@@ -90,15 +91,15 @@ struct BoxPacket {
 
 }  // namespace detail
 
-/// A tree over boxes, each known by its number. Built in O(n) on threads, of which it does not depend, and immutable;
-/// 36 bytes a box, as many while it is built.
+/// A tree over boxes, each known by its number. Built in O(n) on threads, with the same result for any number of them,
+/// and immutable; takes 36 bytes a box, and as many while it is built.
 class OverlapTree {
  public:
     static constexpr std::size_t boxes_of_leaf = 4;
 
     OverlapTree() = default;
-    /// `box_of(i)` for each i below `count` is a box that is not empty and has finite coordinates; it is asked for
-    /// several times, from several threads.
+    /// Builds a tree over `count` boxes. `box_of(i)`, i below `count`, must not be empty and must have finite
+    /// coordinates; it is called several times, from several threads.
     template <class BoxOf>
     OverlapTree(std::size_t count, const BoxOf& box_of) {
         if (count == 0) return;
@@ -120,9 +121,9 @@ class OverlapTree {
 
     std::size_t leaf_count() const { return (order_.size() + boxes_of_leaf - 1) / boxes_of_leaf; }
 
-    /// Calls visit(i, j) for the pairs of boxes that may meet, borders included, of which one lies in one of the leaves
-    /// and the other one in the same leaf or behind it, until it returns true. Returns whether it did. So all leaves
-    /// give each pair once, in an order that depends on the boxes alone.
+    /// Calls visit(i, j) for the pairs of boxes that may meet, borders included, of which one is in these leaves and
+    /// the other in the same leaf or a later one, until visit returns true. Returns whether it did. So all leaves
+    /// together give each pair once, in an order that depends on the boxes alone.
     template <class Visit>
     bool any_pair(const IndexRange& leaves, const Visit& visit) const {
         for (std::size_t leaf = leaves.first; leaf < leaves.last; ++leaf)
@@ -131,7 +132,7 @@ class OverlapTree {
     }
 
     /// Calls visit(i) for the boxes that may meet `box`, borders included, until it returns true. Returns whether it
-    /// did. The same order every time.
+    /// did. The order is the same every time.
     template <class Visit>
     bool any_meeting(const Box& box, const Visit& visit) const {
         if (order_.empty()) return false;
@@ -148,7 +149,7 @@ class OverlapTree {
  private:
     static constexpr std::size_t grain = 1 << 12;
 
-    // Coordinates between 0 and 1, whatever they were; a quarter of them first, as differences may overflow.
+    // Maps a coordinate to a number between 0 and 1; takes a quarter of it first, as differences may overflow.
     float scaled(double x, int axis) const { return static_cast<float>((x * 0.25 - origin_[axis]) * scale_); }
     std::pair<std::array<float, 3>, std::array<float, 3>> scaled(const Box& box) const {
         std::pair<std::array<float, 3>, std::array<float, 3>> both;
@@ -178,7 +179,7 @@ class OverlapTree {
             count = (count + boxes_of_leaf - 1) / boxes_of_leaf;
         packets_.assign(level_begin_.back(), detail::BoxPacket::none());
     }
-    // The boxes around the packets of the level below.
+    // Fills a level with the boxes around the packets of the level below.
     void gather(std::size_t level) {
         const std::size_t begin = level_begin_[level], below = level_begin_[level - 1];
         for_ranges_on_threads(begin - below, 4 * grain, [&](const IndexRange& range) {
@@ -198,7 +199,7 @@ class OverlapTree {
             if (of_lane(static_cast<unsigned>(std::countr_zero(lanes)))) return true;
         return false;
     }
-    // of_leaf(leaf) for the leaves below a packet whose boxes around them meet that of the query.
+    // Calls of_leaf(leaf) for the leaves below a packet all of whose ancestors' boxes meet the query.
     template <class OfLeaf>
     bool any_leaf(std::size_t level, std::size_t packet, const detail::BoxQuery& query, const OfLeaf& of_leaf) const {
         if (level == 0) return of_leaf(packet);
@@ -224,7 +225,7 @@ class OverlapTree {
                 if (visit_with(i, other * boxes_of_leaf, packets_[other].meeting(queries[i]))) return true;
             return false;
         };
-        // What comes later lies below the later children of the packets above.
+        // The later leaves lie below the later children of the packets above.
         std::size_t packet = leaf;
         for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level) {
             const auto child = static_cast<unsigned>(packet % boxes_of_leaf);
@@ -240,9 +241,9 @@ class OverlapTree {
 
     Vec3 origin_ = Vec3::Zero();
     double scale_ = 1;
-    std::vector<std::int32_t> order_;            // numbers of boxes, those of a leaf side by side
-    std::vector<detail::BoxPacket> packets_;     // those of a level side by side, leaves first
-    std::vector<std::size_t> level_begin_ = {};  // and where the last one ends
+    std::vector<std::int32_t> order_;            // numbers of boxes; the boxes of a leaf lie side by side
+    std::vector<detail::BoxPacket> packets_;     // level by level, leaves first
+    std::vector<std::size_t> level_begin_ = {};  // the first packet of each level, and the end of the last
 };
 
 }  // namespace kerf

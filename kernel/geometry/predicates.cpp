@@ -1,6 +1,8 @@
-// Coordinates that have few bits between their highest and their lowest one are integers, in a unit that fits; so are
-// those of most points in regular position, among which ties are frequent. CGAL's predicates serve the others: they try
-// interval arithmetic before they go to numbers of any length.
+// The exact half of the predicates, for the signs that the filters of predicates.h leave open. Coordinates that have
+// few bits between their highest and their lowest one are integers, in a unit that fits, and are computed with integers
+// of fixed width (wide_integer.h); so are those of most points in regular position, among which ties are frequent.
+// CGAL's predicates serve the others: they try interval arithmetic before they go to numbers of any length. Ties of
+// in_sphere() are broken by symbolic perturbation (Devillers and Teillaud 2011, devillers2011).
 #include "geometry/predicates.h"
 
 #include <bit>

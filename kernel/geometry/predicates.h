@@ -1,5 +1,5 @@
-// The two signs on which a Delaunay triangulation rests, never wrong: fast where rounding errors cannot change them, by
-// exact arithmetic elsewhere.
+// The two signs on which a Delaunay triangulation rests, never wrong: computed fast where rounding errors cannot change
+// them, and by exact arithmetic elsewhere.
 //
 // The filters are bounds of Shewchuk's kind (shewchuk1997), with the products of the largest differences in place of
 // the permanents: no term of an expanded determinant goes through more roundings than `roundings`, so the error is
@@ -16,9 +16,9 @@ namespace kerf {
 
 namespace detail {
 
-/// The sign of the exact determinant.
+/// Returns the sign of the exact determinant.
 int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-/// in_sphere() where its filter does not decide.
+/// Decides in_sphere() where its filter does not.
 bool in_sphere_near_tie(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e);
 
 inline int sign_of(double x) { return (x > 0) - (x < 0); }
@@ -39,7 +39,7 @@ auto lift(const Difference<Number>& a) {
     return a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
 }
 
-// det[a, b, c, d] with their lifts as fourth rows.
+// Returns det[a, b, c, d] with the lifts as fourth rows.
 template <class Number>
 [[gnu::always_inline]] inline auto lifted_determinant(const Difference<Number>& a, const Difference<Number>& b,
                                                       const Difference<Number>& c, const Difference<Number>& d) {
@@ -50,7 +50,7 @@ template <class Number>
     return (dab * lift(c) - abc * lift(d)) + (bcd * lift(a) - cda * lift(b));
 }
 
-// The same in doubles, with a and c in one pair, b and d in the other.
+// Computes the same determinant in doubles, with a and c in one pair, b and d in the other.
 inline double lifted_determinant(const VectorPair& ac, const VectorPair& bd, Pair lift_ac, Pair lift_bd) {
     const VectorPair ca = swapped(ac), db = swapped(bd);
     const Pair ab_cd = ac.x * bd.y - bd.x * ac.y, bc_da = bd.x * ca.y - ca.x * bd.y;
@@ -66,9 +66,9 @@ inline double lifted_determinant(const VectorPair& ac, const VectorPair& bd, Pai
 
 }  // namespace detail
 
-/// The sign of det[b-a, c-a, d-a]: 1 if d sees a, b, c counter-clockwise, as in every Tetrahedron (core/types.h); 0 if
-/// all lie in one plane. Exact. About 5 ns; near 0 a tenth of a microsecond where the
-/// coordinates have few bits, else some.
+/// Returns the sign of det[b-a, c-a, d-a]: 1 if d sees a, b, c counter-clockwise, as in every Tetrahedron
+/// (core/types.h); 0 if all points lie in one plane. Exact. Takes about 5 ns; near 0 a tenth of a microsecond if the
+/// coordinates have few bits, else some microseconds.
 inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const auto p = detail::difference(a, d), q = detail::difference(b, d), r = detail::difference(c, d);
     const double det = -detail::determinant(p, q, r);
@@ -87,9 +87,10 @@ inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 ///
 /// Exact. There are no ties: a point on the sphere counts as inside or outside as if every point had been lifted to the
 /// paraboloid x^2 + y^2 + z^2 and then raised by an infinitely small height, by far the most the lexicographically
-/// largest point (devillers2011). Coordinates do not move, so that cells never become flat, and since the points alone
-/// decide, so they do on the triangulation. e must differ from the others. About 15 ns; near a tie half a
-/// microsecond where the coordinates have few bits (see predicates.cpp), else some.
+/// largest point (Devillers and Teillaud 2011, devillers2011). Coordinates do not move, so cells never become flat; and
+/// since the points alone decide about each sphere, they alone decide about the triangulation. e must differ from the
+/// others. Takes about 15 ns; near a tie half a microsecond if the coordinates have few bits (see predicates.cpp), else
+/// some microseconds.
 inline bool in_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
     const VectorPair ac = VectorPair(a, c) - VectorPair(e, e), bd = VectorPair(b, d) - VectorPair(e, e);
     const Pair lift_ac = ac.squared_norm(), lift_bd = bd.squared_norm();
@@ -107,7 +108,7 @@ inline bool in_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 /// Whether the three points lie on one line. Exact, slow.
 bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// x first, then y, then z.
+/// Compares x first, then y, then z.
 inline bool lexicographically_less(const Vec3& a, const Vec3& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }

@@ -1,4 +1,4 @@
-// Where rays meet triangles and boxes, to the precision of doubles: a ray through an edge may pass.
+// Intersections of rays with triangles and boxes, to the precision of doubles: a ray may pass through an edge.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace kerf {
 
-/// Distance along the line through `origin` to the triangle a, b, c, which it may hit from either side, in lengths of
-/// `direction`, negative behind the origin; infinity if it misses (Möller and Trumbore 1997).
+/// Returns the distance along the line through `origin` to the triangle a, b, c, which it may hit from either side, in
+/// lengths of `direction`, negative behind the origin; infinity if it misses (Möller and Trumbore 1997).
 inline double line_triangle_distance(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b,
                                      const Vec3& c) {
     constexpr double none = std::numeric_limits<double>::infinity();
@@ -24,12 +24,12 @@ inline double line_triangle_distance(const Vec3& origin, const Vec3& direction, 
     return v >= 0 && u + v <= 1 ? ac.dot(turned) / determinant : none;
 }
 
-/// A piece of a ray, in lengths of its direction. Empty where `from` is beyond `to`.
+/// A piece of a ray, in lengths of its direction; empty if `from` is beyond `to`.
 struct RayPiece {
     double from = 0, to = std::numeric_limits<double>::infinity();
 };
 
-/// What of a piece of a ray lies in the box.
+/// Returns the part of a piece of a ray that lies in the box.
 inline RayPiece piece_in_box(const Box& box, const Vec3& origin, const Vec3& direction, RayPiece piece) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// The directions along which a symmetric matrix only stretches.
+// Eigenvectors of a symmetric matrix.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,14 +7,14 @@
 
 namespace kerf {
 
-/// Eigenvalues, ascending, and unit eigenvectors: a column each.
+/// The eigenvalues of a matrix, ascending, and its unit eigenvectors as columns.
 struct SymmetricAxes {
     Vec3 values;
     Eigen::Matrix3d vectors;
 };
 
-/// Of a symmetric matrix; what is above its diagonal is not read. Deterministic, but of equal eigenvalues rounding
-/// chooses the vectors.
+/// Returns the axes of a symmetric matrix; entries above its diagonal are not read. Deterministic, but among equal
+/// eigenvalues rounding chooses the vectors.
 SymmetricAxes symmetric_axes(const Eigen::Matrix3d& matrix);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Volumes of tetrahedra, to the precision of doubles. Where only the sign counts, orientation() has it exactly.
+// Volumes of tetrahedra, to the precision of doubles. Where only the sign matters, orientation() has it exactly.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace kerf {
 
-/// det[b-a, c-a, d-a]: six times the volume, positive for every Tetrahedron (core/types.h).
+/// Returns det[b-a, c-a, d-a]: six times the volume, positive for every Tetrahedron (core/types.h).
 inline double six_volumes_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return (b - a).cross(c - a).dot(d - a);
 }
@@ -18,8 +18,8 @@ inline double six_volumes_of(const std::vector<Vec3>& vertices, const Tetrahedro
     return six_volumes_of(vertices[tet[0]], vertices[tet[1]], vertices[tet[2]], vertices[tet[3]]);
 }
 
-/// Whether the volume is positive in whatever order of the corners it is computed: of a cell as thin as rounding it may
-/// be nothing, or less, in one and more in another. True where the products underflow.
+/// Whether the computed volume is positive for every order of the corners: for a cell as thin as rounding it may be
+/// positive in one order, and zero or negative in another. Also true if the products underflow.
 inline bool has_volume_in_any_order(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     // The error of a determinant is below `doubt` times the product of the largest components of its columns
     // (shewchuk1997), and from another corner these are at most twice as large.

@@ -10,7 +10,8 @@
 
 namespace kerf {
 
-/// (b - a) x (c - a): normal to the triangle, counter-clockwise seen from where it points to, twice its area long.
+/// Returns (b - a) x (c - a): normal to the triangle, which is counter-clockwise seen from where it points to; its
+/// length is twice the area.
 inline Vec3 doubled_area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
 inline Vec3 doubled_area_vector(const std::array<Vec3, 3>& corners) {
     return doubled_area_vector(corners[0], corners[1], corners[2]);
@@ -19,7 +20,7 @@ inline Vec3 doubled_area_vector(const std::vector<Vec3>& vertices, const Triangl
     return doubled_area_vector(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
 }
 
-/// The normal as long as the area. `triangle`: whatever doubled_area_vector() takes.
+/// Returns the normal with the area as its length. `triangle` are the arguments of doubled_area_vector().
 template <class... Corners>
 Vec3 area_vector(const Corners&... triangle) {
     return doubled_area_vector(triangle...) / 2;
@@ -33,7 +34,7 @@ double triangle_area(const Corners&... triangle) {
 /// The largest circle in a triangle.
 struct InscribedCircle {
     Vec3 centre;
-    Vec3 normal;  ///< of the triangle, as long as the radius
+    Vec3 normal;  ///< normal of the triangle, with the radius as its length
 };
 inline InscribedCircle inscribed_circle(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double opposite_a = (c - b).norm(), opposite_b = (a - c).norm(), opposite_c = (b - a).norm();

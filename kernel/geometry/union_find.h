@@ -1,4 +1,4 @@
-// What hangs together, when it is joined pair by pair.
+// Connected components of items that are joined pair by pair.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace kerf {
 
-/// A component per item, numbered by their smallest items, and how many there are.
+/// The component of each item, numbered by their smallest items, and the number of components.
 struct Components {
     std::vector<std::int32_t> of;
     std::int32_t count = 0;
 };
 
-/// Items 0, 1, ... in sets, of which the smallest item is the root. Near O(1) for each call.
+/// Items 0, 1, ... in disjoint sets, whose smallest item is the root. Nearly O(1) for each call.
 class UnionFind {
  public:
     explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -28,7 +28,7 @@ class UnionFind {
         const auto [low, high] = std::minmax({root(a), root(b)});
         parent_[high] = low;
     }
-    /// The sets in the memory of the object, which is used up.
+    /// Returns the sets, in the memory of the object, which must not be used afterwards.
     Components take() {
         std::int32_t count = 0;
         for (std::size_t i = 0; i < parent_.size(); ++i)  // parents come first, so theirs are numbers already

@@ -1,7 +1,7 @@
-// Two vectors at once, where a formula does the same with both.
+// Two vectors at once, for formulas that treat both alike.
 //
-// Processors of 64 bits add, multiply and divide two doubles as fast as one. What comes out is the same on every
-// machine, and for a vector alone.
+// Processors of 64 bits add, multiply and divide two doubles as fast as one. The result is the same on every machine,
+// and the same as for each vector alone.
 #pragma once
 
 #include "core/types.h"
@@ -13,12 +13,12 @@ using Pair = double __attribute__((vector_size(16)));
 
 inline Pair both(double x) { return Pair{x, x}; }
 inline Pair swapped(Pair p) { return __builtin_shufflevector(p, p, 1, 0); }
-/// The first number of p, and that of q.
+/// Returns the first numbers of p and q.
 inline Pair firsts(Pair p, Pair q) { return __builtin_shufflevector(p, q, 0, 2); }
-/// The second number of p, and that of q.
+/// Returns the second numbers of p and q.
 inline Pair seconds(Pair p, Pair q) { return __builtin_shufflevector(p, q, 1, 3); }
 inline Pair absolute(Pair p) { return p < 0 ? -p : p; }
-/// Of each two; p where q is not a number.
+/// Returns the smaller number at each place; that of p if that of q is not a number.
 inline Pair smallest(Pair p, Pair q) { return q < p ? q : p; }
 inline Pair largest(Pair p, Pair q) { return p < q ? q : p; }
 inline double smallest_of(Pair p) { return p[1] < p[0] ? p[1] : p[0]; }

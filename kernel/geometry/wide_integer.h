@@ -66,7 +66,7 @@ WideInteger<n + m> operator*(const WideInteger<n>& a, const WideInteger<m>& b) {
         }
         product.limb[i + m] = static_cast<std::uint64_t>(carry);
     }
-    // As unsigned numbers, negative factors are 2^(64 n) or 2^(64 m) too large.
+    // Read as unsigned numbers, negative factors are 2^(64 n) or 2^(64 m) too large.
     if (a.is_negative()) detail::subtract_from_upper_limbs(product.limb.data() + n, b);
     if (b.is_negative()) detail::subtract_from_upper_limbs(product.limb.data() + m, a);
     return product;
