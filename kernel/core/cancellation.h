@@ -1,4 +1,4 @@
-// How a long computation asks whether it is still wanted.
+// The question of a long computation whether its result is still wanted.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace kerf {
 
-/// Called every few milliseconds of a long computation, which it ends by what it throws. Without a function it does
-/// nothing.
+/// A function that is called every few milliseconds of a long computation, and ends it by throwing. Without a function
+/// it does nothing.
 class CancellationCheck {
  public:
     CancellationCheck() = default;
@@ -17,7 +17,7 @@ class CancellationCheck {
     void operator()() const {
         if (function_) function_();
     }
-    /// Asks at every 1024th step of a loop whose steps take some microseconds.
+    /// Calls it at every 1024th step of a loop whose steps take some microseconds.
     void at(std::size_t step) const {
         if (step % 1024 == 0) (*this)();
     }

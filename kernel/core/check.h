@@ -1,4 +1,4 @@
-// The preconditions that headers state, checked in the builds for developers (KERF_CHECKS: all presets but release).
+// Checks of the preconditions that headers state, in the builds for developers (KERF_CHECKS: all presets but release).
 #pragma once
 
 #include <cstdio>
@@ -19,9 +19,9 @@ namespace detail {
 }
 }  // namespace detail
 
-/// Ends the process, naming file, line and condition, if the condition does not hold. For mistakes of the caller alone:
-/// what a file or a user may get wrong is an Error. It must have no effect, because builds without checks leave it out;
-/// it should cost no more than what it guards.
+/// Ends the process, naming file, line and condition, if the condition does not hold. It is for mistakes of the caller
+/// alone: mistakes of a file or a user are an Error. The condition must have no effect, because builds without checks
+/// leave it out, and should cost no more than the code that it guards.
 #define KERF_CHECK(...)                                        \
     (!kerf::has_checks || (__VA_ARGS__) ? static_cast<void>(0) \
                                         : kerf::detail::fail_check(__FILE__, __LINE__, #__VA_ARGS__))

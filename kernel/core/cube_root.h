@@ -5,8 +5,8 @@
 
 namespace kerf {
 
-/// The cube root of x >= 0, within 2^-52. That of 8^k x is 2^k times as much to the last bit, which std::cbrt() leaves
-/// open.
+/// Returns the cube root of x >= 0, within 2^-52. The root of 8^k x is 2^k times that of x to the last bit, which
+/// std::cbrt() does not promise.
 inline double cube_root(double x) {
     int exponent = 0;
     const double mantissa = std::frexp(x, &exponent);

@@ -1,11 +1,11 @@
-// Arrays without some of their items.
+// The removal of some items from an array.
 #pragma once
 
 #include <vector>
 
 namespace kerf {
 
-/// Leaves out each item whose entry in `drop` is not 0; the others keep their order. O(n).
+/// Removes each item whose entry in `drop` is not 0; the others keep their order. O(n).
 template <class T>
 void drop_items(std::vector<T>& items, const std::vector<char>& drop) {
     std::size_t kept = 0;

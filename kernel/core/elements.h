@@ -1,4 +1,4 @@
-// What arrays of facets and tetrahedra promise, as questions.
+// Checks of arrays of facets and tetrahedra.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// Whether all corners are numbers of one of `vertex_count` vertices. O(n).
+/// Whether all corners are in [0, vertex_count). O(n).
 template <std::size_t N>
 bool are_in_range(const std::vector<std::array<std::int32_t, N>>& elements, std::size_t vertex_count) {
     return std::all_of(elements.begin(), elements.end(), [&](const auto& element) {

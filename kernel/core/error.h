@@ -11,7 +11,8 @@
 
 namespace kerf {
 
-/// Closed set of outcomes; the value is the exit code of every program of Kerf (see docs/output.md).
+/// The outcomes of a program. The set is closed; the value is the exit code of every program of Kerf (see
+/// docs/output.md).
 enum class ErrorCode : int {
     internal = 1,      ///< a bug of Kerf
     usage = 2,         ///< wrong command line or options
@@ -30,9 +31,10 @@ enum class ElementKind : std::int32_t { vertex, edge, facet, solid };
 /// Elements of one kind that an error is about, for programs; its message names the first of them for people.
 struct ErrorElements {
     ElementKind kind = ElementKind::facet;
-    std::vector<std::int64_t> ids;  ///< numbers as the input has them, counted from 0; of an edge its two vertices
-    std::vector<std::array<double, 3>> points;  ///< at them, in units of the input; one for all, or one for each
-    std::vector<std::string> names;             ///< of the patches in which they lie, or of the solids
+    std::vector<std::int64_t> ids;  ///< numbers as in the input, counted from 0; of an edge its two vertices
+    std::vector<std::array<double, 3>> points;  ///< points at the elements, in units of the input; one for all, or one
+                                                ///< for each
+    std::vector<std::string> names;             ///< names of the patches or solids in which the elements lie
 
     template <class Archive>
     void archive(Archive& a) {
@@ -40,7 +42,8 @@ struct ErrorElements {
     }
 };
 
-/// What went wrong, where (element numbers of the input file, coordinates, part) and what to do, in one sentence each.
+/// An error. Its message says the failure, its place (element numbers of the input file, coordinates, part) and the
+/// remedy, in one sentence each.
 class Error : public std::runtime_error {
  public:
     Error(ErrorCode code, const std::string& message, std::vector<ErrorElements> elements = {})
@@ -48,7 +51,7 @@ class Error : public std::runtime_error {
           code_(code),
           elements_(std::make_shared<const std::vector<ErrorElements>>(std::move(elements))) {}
     ErrorCode code() const { return code_; }
-    /// The elements that the error is about, the worst first; none where it is about something else.
+    /// The elements that the error is about, the worst first; empty if it is not about elements.
     const std::vector<ErrorElements>& elements() const { return *elements_; }
 
  private:

@@ -13,16 +13,16 @@
 
 namespace kerf {
 
-/// 128 bits of Hasher::digest().
+/// The 128 bits of Hasher::digest().
 using FileHash = std::array<std::uint64_t, 2>;
 
-/// Hashes what is added, in its order. The pieces do not matter, only the bytes.
+/// Hashes the bytes that are added, in their order, however they are divided into pieces.
 class Hasher {
  public:
     Hasher() { XXH3_128bits_reset(&state_); }
 
     void add_bytes(const void* data, std::size_t size) { XXH3_128bits_update(&state_, data, size); }
-    /// The number of items, then their bytes.
+    /// Adds the number of items, then their bytes.
     template <class T>
     void add(std::span<const T> items) {
         static_assert(HasNoPadding<T>::value);
@@ -30,7 +30,7 @@ class Hasher {
         add_bytes(&count, sizeof count);
         add_bytes(items.data(), items.size_bytes());
     }
-    /// The hash of all that was added so far: 128 bits, the higher ones first.
+    /// Returns the hash of all bytes added so far: 128 bits, the higher 64 first.
     FileHash digest() const {
         const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
         return {hash.high64, hash.low64};
@@ -40,14 +40,14 @@ class Hasher {
     XXH3_state_t state_;
 };
 
-/// The hash of bytes that are all at hand.
+/// Returns the hash of bytes that are all at hand.
 inline FileHash digest_of(std::string_view bytes) {
     Hasher hasher;
     hasher.add_bytes(bytes.data(), bytes.size());
     return hasher.digest();
 }
 
-/// 64 bits: tells damaged bytes from good ones.
+/// Returns a hash of 64 bits, which tells damaged bytes from good ones.
 inline std::uint64_t hash_bytes(std::span<const char> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 }  // namespace kerf

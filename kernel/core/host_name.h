@@ -1,4 +1,4 @@
-// The name of the machine, as locks and messages give it.
+// The name of the machine, for locks and messages.
 #pragma once
 
 #include <unistd.h>
@@ -7,7 +7,7 @@
 
 namespace kerf {
 
-/// Empty if the system does not tell it.
+/// Returns the name of the machine, empty if the system does not tell it.
 inline std::string host_name() {
     char name[256] = "";
     ::gethostname(name, sizeof name - 1);

@@ -1,4 +1,4 @@
-// Numbers of things that cannot be taken for one another, nor for counts.
+// Numbers of things with a type for each kind, so that they cannot be mistaken for one another, nor for counts.
 #pragma once
 
 #include <compare>
@@ -23,14 +23,14 @@ class Id {
         ++value_;
         return *this;
     }
-    /// With it an Id is an iterator over itself, as IdRange wants.
+    /// Makes an Id an iterator over itself, as IdRange needs.
     constexpr Id operator*() const { return *this; }
 
  private:
     std::int32_t value_ = 0;
 };
 
-/// All ids from the first one to the one before the last one, for loops.
+/// All ids in [first, last), for loops.
 template <class I>
 class IdRange {
  public:
@@ -42,13 +42,13 @@ class IdRange {
     I first_, last_;
 };
 
-/// The first `count` ids of a kind.
+/// Returns the first `count` ids of a kind.
 template <class I, std::integral Count>
 constexpr IdRange<I> ids(Count count) {
     return {I(0), I(count)};
 }
 
-/// A vector with an item for each thing of a kind, by its id.
+/// A vector with an item for each thing of a kind, indexed by its id.
 template <class I, class T>
 class Array : public std::vector<T> {
  public:

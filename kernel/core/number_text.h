@@ -1,4 +1,4 @@
-// Numbers and places as people read them.
+// Numbers and places in the form in which people read them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace kerf {
 
-/// 1234567 as 1,234,567.
+/// Returns 1234567 as "1,234,567".
 inline std::string grouped(std::int64_t n) {
     std::string digits = std::to_string(n);
     for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
@@ -17,14 +17,14 @@ inline std::string grouped(std::int64_t n) {
     return digits;
 }
 
-/// 12345678 as "12.3 M", 12345 as "12 k", 123456789012 as "1.2e+11".
+/// Returns 12345678 as "12.3 M", 12345 as "12 k", 123456789012 as "1.2e+11".
 inline std::string short_number(double n) {
     if (n >= 1e10) return fmt::format("{:.2g}", n);
     if (n >= 1e6) return fmt::format("{:.1f} M", n / 1e6);
     return n >= 1e3 ? fmt::format("{:.0f} k", n / 1e3) : fmt::format("{:.0f}", n);
 }
 
-/// "(1, 2.5, 0)", by nine digits.
+/// Returns a point as "(1, 2.5, 0)", with nine digits.
 inline std::string place_text(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x(), p.y(), p.z()); }
 
 }  // namespace kerf

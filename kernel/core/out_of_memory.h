@@ -1,4 +1,4 @@
-// Whether memory has run out, which libraries say in more than one way.
+// The test whether memory has run out, which libraries report in more than one way.
 #pragma once
 
 #include <exception>
@@ -7,7 +7,8 @@
 
 namespace kerf {
 
-/// A thread that cannot be started is one of them: its stack is memory.
+/// Whether an exception means that memory has run out. A thread that cannot be started counts, too: its stack is
+/// memory.
 inline bool is_out_of_memory(const std::exception& e) {
     if (dynamic_cast<const std::bad_alloc*>(&e)) return true;
     const auto* error = dynamic_cast<const std::system_error*>(&e);

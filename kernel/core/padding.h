@@ -1,4 +1,4 @@
-// Which types may be hashed or sent as they lie in memory: bytes between their members would be whatever was there.
+// The types that may be hashed or sent as they lie in memory: those without padding, whose bytes would be undefined.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace kerf {
 
-/// Whether all bytes of a T are its value. C++ can tell for types without numbers of floating point; a struct with some
-/// says for itself that its size is that of its members.
+/// Whether all bytes of a T belong to its value. C++ can tell for types without floating-point numbers; a struct with
+/// some specialises this and compares its size with that of its members.
 template <class T>
 struct HasNoPadding : std::bool_constant<std::has_unique_object_representations_v<T> || std::is_same_v<T, double> ||
                                          std::is_same_v<T, float>> {};

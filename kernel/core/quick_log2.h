@@ -1,4 +1,4 @@
-// Logarithms for who counts values by their size and must not wait for the last digits.
+// Fast logarithms for callers that count values by their size and do not need the last digits.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace kerf {
 
-/// The logarithm of base two, from a table over the leading bits of the mantissa and the first terms of the series:
+/// The logarithm to base two, from a table over the leading bits of the mantissa and the first terms of the series:
 /// with t = m / c - 1, c in the middle of its interval, |t| <= 1/256, the error is below t^4 / 4 ln 2 < 1e-10.
 class QuickLogarithm {
  public:
@@ -19,7 +19,7 @@ class QuickLogarithm {
             intervals_[i] = {std::log2(centre), 1 / centre};
         }
     }
-    /// The logarithm of a positive normal number. 2 ns.
+    /// Returns the logarithm of a positive normal number. 2 ns.
     double operator()(double value) const {
         constexpr int mantissa_bits = 52, exponent_of_one = 1023;
         const auto bits = std::bit_cast<std::uint64_t>(value);

@@ -1,4 +1,4 @@
-// Bytes that tell whether they are whole.
+// Records: bytes that tell whether they are complete and undamaged.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace kerf {
 
-/// The bytes of a value behind their hash.
+/// Returns the hash of a value's bytes, followed by these bytes.
 template <class T>
 Bytes to_record(const T& value) {
     const Bytes bytes = to_bytes(value);
@@ -20,7 +20,7 @@ Bytes to_record(const T& value) {
     return record;
 }
 
-/// The value again; nothing if the record was damaged or cut short.
+/// Returns the value of a record, or nothing if the record was damaged or cut short.
 template <class T>
 std::optional<T> from_record(std::string_view record) {
     std::uint64_t hash = 0;

@@ -1,4 +1,4 @@
-// Commands that a user may copy.
+// The quoting of words in commands that a user may copy.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// The text as a shell takes it for one word.
+/// Returns the text in the form that a shell takes for one word.
 inline std::string shell_word(const std::string& text) {
     const auto is_plain = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) ||

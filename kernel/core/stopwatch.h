@@ -6,11 +6,11 @@
 
 namespace kerf {
 
-/// Counts seconds from its making on, by a clock that is never set.
+/// Counts the seconds since its construction, by a clock that is never set.
 class Stopwatch {
  public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-    /// The seconds so far; then it counts from zero.
+    /// Returns the seconds so far, and begins again from zero.
     double lap() {
         const auto now = Clock::now();
         return std::chrono::duration<double>(now - std::exchange(start_, now)).count();

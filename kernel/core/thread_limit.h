@@ -1,12 +1,12 @@
-// A limit of threads for the time of a call.
+// A limit of threads for the duration of a call.
 #pragma once
 
 #include "core/threads.h"
 
 namespace kerf {
 
-/// Gives back, when it ends, the limit that was there before: what set_thread_limit() says meanwhile counts for one
-/// call in a process that makes others. Not while a loop runs, neither its beginning nor its end.
+/// Restores at its end the limit of threads that was there before, so that set_thread_limit() holds for one call in a
+/// process that makes others. May neither begin nor end while a loop runs.
 class ThreadLimitGuard {
  public:
     ThreadLimitGuard() = default;

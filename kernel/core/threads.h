@@ -16,13 +16,13 @@ namespace kerf {
 
 namespace detail {
 
-// How many threads may be started beside those that run.
+// The number of threads that may be started beside the running ones.
 inline std::atomic<int>& spare_threads() {
     static std::atomic<int> spare(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1);
     return spare;
 }
 
-// Takes up to `wanted` threads out of those that are spare, and gives them back.
+// Takes up to `wanted` of the spare threads, and gives them back at its end.
 class ThreadLease {
  public:
     explicit ThreadLease(int wanted) {
@@ -41,7 +41,7 @@ class ThreadLease {
     int count_ = 0;
 };
 
-// Numbers that threads take, and the exception of the lowest of them.
+// The numbers that threads take one after the other, and the exception for the lowest of them.
 class SharedRanges {
  public:
     explicit SharedRanges(std::size_t count) : count_(count) {}
@@ -74,14 +74,13 @@ class SharedRanges {
 
 }  // namespace detail
 
-/// Lets this process work with so many threads at a time, the one that calls a loop among them. All processors of the
-/// process until this is called. Not while a loop runs.
+/// Limits the threads with which this process works at a time, the thread that calls a loop included. Without a call
+/// the limit is the number of processors. Not while a loop runs.
 inline void set_thread_limit(int threads) { detail::spare_threads() = std::max(1, threads) - 1; }
 
-/// Calls work(i) for each i below `count`, on as many threads as are free, the caller's among them; none of them beside
-/// it where no other is free, or can be had. What work(i) writes must belong to i alone. Of several exceptions that of
-/// the lowest i is thrown; work for higher ones may be left out then. Starting a thread takes some 20 us: an i should
-/// be worth that.
+/// Calls work(i) for each i below `count`, on the caller's thread and on as many others as are free and can be started,
+/// perhaps none. The output of work(i) must belong to i alone. Of several exceptions that of the lowest i is thrown;
+/// work for higher ones may be left out then. Starting a thread takes some 20 us: an i should be worth that.
 template <class Work>
 void for_each_on_threads(std::size_t count, const Work& work) {
     if (count == 0) return;
@@ -104,8 +103,8 @@ struct IndexRange {
     std::size_t first = 0, last = 0;
 };
 
-/// Calls work(range) for each of the ranges of `grain` numbers of which [0, count) consists (the last one may be
-/// shorter): they depend on these two numbers alone. Otherwise as above.
+/// Calls work(range) for consecutive ranges of `grain` numbers of [0, count), of which the last may be shorter; they
+/// depend on these two numbers alone. Otherwise as for_each_on_threads().
 template <class Work>
 void for_ranges_on_threads(std::size_t count, std::size_t grain, const Work& work) {
     for_each_on_threads((count + grain - 1) / grain, [&](std::size_t i) {
@@ -113,7 +112,8 @@ void for_ranges_on_threads(std::size_t count, std::size_t grain, const Work& wor
     });
 }
 
-/// What of_range(range) returns for each of these ranges, in their order: a sum of it does not depend on threads.
+/// Returns of_range(range) for each of the ranges of for_ranges_on_threads(), in their order, so that a sum of them
+/// does not depend on threads.
 template <class OfRange>
 auto values_of_ranges(std::size_t count, std::size_t grain, const OfRange& of_range) {
     std::vector<decltype(of_range(IndexRange{}))> values((count + grain - 1) / grain);
@@ -122,8 +122,8 @@ auto values_of_ranges(std::size_t count, std::size_t grain, const OfRange& of_ra
     return values;
 }
 
-/// Sorts by an order in which no two items are equal, or look the same where they are. O(n log n), stable nowhere;
-/// memory for a copy of half the items.
+/// Sorts by an order in which no two different items are equal: it is not stable. O(n log n); takes memory for a copy
+/// of half the items.
 template <class T, class Less = std::less<T>>
 void sort_on_threads(std::vector<T>& items, const Less& less = Less()) {
     constexpr std::size_t least_of_range = std::size_t{1} << 16;

@@ -1,4 +1,4 @@
-// Names that are told from each other.
+// Names that differ from each other.
 #pragma once
 
 #include <set>
@@ -6,7 +6,8 @@
 
 namespace kerf {
 
-/// The name, or the first of NAME_2, NAME_3, ... that is not taken; it is taken then. O(log n) for each that is tried.
+/// Returns the name, or the first of NAME_2, NAME_3, ... that is not in `taken`, and adds it there. O(log n) for each
+/// name that is tried.
 inline std::string unique_name(const std::string& name, std::set<std::string>& taken) {
     std::string tried = name;
     for (int n = 2; !taken.insert(tried).second; ++n) tried = name + "_" + std::to_string(n);

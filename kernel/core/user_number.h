@@ -15,13 +15,13 @@
 
 namespace kerf {
 
-/// What a number may be.
+/// The range of a number, and its description.
 struct NumberRange {
-    const char* words = "a number";  ///< as they follow "it must be"
+    const char* words = "a number";  ///< the description, to follow "it must be"
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
-    bool or_zero = false;  ///< 0 may be written, too: it stands for none, or for the default
-    bool is_open = false;  ///< `least` and `most` themselves are not good
+    bool or_zero = false;  ///< whether 0 may be given, too, for none or for the default
+    bool is_open = false;  ///< whether `least` and `most` themselves are excluded
 
     bool contains(double x) const {
         if (or_zero && x == 0) return true;
@@ -29,7 +29,8 @@ struct NumberRange {
     }
 };
 
-/// A length in units of the input, or in percent of the diagonal of its bounding box, which is known when it is read.
+/// A length in units of the input, or in percent of the diagonal of its bounding box, which is known only after
+/// reading.
 class Length {
  public:
     Length() = default;
@@ -41,10 +42,10 @@ class Length {
     }
 
     bool is_percent() const { return is_percent_; }
-    /// The number as it is written: percent if it is_percent().
+    /// The number as written: percent if is_percent().
     double number() const { return number_; }
     double of(double diagonal) const { return is_percent_ ? number_ / 100 * diagonal : number_; }
-    /// The length; only for what is no percentage, or has been replaced by of().
+    /// The length. Requires that it is no percentage.
     operator double() const {  // NOLINT: so that it is used as the number that it is
         KERF_CHECK(!is_percent_);
         return number_;
@@ -56,8 +57,8 @@ class Length {
     bool is_percent_ = false;
 };
 
-/// The number that the whole text is; nothing for any other text, for what is not finite, and for what the type cannot
-/// hold.
+/// Returns the number of which the whole text consists; nothing for any other text, for numbers that are not finite,
+/// and for numbers that the type cannot hold.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
     Number number = 0;
@@ -75,7 +76,7 @@ inline std::optional<Length> length_in(std::string_view text) {
     return is_percent ? Length::percent(*number) : Length(*number);
 }
 
-/// Throws Error(usage): "--size is '1,5', but it must be a length. Write 1.5." What is no number is put into quotes.
+/// Throws Error(usage): "--size is '1,5', but it must be a length. Write 1.5." Texts that are no numbers are quoted.
 [[noreturn]] inline void refuse_number(std::string_view option, std::string_view text, const char* range) {
     std::string point(text);
     if (const std::size_t comma = point.find(','); comma != point.npos) point[comma] = '.';
@@ -91,7 +92,8 @@ inline void require_in(const NumberRange& range, std::string_view option, double
     if (!range.contains(number)) refuse_number(option, fmt::format("{}", number), range.words);
 }
 
-/// The number of an option. Throws Error(usage), as above, for a text that is none or out of range.
+/// Returns the number of an option. Throws Error(usage), like require_in(), for a text that is no number or out of
+/// range.
 template <class Number>
 Number parse_number(std::string_view option, std::string_view text, const NumberRange& range) {
     const std::optional<Number> number = number_in<Number>(text);
@@ -99,7 +101,7 @@ Number parse_number(std::string_view option, std::string_view text, const Number
     return *number;
 }
 
-/// Parses a length; the range is that of the number before its %.
+/// Returns a length; `range` is that of the number before its %.
 inline Length parse_length(std::string_view option, std::string_view text, const NumberRange& range) {
     const std::optional<Length> length = length_in(text);
     if (!length || !range.contains(length->number())) refuse_number(option, text, range.words);

@@ -2,7 +2,7 @@
 
 namespace kerf {
 
-/// major.minor.patch, defined by CMakeLists.txt..
+/// major.minor.patch, defined by CMakeLists.txt.
 inline constexpr const char* version = KERF_VERSION;
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Names of the program as people read them.
+// Names of the program in the form in which people read them.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace kerf {
 
-/// "first-try", as files and options spell it, in words: "first try".
+/// Returns a name that files and options spell "first-try" in words: "first try".
 inline std::string in_words(std::string_view name) {
     std::string words(name);
     std::replace(words.begin(), words.end(), '-', ' ');

@@ -6,8 +6,8 @@
 
 namespace kerf {
 
-/// The text with the characters escaped that mean something in XML, in attributes, too; control characters, which XML
-/// does not know, become blanks.
+/// Returns the text with all characters escaped that have a meaning in XML, also in attributes; control characters,
+/// which XML does not allow, become blanks.
 inline std::string xml_text(std::string_view text) {
     std::string escaped;
     for (const char c : text) {

@@ -40,7 +40,7 @@ class BoxTree {
     }
 
  private:
-    // The boxes for which `is_wanted` holds; it must hold for every box around one for which it does.
+    // Visits the boxes for which `is_wanted` holds; if it holds for a box, it must hold for every box around that.
     template <class IsWanted, class VisitBox>
     void visit(const IsWanted& is_wanted, const VisitBox& visit_box) const {
         hierarchy_.any([&](const BoxNode& node) { return is_wanted(node.box); },
@@ -51,7 +51,7 @@ class BoxTree {
     }
 
     std::vector<Box> boxes_;
-    std::vector<std::int32_t> order_;  // numbers of boxes, those of a node side by side
+    std::vector<std::int32_t> order_;  // numbers of boxes; the boxes of a node lie side by side
     BoxHierarchy<> hierarchy_;
 };
 

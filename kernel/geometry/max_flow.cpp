@@ -32,7 +32,7 @@ MaxFlow::MaxFlow(std::int32_t node_count)
 
 void MaxFlow::add_terminal(std::int32_t node, double from_source, double to_sink) {
     KERF_CHECK(from_source >= 0 && to_sink >= 0);
-    terminal_[node] += from_source - to_sink;  // what passes straight through does not move the cut
+    terminal_[node] += from_source - to_sink;  // flow straight through the node does not move the cut
 }
 
 void MaxFlow::add_edge(std::int32_t a, std::int32_t b, double capacity) {

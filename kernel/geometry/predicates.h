@@ -68,7 +68,7 @@ inline double lifted_determinant(const VectorPair& ac, const VectorPair& bd, Pai
 
 /// Returns the sign of det[b-a, c-a, d-a]: 1 if d sees a, b, c counter-clockwise, as in every Tetrahedron
 /// (core/types.h); 0 if all points lie in one plane. Exact. Takes about 5 ns; near 0 a tenth of a microsecond if the
-/// coordinates have few bits, else some microseconds.
+/// coordinates have few bits (see predicates.cpp), else some tenths.
 inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const auto p = detail::difference(a, d), q = detail::difference(b, d), r = detail::difference(c, d);
     const double det = -detail::determinant(p, q, r);
