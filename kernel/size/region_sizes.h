@@ -1,4 +1,4 @@
-// Sizes of regions that have one of their own.
+// The sizes of regions that have sizes of their own.
 #pragma once
 
 #include <utility>
@@ -9,17 +9,17 @@
 
 namespace kerf {
 
-/// What is wanted in some regions in place of what is wanted everywhere. What makes sizes smaller at places does so in
-/// them, too.
+/// The sizes wanted in some regions, in place of that wanted everywhere. Sources that make sizes smaller at places do
+/// so in these regions, too.
 class RegionSizes {
  public:
     RegionSizes() = default;
-    /// The largest volume of a tetrahedron in each region, as SizeField has it; 0: as everywhere.
+    /// `max_volumes` has the largest volume of a tetrahedron in each region, as for SizeField; 0: as everywhere.
     explicit RegionSizes(std::vector<double> max_volumes) : max_volumes_(std::move(max_volumes)) {}
 
     bool empty() const { return max_volumes_.empty(); }
     const std::vector<double>& max_volumes() const { return max_volumes_; }
-    /// The field of a region, where `all` is that of the others.
+    /// Returns the field of a region; `all` is that of regions without a size of their own.
     SizeField of(RegionIndex region, const SizeField& all) const {
         const auto r = static_cast<std::size_t>(region.value());
         return r < max_volumes_.size() && max_volumes_[r] > 0 ? all.with_constant(max_volumes_[r]) : all;

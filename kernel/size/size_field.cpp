@@ -1,3 +1,10 @@
+// A size field is the minimum of a constant and of sources (sized_shapes.h, sized_triangles.h, background_sizes.h),
+// each of which has its size where it lies and grows with the distance. The running minimum is handed from source to
+// source as a `bound`, so that trees are searched only for less than is known already. The constant is kept as the
+// volume that was given, with its edge beside it: where no source is smaller the volume comes back to the last bit.
+// `edge_factor_` scales the sources, so that a coarser field shares them. within() must not change a bit of any answer,
+// because workers, which get it, and ranks, which have the whole field, decide alike by it.
+
 #include "size/size_field.h"
 
 #include <cmath>
@@ -38,7 +45,7 @@ double SizeSources::size_at(const Vec3& p, double bound) const {
     return triangles.size_at(p, growth, bound);
 }
 
-// Backgrounds, which may jump between cells that overlap, are left out of what bounds the triangles.
+// The bound of the triangles leaves out backgrounds, which may jump between cells that overlap.
 SizeSources SizeSources::within(const Eigen::AlignedBox3d& box, double bound) const {
     SizeSources kept = *this;
     kept.triangles = triangles.within(box, growth, [&](const Eigen::AlignedBox3d& cell) {

@@ -1,4 +1,4 @@
-// How fine the tetrahedra shall be, and where.
+// The size of tetrahedra that is wanted at each point of space.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace kerf {
 
-/// All from which a SizeField takes the minimum, besides a constant. Each has its size where it lies, and more by
-/// `growth` times the distance elsewhere.
+/// The sources of a SizeField, which takes the minimum of a constant and of all of them. A source has its size where it
+/// lies; elsewhere, `growth` times the distance is added.
 struct SizeSources {
     double growth = 0;  ///< >= 0
     std::vector<SizedBox> boxes;
@@ -27,12 +27,12 @@ struct SizeSources {
 
     bool empty() const;
     double smallest() const;
-    /// The least of all sources and `bound` at a point.
+    /// Returns the least of all sources and `bound` at a point.
     double size_at(const Vec3& p, double bound) const;
 
-    /// The size that the boxes, spheres and cylinders alone ask for.
+    /// Returns the least of the boxes, spheres and cylinders and `bound` at a point.
     double size_of_solids(const Vec3& p, double bound) const;
-    /// The sources without the triangles that have no say in the box, where size_at(p, bound) stays the same.
+    /// Returns the sources without triangles that do not matter in the box: size_at(p, bound) is the same there.
     SizeSources within(const Eigen::AlignedBox3d& box, double bound) const;
 
     template <class Archive>
@@ -41,46 +41,47 @@ struct SizeSources {
     }
 };
 
-/// Wanted edge length in space: the minimum of a constant and of sources. A value, cheap to copy: serialised with all
-/// that it needs, asked at a point. The answer depends on the point alone, and differs between two points by no more
+/// The wanted edge length as a function of space: the minimum of a constant and of sources. It is a value, cheap to
+/// copy, serialised with all its data. The answer depends on the point alone, and differs between two points by no more
 /// than growth() times their distance (but see BackgroundSizes). Thread-safe.
 class SizeField {
  public:
-    /// Nothing is asked anywhere.
+    /// A field that asks for no size anywhere: infinity.
     SizeField() = default;
-    /// A field that is the same everywhere: tetrahedra of at most this volume, which is kept as it is. 0: nothing is
-    /// asked.
+    /// A field that is the same everywhere: tetrahedra of at most this volume, which is kept as it is; 0: no size is
+    /// asked for.
     explicit SizeField(double max_volume);
-    /// A constant, 0 for none, and what makes it smaller at places.
+    /// A field of a constant, 0 for none, and of sources, which make it smaller at places.
     SizeField(double max_volume, SizeSources sources);
 
-    /// Wanted edge length; infinity where nothing is asked. O(log n) with n triangles and cells in the sources, a few
+    /// Returns the wanted edge length; infinity if none is. O(log n) for n triangles and cells in the sources, a few
     /// microseconds.
     double at(const Vec3& p) const { return at(p, edge_); }
-    /// The least of at(p) and `bound`, which is found sooner where the bound is small.
+    /// Returns the lesser of at(p) and `bound`, sooner if the bound is small.
     double at(const Vec3& p, double bound) const;
-    /// Largest volume of a tetrahedron there: that of the regular one with the edge at(p). Infinity where nothing is
-    /// asked.
+    /// Returns the largest volume of a tetrahedron at p: that of the regular one with the edge at(p). Infinity if no
+    /// size is wanted.
     double max_volume_at(const Vec3& p) const;
-    /// No point has a smaller edge length; infinity if nothing is asked.
+    /// A lower bound of the wanted edge length at all points; infinity if none is wanted.
     double smallest() const;
     bool is_empty() const { return max_volume_ == 0 && is_constant(); }
     /// Whether all points have the same edge length, infinity included.
     bool is_constant() const { return !sources_; }
-    /// max_volume_at() where the field is smallest: of a constant field, everywhere. 0: nothing is asked. Volumes are
-    /// told in such units where their tetrahedra are counted, see sized_volume().
+    /// max_volume_at() at the smallest size: that of all points if the field is constant. 0: no size is wanted. Volumes
+    /// are measured in units of it where tetrahedra are counted, see sized_volume().
     double reference_volume() const;
-    /// Largest volume by the constant alone; infinity if there is none.
+    /// The largest volume by the constant alone; infinity if there is none.
     double constant_volume() const { return max_volume_ > 0 ? max_volume_ : infinity; }
-    /// Largest change of at() by distance.
+    /// The largest change of at() per distance.
     double growth() const { return sources_ ? edge_factor_ * sources_->growth : 0; }
 
-    /// The field with this constant, and the same sources, in place of its own. 0: no constant.
+    /// Returns the field with the same sources and this constant in place of its own. 0: no constant.
     SizeField with_constant(double max_volume) const;
-    /// The field whose tetrahedra may be `factor` > 0 times as large.
+    /// Returns the field whose tetrahedra may be `factor` > 0 times as large in volume.
     SizeField coarser(double factor) const;
-    /// A field with the same answer, to the last bit, at each point of the box, that has fewer sources to travel with.
-    /// Constant or empty where this one is, and only there. O(n) with n triangles in the sources.
+    /// Returns a field with fewer sources that gives the same answer, to the last bit, at each point of the box: for a
+    /// worker that needs no others. It is constant or empty if and only if this one is. O(n) for n triangles in the
+    /// sources.
     SizeField within(const Eigen::AlignedBox3d& box) const;
 
     template <class Archive>
@@ -102,13 +103,13 @@ class SizeField {
 
     double max_volume_ = 0;                       // of the constant; 0: none
     double edge_ = infinity;                      // of the constant
-    double edge_factor_ = 1;                      // of the sources
+    double edge_factor_ = 1;                      // factor of the sources, see coarser()
     std::shared_ptr<const SizeSources> sources_;  // not empty; null: none
 };
 
-/// Whether a tetrahedron with these corners is to be divided: of a constant field if its volume is above the bound;
-/// where sizes differ, if its mean edge is longer than wanted at its centroid by a share that makes most edges as long
-/// as wanted.
+/// Whether a tetrahedron with these corners should be divided. If the field is constant, its volume must exceed the
+/// bound; else its mean edge must be longer than wanted at its centroid, by a share that makes most edges as long as
+/// wanted.
 bool is_too_large(const SizeField& size, const std::array<Vec3, 4>& corners);
 
 }  // namespace kerf

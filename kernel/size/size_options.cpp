@@ -1,3 +1,8 @@
+// From the texts of options to sources of sizes. Each kind of text has one parser, which check() calls for its errors
+// alone and make_size_field() for its values, so that both accept the same texts; `form_...` are the forms that
+// messages show. Lengths may be percentages until resolve_lengths() has rewritten the texts, and are used as numbers
+// only after that. An unknown patch is found out in make_size_field(), because only the surface knows its patches.
+
 #include "size/size_options.h"
 
 #include <algorithm>
@@ -53,7 +58,7 @@ Length size_in(std::string_view text) {
     return length && length->number() > 0 && has_normal_volume(length->number()) ? *length : Length();
 }
 
-// What stands before and behind the last `mark`.
+// The parts of a text before and behind the last `mark`.
 struct Halves {
     std::string before, behind;
     Halves(const std::string& text, char mark) {
@@ -127,7 +132,7 @@ void append(std::vector<SizedTriangle>& all, const std::vector<SizedTriangle>& m
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// Noise of coordinates has any curvature, and walls may touch: what is told from them has a limit.
+// Noise of coordinates has any curvature, and walls may touch: sizes that follow from these have a lower limit.
 std::vector<SizedTriangle> no_smaller_than(double least, std::vector<SizedTriangle> sized) {
     for (SizedTriangle& t : sized)
         for (double& size : t.size) size = std::max(size, least);
@@ -196,7 +201,7 @@ void SizeOptions::resolve_lengths(double diagonal) {
                                 "to corner of its bounding box. Give less.",
                                 chord_error.text(), diagonal));
     chord_error = chord_error.of(diagonal);
-    // Only what has a percentage is written anew.
+    // Only texts with a percentage are written anew.
     const auto resolved = [&](const std::string& text) {
         const std::optional<Length> length = length_in(text);
         return length && length->is_percent() ? fmt::format("{}", length->of(diagonal)) : text;

@@ -1,4 +1,4 @@
-// What a user says about sizes, and the field that follows from it.
+// The options of sizes, and the field that follows from them.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace kerf {
 
-/// What the options may be.
+/// The ranges of the options.
 namespace size_range {
 inline constexpr NumberRange length = {"a positive length in units of the input, or with % of its diagonal", 0};
 inline constexpr NumberRange max_volume = {"a positive volume, or 0 for no bound", 0};
@@ -24,53 +24,56 @@ inline constexpr NumberRange segments_per_turn = {"3 to 10000, or 0 for none", 3
 inline constexpr NumberRange cells_across = {"0.1 to 10000, or 0 for none", 0.1, 1e4, true};
 }  // namespace size_range
 
-/// How fine surface and cells are where no size is given.
+/// The size of facets and cells where no size is given.
 enum class Fineness { coarse, medium, fine };
 
-/// Lengths are in units of the input or, until resolve_lengths(), in percent of its diagonal; 0, or nothing, stands for
-/// "not given". In texts, H and D are such lengths.
+/// Lengths are in units of the input or, before resolve_lengths(), in percent of its diagonal; 0, or an empty text,
+/// means "not given". H and D in texts are such lengths.
 struct SizeOptions {
     Length size;                           ///< wanted edge length everywhere
-    double max_volume = 0;                 ///< of a tetrahedron everywhere, instead of `size`
-    std::int64_t cells = 0;                ///< tetrahedra of the whole mesh: `size` follows (prepare/cells.h)
-    Fineness fineness = Fineness::medium;  ///< without say where one of the former three is given
+    double max_volume = 0;                 ///< largest volume of a tetrahedron everywhere, instead of `size`
+    std::int64_t cells = 0;                ///< number of tetrahedra of the whole mesh, from which `size` follows
+                                           ///< (prepare/cells.h)
+    Fineness fineness = Fineness::medium;  ///< ignored if one of the former three is given
     std::vector<std::string> inside;     ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
     std::vector<std::string> on;         ///< NAME=H: on a patch
     std::vector<std::string> near;       ///< NAME=H:D: up to the distance D from a patch
     std::vector<std::string> in_region;  ///< NAME=H: in a region, in place of `size`
-    double growth = 0;  ///< of sizes by distance; if given, the lengths of the surface's edges are wanted there, too
+    double growth = 0;  ///< increase of sizes per distance; if given, the surface's edges ask for their lengths, too
     std::string field_file;  ///< a mesh of tetrahedra with a size at every node
     Length chord_error;      ///< see CurvatureSizes
     double segments_per_turn = 0;
     double cells_across = 0;                           ///< see sizes_of_thickness()
-    std::shared_ptr<const SizedMesh> background = {};  ///< what a field_file would have, at hand; no option has it
+    std::shared_ptr<const SizedMesh> background = {};  ///< in place of a field_file, for programs; no option sets it
 
-    /// Growth where none is given.
+    /// The growth if none is given.
     static constexpr double usual_growth = 0.3;
 
     /// Throws Error(usage) naming option, value and range or form.
     void check() const;
-    /// Replaces percentages by the lengths that they are. Throws Error(usage) for a chord error that no chord has.
+    /// Replaces percentages by lengths. Throws Error(usage) for a chord error longer than the diagonal, which no chord
+    /// has.
     void resolve_lengths(double diagonal);
-    /// `max_volume`, or what follows from `size`, a resolved length; 0: none.
+    /// Returns `max_volume`, or the volume that follows from `size`, a resolved length; 0: none.
     double constant_max_volume() const;
-    /// The same for each of these regions, 0 where `in_region`, of resolved lengths, says nothing; empty if it says
-    /// nothing at all. Throws Error(usage) for a region that is none of them, or is named twice.
+    /// Returns the largest volume of a tetrahedron in each of these regions, from `in_region` with resolved lengths, 0
+    /// for regions that it does not name; empty if `in_region` is. Throws Error(usage) for a name that is none of the
+    /// regions', or that comes twice.
     std::vector<double> max_volumes_of_regions(std::span<const std::string> regions) const;
-    /// Whether anything but a constant is asked for, so that the field follows from the surface and files.
+    /// Whether any option but a constant is given, so that the field follows from the surface and files.
     bool depends_on_place() const {
         return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() || background ||
                chord_error.number() > 0 || segments_per_turn > 0 || cells_across > 0;
     }
-    /// Whether none is given that would hold everywhere, so that `fineness` decides.
+    /// Whether no size is given that would hold everywhere, so that `fineness` decides.
     bool follow_fineness() const { return size.number() == 0 && max_volume == 0 && cells == 0; }
     double growth_or_usual() const { return growth > 0 ? growth : usual_growth; }
 };
 
-/// The field that the options, which must pass check() and have resolved lengths, ask for over a surface: the minimum
-/// of them all, each growing with the distance. Sizes told from curvature and thickness are 1e-4 of the diagonal at
-/// least. `background`: what was read from `field_file`, or SizeOptions::background. Throws Error(usage) for a patch
-/// that the surface does not have, naming those that it has. Deterministic. O(#F log #F).
+/// Returns the field that the options ask for over a surface: the minimum of all sources, each growing with the
+/// distance. The options must pass check() and have resolved lengths. Sizes that follow from curvature and thickness
+/// are at least 1e-4 of the diagonal. `background` is the content of `field_file`, or SizeOptions::background. Throws
+/// Error(usage) for a patch that the surface does not have, naming those that it has. Deterministic. O(#F log #F).
 SizeField make_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names, std::optional<SizedMesh> background = {});
 

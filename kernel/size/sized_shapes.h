@@ -1,4 +1,4 @@
-// Solids inside of which a size is wanted, in closed form.
+// Solids inside of which a size is wanted.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace kerf {
 
-/// Each solid knows the distance of a point from it, which is 0 inside, and the edge length `size` > 0 wanted there.
+/// A box. Each solid knows the distance of a point from it, 0 inside, and the edge length `size` > 0 wanted inside.
 struct SizedBox {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< opposite corners, low <= high
     double size = 1;
@@ -36,7 +36,7 @@ struct SizedSphere {
     }
 };
 
-/// Right, circular, with flat ends.
+/// A right circular cylinder with flat ends.
 struct SizedCylinder {
     Vec3 from = Vec3::Zero(), to = Vec3::UnitX();  ///< centres of the ends, which differ
     double radius = 0;

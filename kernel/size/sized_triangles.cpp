@@ -1,3 +1,12 @@
+// A minimum over many triangles t of s_t(p) + growth * max(0, d_t(p) - reach_t), where s_t is linear on the triangle
+// and d_t the distance. The tree is one of boxes, but nodes are divided between two reaches before they are divided in
+// space, because one triangle with a long reach would make the bound of a node useless for all others. Bounds of nodes
+// are lowered by `less`, so that rounding never hides a triangle, and `floor` is a bound that is exact for triangles of
+// equal sizes: it ends a search at once where many triangles reach as far as p.
+// within() drops triangles for a box without changing any answer there. In each cell the ceiling is an upper bound of
+// the minimum; triangles that cannot have less in the cell are dropped, and if one triangle has exactly the ceiling
+// everywhere in the cell, so are all that can have no less than that.
+
 #include "size/sized_triangles.h"
 
 #include <algorithm>
@@ -10,11 +19,11 @@ namespace kerf {
 
 namespace {
 
-constexpr double more = 1 + 1e-9;  // what is as good to so much stays, however it is computed
+constexpr double more = 1 + 1e-9;  // an answer up to so much larger may be the same, computed otherwise
 constexpr double cells_per_side = 8;
 constexpr double less = 1 - 1e-12;  // boxes promise a little less than they hold, so that rounding hides nothing
 
-// No size_at() is less: equal sizes are kept to the last bit, and what is added for the distance is not negative.
+// A lower bound of size_at(): equal sizes are kept to the last bit, and the addition for the distance is not negative.
 double floor_of(const SizedTriangle& t) { return t.is_uniform() ? t.smallest() : less * t.smallest(); }
 
 }  // namespace

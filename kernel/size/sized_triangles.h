@@ -30,19 +30,19 @@ struct SizedTriangle {
     double largest() const { return std::max({size[0], size[1], size[2]}); }
     bool is_uniform() const { return size[0] == size[1] && size[0] == size[2]; }
     double distance(const Vec3& p) const;
-    /// Barycentric coordinates of its point closest to p.
+    /// Returns the barycentric coordinates of the point of the triangle closest to p.
     Vec3 closest(const Vec3& p) const;
-    /// Size at the point of the triangle that is closest to p, plus growth times the distance beyond the reach.
+    /// Returns the size at the point of the triangle closest to p, plus growth times the distance beyond the reach.
     double size_at(const Vec3& p, double growth) const;
-    /// Distance along the ray from `origin` in the unit direction to the triangle, which it may hit from either side;
-    /// infinity if it misses.
+    /// Returns the distance along the ray from `origin` in the unit direction to the triangle, which it may hit from
+    /// either side; infinity if it misses.
     double hit(const Vec3& origin, const Vec3& direction) const;
 };
 static_assert(std::is_trivially_copyable_v<SizedTriangle>);
 template <>
 struct HasNoPadding<SizedTriangle> : std::bool_constant<sizeof(SizedTriangle) == 13 * sizeof(double)> {};
 
-/// Many of them, in a tree of boxes, those of one reach below one node or a few. Built in O(n log n).
+/// Many sized triangles in a tree of boxes, those of one reach below one node or a few. Built in O(n log n).
 class SizedTriangles {
  public:
     SizedTriangles() = default;
@@ -52,16 +52,17 @@ class SizedTriangles {
     std::span<const SizedTriangle> all() const { return triangles_; }  ///< in the order of the tree
     double smallest() const { return empty() ? infinity : tree_.nodes().front().size; }
 
-    /// The least SizedTriangle::size_at(), or `bound` if none is less. O(log n) where few are close, and where many
-    /// reach as far as p: the first that has the least size that any of them can have ends the search. `asked`, if
-    /// given, is raised by the number of triangles that were looked at.
+    /// Returns the least SizedTriangle::size_at(), or `bound` if none is less. O(log n) if few triangles are close, and
+    /// also if many reach as far as p: the search ends with the first that has the least size that any of them can
+    /// have. `asked`, if given, is raised by the number of triangles that were looked at.
     double size_at(const Vec3& p, double growth, double bound, std::int64_t* asked = nullptr) const;
-    /// Triangles that may have a say in the box, where anything else asks for at most `bound(cell)` in each box `cell`
-    /// that it is given: size_at() of both is the same there if it is not more than that. At least one. Looks at the
-    /// box in cells of an eighth of its longest side, and keeps one triangle for a cell that lies in its reach, where
-    /// nothing is smaller. Deterministic. O(n) at most, and O(log n) for each cell.
+    /// Returns the triangles that may matter in the box, at least one. `bound(cell)` must be an upper bound, in a given
+    /// box `cell`, of all that is wanted besides; size_at() of both sets is the same wherever it is not more than that.
+    /// Looks at the box in cells of an eighth of its longest side, and keeps one triangle for a cell that lies in its
+    /// reach and has no smaller size. Deterministic. O(n) at most, and O(log n) for each cell.
     SizedTriangles within(const Box& box, double growth, const std::function<double(const Box&)>& bound) const;
-    /// The nearest triangle that the ray hits and for which is_wanted(triangle) holds: its distance, else infinity.
+    /// Returns the distance to the nearest triangle that the ray hits and for which is_wanted(triangle) holds, else
+    /// infinity.
     template <class IsWanted>
     double first_hit(const Vec3& origin, const Vec3& direction, const IsWanted& is_wanted) const {
         return least(
@@ -77,17 +78,18 @@ class SizedTriangles {
 
  private:
     struct Node : BoxNode {
-        double size = infinity, reach = 0;  // the least and the largest below
-        double floor = infinity;            // no size_at() of a triangle below is less, as it is computed
+        double size = infinity, reach = 0;  // the least size and the largest reach below
+        double floor = infinity;            // a lower bound of the computed size_at() of all triangles below
 
         Node() = default;
         explicit Node(const SizedTriangle& triangle);
         void add(const Node& other);
     };
-    // No point of a cell has more from all triangles together.
+    // An upper bound, in a cell, of the size from all triangles together.
     struct Ceiling {
         double size = infinity;
-        std::int32_t triangle = none;  // has exactly this size in all of the cell; none: no single one has
+        std::int32_t triangle = none;  // the triangle that has exactly this size in all of the cell; none: no single
+                                       // one
     };
     std::int32_t middle(std::int32_t first, std::int32_t last) const;
     static double entry(const Box& box, const Vec3& origin, const Vec3& direction);
@@ -97,7 +99,8 @@ class SizedTriangles {
     enum class Order { as_they_are, to_be_made };
     void build_tree(Order order);
 
-    // The least of of_triangle() and `bound`. No triangle below a node has less than of_node() says.
+    // Returns the least of `bound` and all of_triangle(). of_node() must be a lower bound of it for all triangles below
+    // a node.
     template <class OfNode, class OfTriangle>
     double least(double bound, const OfNode& of_node, const OfTriangle& of_triangle) const {
         return tree_.least<FirstOfEqual::right>(bound, of_node,
