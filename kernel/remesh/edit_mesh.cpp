@@ -1,3 +1,9 @@
+// Queries of the mesh and its bookkeeping of copies. A place is the list of a vertex's copies, one for each fan of
+// facets from seam to seam; a seam is the list of the edges that are one edge in all sheets. Elements without copies
+// have the number -1 and no list. arrays() collects garbage, which renumbers all vertices, edges and facets; the
+// numbers of places and seams stay, and their lists are filled anew. `changed` is the count of operations at the last
+// change around a vertex or in a facet, by which callers skip what was refused before.
+
 #include "remesh/edit_mesh.h"
 
 #include <algorithm>

@@ -1,3 +1,11 @@
+// A collapse or a move has two halves: may_...() collects the facets that it would change, with their new corners (a
+// star, one for each sheet), and asks the rules; commit_...() changes the mesh. On a seam all sheets are asked before
+// any is changed, so a refusal leaves no trace. The rules go from cheap to dear: flags, topology, angles, and only then
+// the proof that the new facets are near the input (InputBound). Facets stand for vertices of the input that have left
+// the mesh. Before a change, the points of all facets that change or vanish are collected in `points_`; afterwards each
+// is given to the closest new facet, so that no point is lost. A collapse may not join vertices that an edge in another
+// sheet joins already: OpenMesh's own test sees one sheet alone.
+
 #include "remesh/edited_surface.h"
 
 #include <algorithm>
@@ -174,7 +182,7 @@ bool EditedSurface::collapse_either_way(Edge e, const CollapseRules& rules) {
     return collapse(first ? h : back, rules) || collapse(first ? back : h, rules);
 }
 
-// The mesh has the facets of the star now, and points_ is what they and those that are gone stood for.
+// Gives points_ to the facets of the star, which are in the mesh by now; points_ are those of the facets before.
 void EditedSurface::commit_star(const NewFacets& star) {
     for (std::size_t i = 0; i < star.facets.size(); ++i)
         if (star.stays[i] == 0) mesh_.data(star.facets[i]).region = -1;

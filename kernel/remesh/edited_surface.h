@@ -9,9 +9,9 @@
 
 namespace kerf {
 
-/// The operations of the remesher. They change nothing and return false where they would change a facet that is kept,
-/// leave the bound of the input (InputBound), turn a facet over, lose a feature, change the topology or make the worst
-/// triangle worse. What lies on a seam changes in all its sheets, if each of them agrees.
+/// The operations of the remesher. An operation changes nothing and returns false if it would change a facet that is
+/// kept, leave the bound of the input (InputBound), turn a facet over, lose a feature, change the topology or make the
+/// worst triangle worse. An operation on a seam changes all its sheets, if each of them allows it.
 class EditedSurface {
  public:
     using Vertex = EditMesh::VertexHandle;
@@ -19,12 +19,13 @@ class EditedSurface {
     using HalfEdge = EditMesh::HalfedgeHandle;
     using Facet = EditMesh::FaceHandle;
 
-    /// Keeps the reference to the input. `kept`: of its facets, whether no operation may change it; empty: none.
+    /// Keeps the reference to the input. `kept` (#F of the input) marks facets that no operation may change; empty:
+    /// none.
     explicit EditedSurface(const InputShape& input, const std::vector<char>& kept = {});
 
     const EditMesh& mesh() const { return mesh_; }
     const InputShape& input() const { return bound_.input(); }
-    /// Of all copies. `asked` is what the user wants, whatever the shape needs.
+    /// Sets the sizes of all copies of a vertex. `asked` is the size that the user wants, whatever the shape needs.
     void set_size(Vertex v, const WantedLength& wanted, double asked) {
         mesh_.for_each_copy(v, [&](Vertex copy) {
             mesh_.data(copy).wanted = wanted;
@@ -32,34 +33,36 @@ class EditedSurface {
         });
     }
     void set_fold(Edge e, std::int32_t fold) { mesh_.data(e).fold = fold; }
-    /// How many operations have changed something.
+    /// The number of operations that have changed something.
     std::int64_t changes() const { return changes_; }
-    /// See InputBound.
+    /// Sets the share of the tolerances that may be used, see InputBound.
     void set_share(double share) { bound_.set_share(share); }
     void find_regions(double share) { bound_.find_regions(mesh_, share); }
 
     struct CollapseRules {
-        double good_sine;        ///< triangles may get worse down to this
-        double worst_share = 1;  ///< of the worst sine before, which the new ones must have at least
-        double longest = std::numeric_limits<double>::infinity();  ///< a new edge over the smaller size at its ends
-        bool merges_features = false;  ///< whether the start may be of other features than the end, of one patch
+        double good_sine;        ///< sine of the angle down to which triangles may get worse
+        double worst_share = 1;  ///< share of the worst sine before that the new triangles must have at least
+        double longest = std::numeric_limits<double>::infinity();  ///< greatest ratio of a new edge to the smaller size
+                                                                   ///< at its ends
+        bool merges_features = false;  ///< whether the start may be of other features than the end, if it is of one
+                                       ///< patch
     };
     /// Moves the start of the half-edge to its end, which keeps its place.
     bool collapse(HalfEdge h, const CollapseRules& rules);
-    /// Rather away from the end of fewer edges.
+    /// Collapses the edge, if possible away from the end with fewer edges, else the other way.
     bool collapse_either_way(Edge e, const CollapseRules& rules);
-    /// Turns the edge if the smallest angle of its two facets grows.
+    /// Flips the edge if the smallest angle of its two facets grows.
     bool flip(Edge e) { return take_flip(e, false); }
-    /// Flips the edge as flip() does, only within a flat region, by the empty circle. Cheap.
+    /// Flips the edge like flip(), but only within a flat region, where the bound needs no proof. Cheap.
     bool make_delaunay(Edge e) { return take_flip(e, true); }
-    /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, of half-edge 0, and returns that in the sheet of
-    /// this edge. Possible for every edge that is not fixed.
+    /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, along half-edge 0, and returns its copy in the
+    /// sheet of this edge. Possible for every edge that is not fixed.
     Vertex split(Edge e, double t);
-    /// Moves a vertex towards `wanted` along what it lies on: a flat region, a straight line between two, or the
-    /// surface.
+    /// Moves a vertex towards `wanted` within a flat region, along a straight line between two, or on the surface,
+    /// depending on which of these it lies on.
     bool move(Vertex v, const Vec3& wanted);
 
-    /// The facets and vertices that are left, in order; copies have one key.
+    /// Returns the remaining facets and vertices, in order, copies with one key.
     SurfaceArrays arrays() { return mesh_.arrays(); }
 
  private:
@@ -80,7 +83,7 @@ class EditedSurface {
     InputBound bound_;
     EditMesh mesh_;
     std::int64_t changes_ = 0;
-    // Scratch; of stars one for each sheet.
+    // Scratch; stars_ has a star for each sheet.
     std::vector<std::int32_t> points_;
     std::vector<HalfEdge> along_;
     std::vector<Vertex> copies_;

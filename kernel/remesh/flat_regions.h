@@ -8,9 +8,9 @@
 
 namespace kerf {
 
-/// A piece of a surface that lies near a plane, and what may become of it stays within `tolerance` of that.
+/// A piece of a surface that lies near a plane; facets that replace its own must stay within `tolerance` of the plane.
 struct FlatRegion {
-    Vec3 normal;    ///< of length 1, out of the body
+    Vec3 normal;    ///< unit length, out of the body
     double offset;  ///< normal.dot(x) in the plane
     double tolerance;
 
@@ -24,10 +24,10 @@ struct FlatRegions {
 };
 
 struct FlatRegionOptions {
-    /// How far the vertices of a facet may be from the plane of its region; that of the region is its first facet's.
+    /// The largest distance of a facet's vertices from the plane of its region; the region has that of its first facet.
     std::function<double(std::int32_t)> tolerance;
-    double noise = 0;                                  ///< height of a facet below which its normal says nothing
-    std::function<bool(std::int32_t)> is_border = {};  ///< of a corner: whether a region ends at its edge
+    double noise = 0;                                  ///< height of a facet below which its normal is noise
+    std::function<bool(std::int32_t)> is_border = {};  ///< whether a region ends at the edge of a corner
 };
 
 /// Grows regions over edges of two facets, from the largest facets to the smallest; every facet belongs to one.

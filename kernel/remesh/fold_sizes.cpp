@@ -1,3 +1,11 @@
+// Sizes from folds, in the manner of local feature sizes (Ruppert 1995, ruppert1995). A fold is an edge across which no
+// edge of the longest wanted length may be laid: a feature, or an edge so bent that a chord of its circle would leave
+// the tolerance. With the angle t between the normals, the mean height w of both facets and the tolerance d, the radius
+// of the circle is about w / t, and a chord of the length sqrt(8 d w / t) stays within d. Two folds at a distance ask
+// for that distance, but never for less than the larger of their chords: a fold with a long chord could be left out
+// anyway. Folds are segments in a TriangleTree. Walls ask for a share of the distance to the opposite sheet. Sizes are
+// limited in their growth at the end by Dijkstra's algorithm, from small to large, over edges and between copies.
+
 #include "remesh/fold_sizes.h"
 
 #include <algorithm>

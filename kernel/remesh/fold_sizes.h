@@ -1,4 +1,4 @@
-// How long the edges of a remeshed surface are to be, from what the surface looks like.
+// The lengths of edges that the shape of a remeshed surface asks for.
 #pragma once
 
 #include <algorithm>
@@ -12,29 +12,29 @@
 namespace kerf {
 
 struct FoldSizeOptions {
-    double longest = 0;                                       ///< anywhere, > 0
-    double shortest = 0;                                      ///< that folds may ask for
-    double thinnest = 0;                                      ///< that walls may ask for
-    double growth = 0.4;                                      ///< of the size with distance
+    double longest = 0;                                       ///< upper bound everywhere, > 0
+    double shortest = 0;                                      ///< lower bound of the sizes that folds ask for
+    double thinnest = 0;                                      ///< lower bound of the sizes that walls ask for
+    double growth = 0.4;                                      ///< increase of the size per distance
     double edges_per_thickness = 0;                           ///< across a wall; 0: walls ask for nothing
-    std::function<double(const Vec3&, std::int32_t)> wanted;  ///< by the user at a point of a patch, if given
-    CancellationCheck poll = {};                              ///< asked while sizes are found
+    std::function<double(const Vec3&, std::int32_t)> wanted;  ///< size that the user wants at a point of a patch, if
+                                                              ///< given
+    CancellationCheck poll = {};                              ///< called while sizes are found
 };
 
-/// The distance to the nearest fold, fold to fold, and across walls: what well-shaped triangles have to be as small as.
-/// Reads the surface as it is when this is made, once, after what the bound allows to be left out has gone.
+/// The sizes that well-shaped triangles need: by the distance to the nearest fold, between folds, and across walls.
+/// Reads the surface once, when it is constructed, which should be after all that the bound allows has been left out.
 class FoldSizes {
  public:
-    /// Numbers the folds (EditTraits::fold) and sets the size of every vertex, which is not more than what grows from
-    /// its neighbours; where all facets around it are well shaped, it is not less than their edges; beside facets that
-    /// are kept it is the mean of the edges there. Keeps the reference. O(#V log #V) where few folds are near each
-    /// other.
+    /// Numbers the folds (EditTraits::fold) and sets the size of every vertex. A size is at most that which grows from
+    /// its neighbours; at least as long as the edges around, if all facets there are well shaped; and the mean of the
+    /// edges beside facets that are kept. Keeps the reference. O(#V log #V) if few folds are near each other.
     FoldSizes(EditedSurface& surface, const FoldSizeOptions& options);
 
-    /// The size at a vertex that has come onto an edge of that fold (-1: of none), given what has grown to there. Away
-    /// from folds nothing is asked but what grows from them.
+    /// Returns the size at a new vertex on an edge of this fold (-1: of none), given the size that has grown to there.
+    /// Away from folds the size is the grown one, unless walls or the user ask for less.
     WantedLength of_new(EditedSurface::Vertex v, std::int32_t fold, WantedLength grown) const;
-    /// The size that the user asks for at a vertex, the smallest of the patches around it, at most the longest.
+    /// Returns the size that the user asks for at a vertex, the smallest of the patches around it, at most the longest.
     double asked(EditedSurface::Vertex v) const;
 
  private:
@@ -45,8 +45,8 @@ class FoldSizes {
 
     const EditedSurface& surface_;
     FoldSizeOptions options_;
-    std::vector<double> chord_;  // of the folds, see chord_over()
-    std::vector<Vec3> ends_;     // of the folds, in pairs
+    std::vector<double> chord_;  // of each fold, see chord_over()
+    std::vector<Vec3> ends_;     // two for each fold
     std::optional<TriangleTree> folds_;
 };
 

@@ -1,3 +1,11 @@
+// A change is accepted in this order: no facet turns over against the normal of its flat region, or of the input near
+// it; the place that a vertex leaves, and every vertex of the input for which the facets stand, stays within its
+// tolerance of one of the new facets; and each new facet is near the input as a whole, by Nearness. A facet that stays
+// in its flat region needs no proof, as the plane is near the input. Only facets of the input that face the same way
+// count as near, lest a facet comes to the other side of a thin wall. The vertices for which a facet stands are a list
+// through `next_point_`, from the facet's first_point to -1; those that are in no list are `unlisted`: they have not
+// moved, or only within a flat region, where none is needed.
+
 #include "remesh/input_bound.h"
 
 #include <algorithm>
@@ -142,7 +150,7 @@ std::optional<Vec3> InputBound::place_near(const EditMesh& mesh, EditMesh::Verte
         return t > 0 ? std::optional<Vec3>(p + std::min(t, 0.5) * (end - p)) : std::nullopt;
     }
     if (features > 0) return std::nullopt;
-    // Any facet below does, not only the closest one: what follows asks whether the place is near enough.
+    // Any facet below will do, not only the closest one: accepts_star() decides whether the place is near enough.
     const std::int32_t near = mesh.data(*mesh.cvf_begin(v)).near;
     if (const std::int32_t below = near_input_.facet_below(wanted, near); below >= 0) {
         const auto& [a, b, c] = input_.tree().corners(below);

@@ -1,4 +1,4 @@
-// The rules by which the input refuses a change of its surface.
+// The rules by which the input refuses changes of the surface.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace kerf {
 struct NewFacets {
     std::vector<EditMesh::FaceHandle> facets;
     std::vector<EditMesh::Corners> corners;
-    std::vector<char> stays;  ///< whether each stays in its flat region; found by accepts_star()
+    std::vector<char> stays;  ///< set by accepts_star(): whether each facet stays in its flat region
 
     void clear() {
         facets.clear();
@@ -23,43 +23,47 @@ struct NewFacets {
     }
 };
 
-/// The bound both ways: every new facet is near the input (Nearness), and every vertex of the input that is no vertex
-/// any more is within its tolerance of a facet that stands for it. Facets that stay in a flat region are near it as a
-/// whole.
+/// The bound in both directions: every new facet is near the input (Nearness), and every vertex of the input that has
+/// left the mesh is within its tolerance of a facet that stands for it. Facets that stay in a flat region are near it
+/// as a whole.
 class InputBound {
  public:
     /// Keeps the reference.
     explicit InputBound(const InputShape& input);
 
     const InputShape& input() const { return input_; }
-    /// What may be used of the tolerances, 1 in the beginning: what is left out first leaves room for the rest.
+    /// Sets the share of the tolerances that may be used, at first 1: early operations use less, to leave room for
+    /// later ones.
     void set_share(double share) { share_ = share; }
-    /// Finds flat regions anew, of facets that lie within `share` of the tolerance of a plane. Renumbers everything.
+    /// Finds the flat regions anew, of facets that lie within `share` of the tolerance of a plane. Renumbers
+    /// everything.
     void find_regions(EditMesh& mesh, double share);
 
-    // --- rules; facets keep where the input was found to be near ---
+    // --- rules; facets remember a facet of the input near which they were found ---
 
     /// Whether no facet turns over.
     bool keeps_turns(const EditMesh& mesh, const NewFacets& star) const;
-    /// Whether these facets may take the place of those around v, which is inside a flat region or not.
+    /// Whether the facets of `star` may take the place of those around v; `is_inside`: v lies inside a flat region.
     bool accepts_star(EditMesh& mesh, EditMesh::VertexHandle v, bool is_inside, NewFacets& star);
-    /// Whether these two facets, which keep their turns, may take the place of those at an edge that is not flat.
+    /// Whether these two facets, which keeps_turns() has accepted, may take the place of those at an edge that is not
+    /// flat.
     bool accepts_flip(EditMesh& mesh, EditMesh::EdgeHandle e, const NewFacets& pair);
-    /// Whether two borders of flat regions meet at the vertex, along which it may go.
+    /// Whether exactly two borders of flat regions meet at the vertex, so that it may move along them.
     static bool lies_on_line(const EditMesh& mesh, EditMesh::VertexHandle v);
-    /// Where a vertex may go: in its flat region, along the line that it lies on, or on the input.
+    /// Returns the place nearest to `wanted` to which a vertex may go: in its flat region, along the line that it lies
+    /// on, or on the input.
     std::optional<Vec3> place_near(const EditMesh& mesh, EditMesh::VertexHandle v, const Vec3& wanted,
                                    bool is_inside) const;
 
-    // --- which vertices of the input a facet stands for ---
+    // --- the vertices of the input that a facet stands for ---
 
-    /// Appends those of a list: EditTraits, first_point.
+    /// Appends the points of a list that begins with EditTraits' first_point.
     void list_points(std::int32_t first, std::vector<std::int32_t>& points) const {
         for (std::int32_t p = first; p >= 0; p = next_point_[p]) points.push_back(p);
     }
-    /// Appends a vertex of the input that is about to leave its place, if no list has it yet.
+    /// Appends a vertex of the input that is about to leave its place, unless a list has it already.
     void list_vertex(const EditMesh& mesh, EditMesh::VertexHandle v, std::vector<std::int32_t>& points) const;
-    /// Gives each to the closest of the facets, which forget those that they had.
+    /// Gives each point to the closest of the facets, whose former lists are dropped.
     void give_points(EditMesh& mesh, std::span<const std::int32_t> points,
                      std::span<const EditMesh::FaceHandle> facets);
 
@@ -74,7 +78,7 @@ class InputBound {
     Nearness near_input_;
     std::vector<FlatRegion> planes_;
     double share_ = 1;
-    std::vector<std::int32_t> next_point_;  // of the vertices of the input: the list of a facet
+    std::vector<std::int32_t> next_point_;  // per vertex of the input: the next one in the list of a facet
     std::vector<std::int32_t> points_;      // scratch
 };
 

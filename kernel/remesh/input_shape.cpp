@@ -1,3 +1,11 @@
+// The features and the tolerances of the input. Features are found between the planes of flat regions, because the
+// normals of needles are noise: an edge is one if the normals of its regions differ by more than the feature angle, or
+// if it is a seam, a crease or a border of patches. The tolerance of a facet comes from rays from its corners, middles
+// of sides and centre, both ways: a third of the nearest gap, so that two sheets that both move towards each other
+// still keep a third of it; but no less than an eighth of the deviation, because beside a sharp edge each gap ends in
+// nothing. For the same reason the thickest place behind a facet, not the thinnest, decides about its share of the
+// thickness.
+
 #include "remesh/input_shape.h"
 
 #include <algorithm>
@@ -16,7 +24,7 @@ namespace kerf {
 
 namespace {
 
-constexpr double flat_share = 0.1;          // of the tolerance: what counts as flat
+constexpr double flat_share = 0.1;          // of the tolerance: height up to which a region counts as flat
 constexpr double gap_share = 1. / 3;        // of a gap that each of its sheets may use
 constexpr double rounding_of_files = 6e-8;  // of coordinates in single precision: lower facets have any normal
 constexpr double least_share = 1. / 8;      // of the deviation: beside sharp edges gaps end in nothing

@@ -18,7 +18,7 @@ int divisions_for(std::size_t facets) {
     return static_cast<int>(std::min<std::size_t>(least_divisions + divisions_per_facet * facets, 1 << 30));
 }
 
-// One of the surfaces, and what the facets of the other are known to be near.
+// One of the surfaces, with the bounds within which the facets of the other are known to be near.
 struct Side {
     Nearness nearness;
     int most_divisions;

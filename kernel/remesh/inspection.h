@@ -1,4 +1,4 @@
-// Whether a remeshed surface keeps what was promised.
+// The check that a remeshed surface keeps its bound.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// Calls visit(point) for the points of a facet that divide each of its edges in six.
+/// Calls visit(point) for the points of a lattice in the facet that divides each of its edges in six.
 template <class Visit>
 void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit visit) {
     constexpr int samples_per_edge = 6;
@@ -18,9 +18,9 @@ void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit
                        samples_per_edge));
 }
 
-/// Compares a result with the input: facets that meet, and points too far from the other surface. Says for each facet
-/// of the input whether the result is refused there, and puts the distances into the report. `input_tree` is of the
-/// facets of `input`. O(#F log #F).
+/// Compares a result with the input: finds facets that meet, and points too far from the other surface. Returns for
+/// each facet of the input whether the result is refused there, and puts the distances into the report. `input_tree` is
+/// of the facets of `input`. O(#F log #F).
 std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& input_tree, const RemeshOptions& options,
                           const SurfaceArrays& result, RemeshReport& report);
 

@@ -1,3 +1,11 @@
+// Rounds around the remeshing proper (triangle_shaping.h), until the whole passes inspection.h. A round whose result is
+// refused at some facets is followed by one with a quarter of their tolerances; after `most_rounds` of these the
+// refused facets, with all around them, are kept as they are; when that does not help either, the surface is refused.
+// Operations get only `used_share` of the deviation, as the rest is for points between those that are compared. After a
+// round that passes, volumes are restored (volume_restoration.h): vertices at which the moved surface is refused are
+// fixed, and the restoration is tried again. If a volume is still wrong, rounds with smaller tolerances everywhere
+// follow, in which chords leave out less.
+
 #include "remesh/remesh.h"
 
 #include <algorithm>
@@ -28,7 +36,7 @@ constexpr int most_rounds = 5, most_rounds_that_keep = 3;
 constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
 constexpr double same_volume = 5e-5;        // of a region, before and after: nothing is to be restored
 constexpr int most_restorations = 6;
-constexpr double needle_sine = 0.3, needle_share = 0.7;  // of a facet after a move, and of what it was before
+constexpr double needle_sine = 0.3, needle_share = 0.7;  // of a facet after a move; over the sine before
 constexpr int most_rounds_for_volume = 2;                // with smaller tolerances, because volumes were not restored
 constexpr double smaller_for_volume = 0.5;
 

@@ -1,3 +1,9 @@
+// A ray goes from a point of a facet against its normal, from a wall both ways, to the first facet that is opposite.
+// Samples are the centres of n^2 equal pieces of a facet, with n by its share of the area, so that large facets of
+// coarse surfaces are sampled as well as small ones. affordable_edges() forecasts facets as area over squared edge
+// length, summed over the samples, and lengthens edges until the forecast fits: first all of them, by fewer edges
+// across the thickness, then the shortest alone.
+
 #include "remesh/thickness.h"
 
 #include <algorithm>

@@ -1,3 +1,13 @@
+// First the surface is made simple, then it is given sizes, then triangles are shaped to them. Flat regions are made
+// Delaunay by Lawson's flips (Lawson 1977, lawson1977); features nearer than the bound are merged; all that the bound
+// does not need is collapsed, with a part of the tolerance only, so that room is left; then flat regions are found anew
+// and sizes found, once, because sizes read from a surface that changes would chase each other. Each pass then splits,
+// smooths, collapses and flips. An edge is long or short by its ratio to its wanted length. `split_ratio` and
+// `collapse_ratio` are so far apart that no half of an edge that is split is collapsed again. Splits take the longest
+// ratio first, but split the longest edge of its facet, and of the facet beyond, and so on (Rivara 1997), which makes
+// no needles. Refusals are remembered with the number of the last operation: a refused element is not tried again until
+// something around it has changed.
+
 #include "remesh/triangle_shaping.h"
 
 #include <algorithm>
@@ -18,13 +28,13 @@ constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
 constexpr double least_move = 0.03;  // of the size at a vertex
 constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
 constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
-// Of the tolerance: what is left out first, and what counts as flat then, leaves room for what comes after.
+// Shares of the tolerance: early operations, and flatness, leave room for later ones.
 constexpr double share_of_merging = 0.8, share_of_simplification = 0.4, share_of_flatness = 0.2;
-// What folds and walls may ask for.
+// Lower bounds of the sizes that folds ask for.
 constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005;
 constexpr std::int64_t steps_between_polls = 256;
 
-// What was refused is refused again as long as nothing around it has changed.
+// Remembers refusals: an operation that was refused is refused again as long as nothing around has changed.
 class Refusals {
  public:
     bool knows(int element, std::int64_t last_change) const {
@@ -131,7 +141,7 @@ class Shaping {
         return std::max(mesh().last_change(a), mesh().last_change(b));
     }
 
-    // Leaves out what the bound does not need.
+    // Collapses all edges that the bound does not need.
     void simplify() {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
         Refusals refused;
@@ -238,7 +248,7 @@ class Shaping {
         }
     }
 
-    // Towards the centres of the facets around, weighted by what is wanted there.
+    // Moves vertices towards the centres of the facets around, weighted by area over squared wanted size.
     void smooth() {
         for (int pass = 0; pass < smoothings; ++pass)
             for (const auto v : mesh().vertices()) {
@@ -264,7 +274,7 @@ class Shaping {
             }
     }
 
-    // Collapses the shortest edges of what is still a needle.
+    // Collapses the shortest edges of facets that are still needles.
     void mend_needles() {
         const EditedSurface::CollapseRules rules = {.good_sine = sine_of_10};
         for (const auto f : mesh().faces()) {

@@ -6,8 +6,8 @@
 
 namespace kerf {
 
-/// Leaves out what the bound does not need, finds sizes (FoldSizes), then splits, collapses, flips and moves until
-/// triangles are well shaped and of these sizes. Deterministic. O(n log n), n: facets before and after.
+/// Leaves out all that the bound does not need, finds sizes (FoldSizes), then splits, moves, collapses and flips until
+/// triangles are well shaped and of these sizes. Deterministic. O(n log n) for n facets before and after.
 void shape_triangles(EditedSurface& surface, const RemeshOptions& options);
 
 }  // namespace kerf

@@ -1,3 +1,11 @@
+// The facets of the result are compared with the input over them: rays along the normal from four points of a facet
+// give its mean height (`rise`), and a facet whose heights all vanish is planar (`plane`). Neighbours of one patch that
+// go on smoothly, both planar in one plane or both not, form a face, and balance_volumes() (surface/volume_balance.h)
+// moves vertices off these faces. Facets of the input are approximations, too, and lie partly above and partly below
+// those of the result, so the factors of the moves may be large and negative (`range_of_heights`). If that fails, all
+// vertices rise by the same height, times a factor from -1 to 2, and planar faces that end smoothly, as the strips of a
+// cylinder do, count as curved.
+
 #include "remesh/volume_restoration.h"
 
 #include <algorithm>
@@ -18,8 +26,8 @@ namespace {
 constexpr double smooth_cosine = std::numbers::sqrt3 / 2;  // of the normals of neighbours on one face: 30 degrees
 constexpr double coplanar_cosine = 1 - 1e-9;
 constexpr double facing_cosine_of_input = 0.3;  // of a facet's normal and that of the input over it
-// Of the heights of the input. Facets that follow facets are partly above and partly below them: what is missed in all
-// may be far more, or less, than the mean of a few.
+// Factors of the heights of the input. Facets that follow facets are partly above and partly below them: the volume
+// missed in all may be far more, or less, than the mean of a few.
 constexpr ScaleRange range_of_heights = {-4, 6};
 constexpr double flat_share_of_diagonal = 1e-8;
 
@@ -37,7 +45,7 @@ std::vector<double> volumes_of(const SurfaceArrays& surface, const std::vector<F
     return region_volumes(surface.vertices, {surface.facets, {}, {}, {}, of_facets}, static_cast<std::size_t>(regions));
 }
 
-// The facets of a result with what is known of the input over them.
+// The facets of a result with their faces, planes and heights as the input over them tells.
 class FacesOfInput {
  public:
     FacesOfInput(const SurfaceArrays& input, const TriangleTree& tree, double deviation, const SurfaceArrays& result)
