@@ -28,7 +28,7 @@ struct Band {
     std::vector<std::int32_t> vertices;                   ///< vertices of the band's facets, in the order in which they
                                                           ///< are met
     std::vector<std::int32_t> vertex_index_of;            ///< per vertex of the surface: its index in `vertices`, or -1
-    std::vector<Side> majority;   ///< per facet of the surface: the side of most vertices (Ivanov)
+    std::vector<Side> majority;   ///< per facet of the surface: the side of most vertices (ivanov2006)
     std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; the whole band is
                                   ///< among them
     double rounding = 0;          ///< bound on the error of a projection or a height

@@ -10,8 +10,8 @@ namespace kerf {
 /// Relabels facets of the band until the boundary between the labels has no ears (facets with two contour edges), no
 /// small islands, no vertex with more than two contour edges and no chord (a surface edge off the contour that joins
 /// two contour vertices) with a small pocket. Facets outside of the band keep their label; whole shells are no islands.
-/// Defects that cannot be mended within a bounded number of passes stay, and are found by later checks.
-/// `stages`, if given, receives closed_loops and multiple_paths_removed. O(band) per pass.
+/// Defects that cannot be mended within a bounded number of passes stay, and are found by later checks. `stages`, if
+/// given, receives closed_loops and multiple_paths_removed. O(band) per pass.
 void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& side, ContourStages* stages);
 
 /// Returns the edges between the labels, oriented with the half below on their left, ascending by facet.

@@ -49,7 +49,7 @@ VertexRing ring_of(const Surface& surface, const Band& band, std::int32_t vertex
     return ring;
 }
 
-// How far a vertex lies on its own side of the plane; negative beyond it.
+// Returns the distance of a vertex from the plane on its own side; negative beyond the plane.
 double depth(double height, Side side) { return side == Side::below ? -height : height; }
 
 std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, const std::vector<Side>& side,

@@ -34,7 +34,7 @@ std::vector<Vec3> points_of(const SurfaceArrays& arrays, const std::vector<char>
     return points;
 }
 
-// How many of the other shells are around the point; nothing if it lies on one.
+// Returns the number of other shells around the point; nothing if it lies on one.
 std::optional<int> depth_of(const Vec3& point, const SurfaceArrays& arrays, const std::vector<Shell>& shells,
                             const BoxTree& boxes, std::int32_t self) {
     int depth = 0;

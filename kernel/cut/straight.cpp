@@ -74,7 +74,7 @@ Heights heights_of(const Surface& surface, int axis, const Window& window) {
     return heights;
 }
 
-// How many facets a plane across one axis crosses, within a window and up to the next vertices beside it.
+// The number of facets that a plane across one axis crosses, within a window and up to the next vertices beside it.
 class CrossingCount {
  public:
     CrossingCount(const Surface& surface, int axis, const Window& window) : facets_(surface.facet_count()) {

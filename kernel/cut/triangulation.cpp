@@ -214,7 +214,8 @@ PlanarTriangulation Triangulator::extract() const {
     return result;
 }
 
-// Twice the area over the squared longest edge: falls with the smallest angle, and needs no root or arc cosine.
+// Returns twice the area over the squared longest edge: it falls with the smallest angle, and needs no root or arc
+// cosine.
 double shape(const Vec2& a, const Vec2& b, const Vec2& c) {
     return cross_2d(b - a, c - a) / std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
 }
@@ -246,7 +247,7 @@ void smooth(const PlanarRegion& region, PlanarTriangulation& t) {
         }
 }
 
-// As many edges leave a contour point as arrive there.
+// Whether as many edges leave each contour point as arrive there.
 bool has_closed_loops(const PlanarRegion& region) {
     if (!are_in_range(region.edges, region.contour.size())) return false;
     std::vector<int> surplus(region.contour.size(), 0);

@@ -15,7 +15,7 @@
 
 namespace kerf {
 
-// It lies opposite to the shortest edge.
+// The smallest angle lies opposite to the shortest edge.
 double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
     const double shortest = std::min({ab, bc, ca});

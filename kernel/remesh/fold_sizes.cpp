@@ -27,15 +27,15 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double well_shaped_sine = 0.5;  // of 30 degrees
 constexpr double straight_share = 0.2;    // of the tolerance: how far from a straight line its vertices may be
 
-// Of the third vertex of the facet of a half-edge.
+// Returns the height of the facet of a half-edge over that.
 double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
     const Vec3& a = mesh.point(mesh.from_vertex_handle(h));
     const Vec3 edge = mesh.point(mesh.to_vertex_handle(h)) - a;
     return edge.cross(mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h))) - a).norm() / edge.norm();
 }
 
-// How long edges across a fold may be: as far as a chord of the circle through the facets beside it stays within the
-// tolerance. Infinite where nothing is folded, 0 at features.
+// Returns the longest length for edges across a fold: a chord of the circle through the facets beside it, of that
+// length, stays within the tolerance. Infinite where nothing is folded, 0 at features.
 double chord_over(const EditMesh& mesh, EditedSurface::Edge e) {
     if (mesh.data(e).is_feature) return 0;
     const double angle = mesh.is_flat(e) ? 0 : angle_of_cosine(mesh.fold_cosine(e));
@@ -71,7 +71,7 @@ Vec3 vertex_normal(const EditMesh& mesh, EditedSurface::Vertex v) {
     return sum.normalized();
 }
 
-// Of a fold, or of two that are near each other; features have no chord.
+// Returns the rule of a fold, or of two that are near each other; features have no chord.
 LengthRule rule_of(double chord, double other_chord) {
     return chord > 0 || other_chord > 0 ? LengthRule::bound : LengthRule::features;
 }
@@ -150,7 +150,7 @@ void FoldSizes::find_folds(EditedSurface& surface) {
     if (!segments.empty()) folds_.emplace(ends_, segments);
 }
 
-// Of an edge and those that go on from its ends as features in the same direction.
+// Returns the length of an edge with those that go on from its ends as features in the same direction.
 double FoldSizes::straight_length(EditedSurface::Edge e) const {
     const EditMesh& mesh = surface_.mesh();
     double length = mesh.calc_edge_length(e);

@@ -70,7 +70,7 @@ void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedE
 
 namespace {
 
-// Of one surface, by rays from its facets.
+// Finds the tolerances of one surface, by rays from its facets.
 class ToleranceFinder {
  public:
     ToleranceFinder(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,

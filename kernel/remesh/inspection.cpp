@@ -11,7 +11,8 @@ namespace kerf {
 namespace {
 
 constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
-// Of a facet, to see that it is near the other surface: it may be near all of that, and is divided along its sides.
+// The divisions allowed for one facet in the proof: it may be near all of the other surface, along whose facets it is
+// divided.
 constexpr int least_divisions = 100'000, divisions_per_facet = 16;
 
 int divisions_for(std::size_t facets) {

@@ -52,7 +52,8 @@ std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<V
     return places;
 }
 
-// Of the area, where some corner has a smaller size than the user asks for there; by the one that has least of it.
+// Returns the shares of the area in which some corner has a smaller size than the user asks for there; the corner with
+// the smallest ratio gives the reason.
 FinerShares finer_shares(const EditMesh& mesh) {
     std::array<double, 4> finer{};
     double all = 0;
@@ -73,7 +74,7 @@ FinerShares finer_shares(const EditMesh& mesh) {
     return {share(LengthRule::bound), share(LengthRule::features), share(LengthRule::walls)};
 }
 
-// With the numbers of vertices as their keys.
+// Joins the copies at seams, and makes the numbers of vertices their keys.
 SurfaceArrays with_seams_joined(SurfaceArrays sheets) {
     SurfaceArrays joined = joined_by_key(std::move(sheets));
     for (std::size_t v = 0; v < joined.vertices.size(); ++v)

@@ -89,7 +89,7 @@ class FacesOfInput {
         }
         return heights;
     }
-    // Of the input over a point; 0 where none of it is near.
+    // Returns the height of the input over a point; 0 if none of it is near.
     double height_at(const Vec3& p, const Vec3& normal) const {
         const double reach = 2 * deviation_;
         const auto faces = [&](std::int32_t g) { return input_normal_[g].dot(normal) > facing_cosine_of_input; };

@@ -21,9 +21,9 @@ struct SizedMesh {
 class BackgroundSizes {
  public:
     BackgroundSizes() = default;
-    /// Takes a mesh and first lowers sizes that grow faster than `growth` from one vertex to another. Inside
-    /// of a cell the slope may still be steeper than `growth`, by a factor of up to the square root of 3 in a
-    /// right-angled corner. O(n log n).
+    /// Takes a mesh and first lowers sizes that grow faster than `growth` from one vertex to another. Inside of a cell
+    /// the slope may still be steeper than `growth`, by a factor of up to the square root of 3 in a right-angled
+    /// corner. O(n log n).
     BackgroundSizes(SizedMesh mesh, double growth);
 
     double smallest() const { return border_.smallest(); }

@@ -106,8 +106,8 @@ bool is_too_large(const SizeField& size, const std::array<Vec3, 4>& corners) {
     if (size.is_empty()) return false;
     const auto& [a, b, c, d] = corners;
     if (size.is_constant()) return six_volumes_of(a, b, c, d) > 6 * size.reference_volume();
-    // Of 1.0 to 1.2, and of bounds of the volume and of the longest edge, this one makes most edges 0.7 to 1.4 times as
-    // long as wanted (97 %), with 1 in the median.
+    // Among 1.0 to 1.2, and among bounds of the volume and of the longest edge, this bound makes most edges 0.7 to 1.4
+    // times as long as wanted (97 %), with 1 in the median.
     constexpr double too_long = 1.15;
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i)

@@ -69,7 +69,8 @@ SizedTriangles::SizedTriangles(std::vector<SizedTriangle> triangles) : triangles
     build_tree(Order::to_be_made);
 }
 
-// Where a node is divided: in halves or, as one far reach would hide that others are short, between two reaches.
+// Returns the place where a node is divided: in the middle or, as one long reach would hide that others are short,
+// between two reaches.
 std::int32_t SizedTriangles::middle(std::int32_t first, std::int32_t last) const {
     const std::int32_t half = first + (last - first) / 2;
     if (triangles_[first].reach == triangles_[last - 1].reach) return half;
@@ -107,7 +108,7 @@ double SizedTriangles::size_at(const Vec3& p, double growth, double bound, std::
         });
 }
 
-// Not more than the bound, either.
+// Returns an upper bound of the size in the cell, at most `bound`.
 SizedTriangles::Ceiling SizedTriangles::largest_in(const Box& cell, double growth, double bound) const {
     const Vec3 centre = cell.center();
     const double radius = cell.diagonal().norm() / 2;
@@ -182,7 +183,7 @@ SizedTriangles SizedTriangles::within(const Box& box, double growth,
     return SizedTriangles(std::move(kept));
 }
 
-// Where the ray enters the box, 0 if it begins inside, infinity if it misses it.
+// Returns the distance at which the ray enters the box, 0 if it begins inside, infinity if it misses it.
 double SizedTriangles::entry(const Box& box, const Vec3& origin, const Vec3& direction) {
     const RayPiece piece = piece_in_box(box, origin, direction, {});
     return piece.from * less <= piece.to ? piece.from * less : infinity;

@@ -248,7 +248,7 @@ Vec3 common_place(const Soup& soup, const Triangle& s, const Triangle& t) {
     return box_around(soup.vertices, s).intersection(box_around(soup.vertices, t)).center();
 }
 
-// Those around each shell are asked first: where they tell that all is apart, most pairs need not be looked at.
+// The facets around each shell are asked first: where they prove that all is apart, most pairs need not be looked at.
 bool are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& consistent,
                const std::vector<std::int32_t>& shell_of_facet, const std::vector<ShellPlace>& shells) {
     std::vector<std::int32_t> parent;

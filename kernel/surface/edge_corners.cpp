@@ -97,7 +97,8 @@ class PartnerSearch {
         return (last - first == most_buckets ? from_first : from_first & ((std::uint64_t{1} << (last - first)) - 1)) !=
                0;
     }
-    // So many that blocks are read four times at most, wherever their vertices are.
+    // Returns as many buckets as can be taken at once while blocks are read four times at most, wherever their vertices
+    // are.
     std::size_t buckets_at_once() const {
         for (std::size_t count = 1; count < most_buckets / 4; count *= 2) {
             std::size_t visits = 0;

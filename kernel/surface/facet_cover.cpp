@@ -20,7 +20,7 @@ namespace {
 
 constexpr double spacings = 16;
 
-// Of a point from a facet with this unit normal, which is zero if the facet has no area.
+// Returns the distance of a point from a facet with this unit normal, which is zero if the facet has no area.
 double distance_from(const std::array<Vec3, 3>& facet, const Vec3& normal, const Vec3& p) {
     double from_edges = INFINITY, from_plane = 0;
     bool inside = true;

@@ -14,7 +14,7 @@ namespace kerf {
 
 namespace {
 
-// Of signs of products of unit vectors; undefined where the points are equal, of which no sign is sure.
+// A product of unit vectors has a certain sign beyond this. Unit vectors between equal points are NaN, and never do.
 constexpr double least_sure = 1e-13;
 
 Vec3 unit_towards(const Vec3& from, const Vec3& to) {

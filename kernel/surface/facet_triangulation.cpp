@@ -73,7 +73,7 @@ class Triangulator {
                 corner_.push_back(v);
             }
     }
-    // Where two edges cross, if they do.
+    // The point where two edges cross, if they do.
     std::optional<Vec3> insert_edges(const std::vector<Edge>& edges) {
         for (std::size_t i = 0; i < edges.size(); ++i)
             if (!delaunay_.insert_edge(number_of_.at(edges[i][0]), number_of_.at(edges[i][1])))

@@ -34,7 +34,7 @@ std::vector<std::vector<std::int32_t>> facets_of_bodies(const GivenBodies& bodie
     return facets;
 }
 
-// Those of its own, by ascending numbers: there may be as many bodies as patches.
+// Gives the soup of a body the patches of its own, by ascending numbers: there may be as many bodies as patches.
 void take_own_patches(const Soup& all, Soup& own) {
     std::vector<std::int32_t> used = own.patch;
     std::sort(used.begin(), used.end());

@@ -11,7 +11,8 @@ struct HoleFilling {
 };
 
 /// Spans every closed open-edge loop of at most `most_edges` edges with triangles of its own vertices, by CGAL's search
-/// for the flattest triangulation (Liepa 2003). Changes the geometry. Loops that it cannot span stay. Deterministic.
+/// for the flattest triangulation (Liepa 2003, liepa2003). Changes the geometry. Loops that it cannot span stay.
+/// Deterministic.
 HoleFilling fill_holes(Soup& soup, std::int32_t most_edges);
 
 }  // namespace kerf

@@ -123,7 +123,7 @@ bool plainly_on_one_side(const Corners& p, const Corners& q) {
     return above == 3 || below == 3;
 }
 
-// The same as plainly_apart() with a margin that takes fewer steps and is a little larger.
+// Does the work of plainly_apart() in fewer steps, with a margin that is a little larger.
 bool plainly_apart_at(const Vec3& a, const Vec3& w, const std::array<Vec3, 2>& p, const std::array<Vec3, 2>& q) {
     const VectorPair to_p = VectorPair(p[0], p[1]) - VectorPair(a, a), to_q = VectorPair(q[0], q[1]) - VectorPair(a, a);
     const VectorPair across(w, w);
@@ -148,8 +148,8 @@ bool meet_without_sharing(const Corners& p, const Corners& q) {
     return false;
 }
 
-// Two facets at vertex a; p, q: their other corners. The ways from a to these tell where to look for a plane: added as
-// they are where facets are of one size, by direction where that does not help.
+// Whether two facets at vertex a meet beyond it; p, q: their other corners. The vectors from a to these suggest a
+// separating plane: their sums, if facets are of one size, else the sums of their directions.
 bool meet_beyond_vertex(const Vec3& a, const std::array<Vec3, 2>& p, const std::array<Vec3, 2>& q) {
     if (plainly_apart_at(a, (p[0] - q[0]) + (p[1] - q[1]), p, q)) return false;
     const Vec3 along_p = (p[0] - a).normalized() + (p[1] - a).normalized();

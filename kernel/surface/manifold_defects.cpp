@@ -30,8 +30,8 @@ enum class VertexCheck : char {
 
 constexpr std::size_t facets_of_pairing = std::size_t{1} << 16, vertices_of_pairing = std::size_t{1} << 16;
 
-// Of each vertex that is to be checked the number of corners of one of its fans; 0 of others. `corners`: how many
-// there are at such vertices.
+// Returns for each vertex that is to be checked the number of corners of one of its fans; 0 for others. `corners`
+// becomes the number of corners at all such vertices.
 std::vector<std::int32_t> sizes_of_fans(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner,
                                         const std::vector<VertexCheck>& check, std::size_t& corners) {
     std::vector<std::int32_t> size(check.size(), -1);  // first a corner, which one does not matter

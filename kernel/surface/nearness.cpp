@@ -33,7 +33,7 @@ Vec3 extent(const Corners& corners, int count) {
     return box_around(std::span(corners.data(), static_cast<std::size_t>(count))).sizes();
 }
 
-// From one corner of a polygon to another that is as far away as any, or nearly.
+// Returns the vector from one corner of a polygon to another between which the distance is largest, or nearly so.
 template <class Corners>
 Vec3 longest_way(const Corners& corners, int count) {
     Vec3 longest = Vec3::Zero();

@@ -15,7 +15,7 @@ namespace kerf {
 
 namespace {
 
-// From `from` to `to`, against the direction of the facet that has it: a filling facet has it like this.
+// An edge against the direction of its facet, which is the direction that a filling facet has it in.
 struct OpenEdge {
     std::int32_t from, to, facet;
 };

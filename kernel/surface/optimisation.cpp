@@ -84,7 +84,7 @@ void mark_features(const std::vector<Triangle>& facets, const std::vector<Vec3>&
     });
 }
 
-// At each vertex, over the edges by which its facets leave it; 0 without facets.
+// Returns the mean length at each vertex of the edges by which its facets leave it; 0 without facets.
 std::vector<double> mean_edge_lengths(const std::vector<Vec3>& points, const std::vector<Triangle>& facets) {
     std::vector<double> sum(points.size(), 0);
     std::vector<std::int32_t> count(points.size(), 0);
@@ -105,7 +105,7 @@ double largest_cosine(const std::vector<Vec3>& points, const Triangle& t) {
     return std::max({-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)});
 }
 
-// Where a sample is measured to.
+// The point to which a sample is measured.
 struct Foot {
     std::int32_t sample, facet;
     Vec3 barycentric;
@@ -293,7 +293,7 @@ bool NodeOptimiser::keeps_normals(std::int32_t v) const {
     });
 }
 
-// Near the original facets around v and its neighbours; further a vertex hardly goes, and then it is refused.
+// Whether v is near the original facets around v or its neighbours; a vertex hardly goes further, and is refused there.
 bool NodeOptimiser::keeps_near(std::int32_t v) const {
     const double tolerance = options_.tolerance_rel * size_[v];
     const auto is_near = [&](std::int32_t corner) {

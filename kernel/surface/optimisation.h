@@ -15,11 +15,11 @@ struct OptimisationOptions {
     double max_turn_deg = 10;       ///< largest turn of a facet against its original normal
 };
 
-/// Moves vertices so that the distance energy plus the spring energy of Hoppe et al. 1993 falls: the squared distances
-/// of sample points of the original surface (its vertices and facet centroids) to the current one, plus `spring` times
-/// the squared lengths of the edges. A sample is measured to the facet where it was last found closest, which bounds
-/// its distance from above; the energy never ends above that of the input. Returns #V positions; number of vertices and
-/// facets stay.
+/// Moves vertices so that the distance energy plus the spring energy of Hoppe et al. (1993, hoppe1993) falls: the
+/// squared distances of sample points of the original surface (its vertices and facet centroids) to the current one,
+/// plus `spring` times the squared lengths of the edges. A sample is measured to the facet where it was last found
+/// closest, which bounds its distance from above; the energy never ends above that of the input. Returns #V positions;
+/// number of vertices and facets stay.
 ///
 /// Vertices that keep their place bit for bit: those with fixed[v] != 0 (#V, or empty), those without facets, and the
 /// ends of every edge that has not exactly two consistently oriented facets, that divides two patches (#F) or two

@@ -20,7 +20,7 @@ constexpr int attempts = 24;
 
 enum class Crossing { none, proper, touching };
 
-// How the segment st, t outside of the convex hull of the shell, crosses the triangle abc.
+// The way in which the segment st, with t outside of the convex hull of the shell, crosses the triangle abc.
 Crossing crossing(const Vec3& s, const Vec3& t, const Vec3& a, const Vec3& b, const Vec3& c) {
     const int side_s = orientation(a, b, c, s), side_t = orientation(a, b, c, t);
     if (side_s * side_t > 0) return Crossing::none;
@@ -70,7 +70,8 @@ std::optional<bool> crosses_odd_times(const std::vector<Vec3>& vertices, const S
     return odd;
 }
 
-// Of the facets of a shell that was asked often; null before. It takes as long as some tens of questions without one.
+// Returns a tree of the facets of a shell that is asked often, else null. Building it takes as long as some tens of
+// questions.
 const BoxTree* tree_for_question(const std::vector<Vec3>& vertices, const Shell& shell) {
     constexpr std::int32_t few = 32;
     constexpr std::size_t small = 64;

@@ -27,7 +27,7 @@ namespace kerf {
 
 namespace {
 
-// How often a body is around a cell, by ascending bodies, none of them 0 times.
+// The number of times that each body is around a cell, by ascending bodies, without bodies that are 0 times around it.
 using Windings = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 void add_winding(Windings& windings, std::int32_t body, std::int32_t times) {

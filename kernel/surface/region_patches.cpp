@@ -12,7 +12,7 @@ namespace kerf {
 
 namespace {
 
-// Which patches have facets that keep them.
+// The patches of the file that keep some of their facets.
 class PatchesOfFile {
  public:
     explicit PatchesOfFile(const Soup& soup)

@@ -89,7 +89,7 @@ OneOfEach one_of_each(const std::vector<Triangle>& facets, const FacetGroups& gr
     return single;
 }
 
-// How many facets meet at the edges of each.
+// Returns the number of facets at the three edges of each facet.
 std::vector<std::array<std::size_t, 3>> facets_at_edges(const EdgeCorners& edges, std::size_t facet_count) {
     std::vector<std::array<std::size_t, 3>> at(facet_count);
     edges.for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {

@@ -113,7 +113,7 @@ std::vector<Key> repeated_sorted_keys(const Surface& surface) {
     return repeated;
 }
 
-// Ascending, perhaps several times.
+// Returns the keys that several vertices have, ascending, perhaps several times each.
 std::vector<Key> repeated_keys(const Surface& surface) {
     std::vector<KeyRow> rows;
     for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {

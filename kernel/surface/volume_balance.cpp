@@ -68,8 +68,8 @@ class MoveOfFaces {
     Vec3 wanted_ = Vec3::Zero();
 };
 
-// Of the tetrahedra between the facets of each region and a vertex: their derivatives by the moves of vertices are
-// sums over facets. A vertex has few regions, so that the matrix of derivatives is kept by its entries.
+// The volumes of the regions, as sums of tetrahedra between their facets and a vertex: their derivatives by the moves
+// of vertices are sums over facets. A vertex has few regions, so the matrix of derivatives is kept by its entries.
 class RegionVolumes {
  public:
     RegionVolumes(const std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const std::vector<Vec3>& moves,

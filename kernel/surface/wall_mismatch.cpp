@@ -106,7 +106,7 @@ void add_pair(WallMismatch& mismatch, std::int32_t f, std::int32_t g, double dis
     std::swap(mismatch.facets[1], mismatch.facets.back());
 }
 
-// How far an edge of f passes through g, and away from the border of g: the largest such distance.
+// Returns the largest distance by which an edge of f passes through g, and away from the border of g.
 double passage(const FacetCorners& f, const FacetCorners& g) {
     const Vec3 normal = doubled_area_vector(g).normalized();
     double deepest = 0;
@@ -148,8 +148,8 @@ class DepthGauge {
         }
     }
 
-    // Of bodies side by side: how deep points of one lie in the other. Of one that is meant to lie in the other: how
-    // far its corners lie outside of it.
+    // Returns the depth of an overlap. If bodies lie side by side, it is how deep points of one lie in the other; if
+    // one is meant to lie in the other, it is how far its corners lie outside of it.
     double depth(std::int32_t a, std::int32_t b) { return std::max(depth_of(a, b), depth_of(b, a)); }
 
  private:
@@ -249,7 +249,8 @@ std::vector<WallMismatch> find_overlaps(const std::vector<Vec3>& vertices, const
     DepthGauge gauge(vertices, facets, body);
     for (WallMismatch& mismatch : all) {
         const Findings& own = findings[mismatch.bodies];
-        // That an edge passes through a facet says less than points do, where some are inside.
+        // The depth of points inside is a better measure than that of edges that pass through facets, where there are
+        // such points.
         if (const double depth = gauge.depth(mismatch.bodies[0], mismatch.bodies[1]);
             depth > next_to_nothing * own.longest)
             mismatch.distance = depth;
