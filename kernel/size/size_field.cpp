@@ -3,7 +3,7 @@
 // source as a `bound`, so that trees are searched only for less than is known already. The constant is kept as the
 // volume that was given, with its edge beside it: where no source is smaller the volume comes back to the last bit.
 // `edge_factor_` scales the sources, so that a coarser field shares them. within() must not change a bit of any answer,
-// because workers, which get it, and ranks, which have the whole field, decide alike by it.
+// so that a worker, which gets no more, meshes as it would with the whole field.
 
 #include "size/size_field.h"
 

@@ -43,8 +43,7 @@ class CellWalk {
 
  private:
     const Cells& cells_;
-    std::vector<std::int32_t> first_, facets_;  // the facets of cell c are facets_[first_[c + 1]] to facets_[first_[c +
-                                                // 2]]
+    std::vector<std::int32_t> first_, facets_;  // facets of cell c: [first_[c + 1], first_[c + 2])
 };
 
 }  // namespace kerf

@@ -1,8 +1,8 @@
 // Each facet has two sides. Two sides that face each other in the wedge between consecutive facets around an edge
 // belong to one cell, which joins sides to sets. Facets that edges connect form a component. One set of sides of a
-// component is its outside; each other one is closed by facets of the component alone and bounds a cell. The outside of
-// a component is joined with the innermost such set, of other components, around a point of it; it lies in at most one
-// set of each.
+// component is its outside; each other one is closed by facets of the component alone and bounds a cell. A point lies
+// in at most one such set of each other component, so the outside of a component is joined with the innermost set
+// around it.
 #include "surface/cells.h"
 
 #include <algorithm>

@@ -24,8 +24,8 @@ struct Cells {
 ///
 /// Exact signs decide which sides face each other around an edge, and which component lies inside of which; where all
 /// vertices of the inner component are vertices of the outer one, midpoints of edges decide, which are rounded. The
-/// corners of `facets` must be in range and different. O(#F log #F) plus the questions that locate_shells() asks, once
-/// for each set of facets that edges connect. Deterministic.
+/// corners of `facets` must be in range and different. O(#F log #F) plus the questions of locate_shells(), asked for
+/// components that edges connect in place of shells. Deterministic.
 std::optional<Cells> find_cells(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
 
 /// Returns the volume of each cell, without the volume of cells inside of it. O(#F).

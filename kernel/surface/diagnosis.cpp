@@ -1,8 +1,9 @@
 // The checks follow each other in the order of DefectKind. Facets that repairs leave out are ignored by all later
 // checks, so that these list the defects that are there after the repairs. Everything is found by sorting and by exact
 // predicates, so that the list depends neither on threads nor on rounding. `unbounded_` marks vertices whose
-// coordinates no predicate can work with, `ignored_` facets left out, `no_area_` facets that only the checks of edges
-// look at.
+// coordinates no predicate can work with, `ignored_` facets left out, `no_area_` facets that the searches for
+// intersections and poor shapes skip.
+
 #include "surface/diagnosis.h"
 
 #include <algorithm>
@@ -259,7 +260,7 @@ bool are_apart(const std::vector<Vec3>& vertices, const std::vector<Triangle>& c
     return nested_shells_are_apart(vertices, consistent, shell_of_facet, parent);
 }
 
-// The shells that bound one body, and their places.
+// Finds the shells that bound one body, and their places.
 void Examination::find_shells() {
     const FacetShells shells = find_facet_shells(facets(), partner_);
     std::vector<Triangle> turned;  // a copy only where facets differ

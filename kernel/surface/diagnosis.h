@@ -27,7 +27,7 @@ struct Diagnosis {
     std::array<std::int64_t, defect_kind_count> counts = {};  ///< defects found of each kind, of which not all need be
                                                               ///< listed
     std::vector<char> dropped;                                ///< #F; 1: a facet that repairs leave out. Empty: none
-    /// The facets to be turned outwards. Known only for a clean surface of a single body.
+    /// The facets to be turned outwards. Known only for a single body that is clean with all its facets.
     std::optional<Orientation> orientation = {};
 
     /// Whether the surface can be meshed, after repairs.

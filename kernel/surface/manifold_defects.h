@@ -7,8 +7,8 @@
 
 namespace kerf {
 
-/// Does the work of find_manifold_defects() (surface.h) where `partner`, which is edge_partners(facets), is known. O(#V
-/// + #F), on threads except for the defects.
+/// Does the work of find_manifold_defects() (surface.h), given partner = edge_partners(facets). O(#V + #F), on threads
+/// except for the defects.
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets,
                                                   std::vector<std::int32_t> partner);
 

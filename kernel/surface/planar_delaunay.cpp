@@ -1,8 +1,8 @@
-// A thin layer over CGAL's constrained Delaunay triangulation, so that its headers, which are slow to compile, are
-// included here alone. The predicates are exact; circumcentres are rounded. Each CGAL vertex has the first number of
-// its point as its info, each face whether it is inside; edges of the user are constraints. Crossing constraints are
-// refused by an exception of CGAL, which becomes `false`. Handles of faces leave this source as void pointers and are
-// valid until the next insertion, because insertions may delete faces.
+// A thin layer over CGAL's constrained Delaunay triangulation, which keeps its headers, slow to compile, out of those
+// of Kerf. The predicates are exact; circumcentres are rounded. Each CGAL vertex has the first number of its point as
+// its info, each face whether it is inside; edges of the user are constraints. Crossing constraints are refused by an
+// exception of CGAL, which becomes `false`. Handles of faces leave this source as void pointers and are valid until the
+// next insertion, because insertions may delete faces.
 
 #include "surface/planar_delaunay.h"
 
