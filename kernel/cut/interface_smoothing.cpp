@@ -3,7 +3,6 @@
 // and no more than `enough`, so that triangles that are good do not count against each other. A point moves towards the
 // mean of its neighbours by 1, 1/2, 1/4 or -1/4 of the way, and takes the first step that raises the smallest measure
 // around it; hence the worst measure never falls.
-
 #include "cut/interface_smoothing.h"
 
 #include <algorithm>

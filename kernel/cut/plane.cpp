@@ -3,7 +3,6 @@
 // where it ends, so that slices with the count 0 are empty. The bisection follows from a LoadProfile. Steps to both
 // sides are made only when a second plane is asked for, because most cuts need none: the profile, which is large, is
 // then made again instead of being kept while halves are built.
-
 #include "cut/plane.h"
 
 #include <algorithm>

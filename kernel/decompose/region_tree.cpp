@@ -4,7 +4,6 @@
 // smaller number wins ties. `order_` has the regions along the curve, and first_leaf_[i] the first leaf of the i-th of
 // them, so that a node is an interval of places. The hash of a node of several regions is that of their shares, by
 // which ranks compare their trees.
-
 #include "decompose/region_tree.h"
 
 #include <algorithm>

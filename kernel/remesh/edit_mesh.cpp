@@ -3,7 +3,6 @@
 // have the number -1 and no list. arrays() collects garbage, which renumbers all vertices, edges and facets; the
 // numbers of places and seams stay, and their lists are filled anew. `changed` is the count of operations at the last
 // change around a vertex or in a facet, by which callers skip what was refused before.
-
 #include "remesh/edit_mesh.h"
 
 #include <algorithm>

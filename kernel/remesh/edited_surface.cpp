@@ -5,7 +5,6 @@
 // the mesh. Before a change, the points of all facets that change or vanish are collected in `points_`; afterwards each
 // is given to the closest new facet, so that no point is lost. A collapse may not join vertices that an edge in another
 // sheet joins already: OpenMesh's own test sees one sheet alone.
-
 #include "remesh/edited_surface.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 // for that distance, but never for less than the larger of their chords: a fold with a long chord could be left out
 // anyway. Folds are segments in a TriangleTree. Walls ask for a share of the distance to the opposite sheet. Sizes are
 // limited in their growth at the end by Dijkstra's algorithm, from small to large, over edges and between copies.
-
 #include "remesh/fold_sizes.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 // count as near, lest a facet comes to the other side of a thin wall. The vertices for which a facet stands are a list
 // through `next_point_`, from the facet's first_point to -1; those that are in no list are `unlisted`: they have not
 // moved, or only within a flat region, where none is needed.
-
 #include "remesh/input_bound.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 // still keep a third of it; but no less than an eighth of the deviation, because beside a sharp edge each gap ends in
 // nothing. For the same reason the thickest place behind a facet, not the thinnest, decides about its share of the
 // thickness.
-
 #include "remesh/input_shape.h"
 
 #include <algorithm>

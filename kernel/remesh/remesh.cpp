@@ -5,7 +5,6 @@
 // round that passes, volumes are restored (volume_restoration.h): vertices at which the moved surface is refused are
 // fixed, and the restoration is tried again. If a volume is still wrong, rounds with smaller tolerances everywhere
 // follow, in which chords leave out less.
-
 #include "remesh/remesh.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 // coarse surfaces are sampled as well as small ones. affordable_edges() forecasts facets as area over squared edge
 // length, summed over the samples, and lengthens edges until the forecast fits: first all of them, by fewer edges
 // across the thickness, then the shortest alone.
-
 #include "remesh/thickness.h"
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 // ratio first, but split the longest edge of its facet, and of the facet beyond, and so on (Rivara 1997), which makes
 // no needles. Refusals are remembered with the number of the last operation: a refused element is not tried again until
 // something around it has changed.
-
 #include "remesh/triangle_shaping.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 // those of the result, so the factors of the moves may be large and negative (`range_of_heights`). If that fails, all
 // vertices rise by the same height, times a factor from -1 to 2, and planar faces that end smoothly, as the strips of a
 // cylinder do, count as curved.
-
 #include "remesh/volume_restoration.h"
 
 #include <algorithm>

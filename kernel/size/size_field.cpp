@@ -4,7 +4,6 @@
 // volume that was given, with its edge beside it: where no source is smaller the volume comes back to the last bit.
 // `edge_factor_` scales the sources, so that a coarser field shares them. within() must not change a bit of any answer,
 // so that a worker, which gets no more, meshes as it would with the whole field.
-
 #include "size/size_field.h"
 
 #include <cmath>

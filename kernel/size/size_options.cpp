@@ -2,7 +2,6 @@
 // alone and make_size_field() for its values, so that both accept the same texts; `form_...` are the forms that
 // messages show. Lengths may be percentages until resolve_lengths() has rewritten the texts, and are used as numbers
 // only after that. An unknown patch is found out in make_size_field(), because only the surface knows its patches.
-
 #include "size/size_options.h"
 
 #include <algorithm>

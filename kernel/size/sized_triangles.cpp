@@ -6,7 +6,6 @@
 // within() drops triangles for a box without changing any answer there. In each cell the ceiling is an upper bound of
 // the minimum; triangles that cannot have less in the cell are dropped, and if one triangle has exactly the ceiling
 // everywhere in the cell, so are all that can have no less than that.
-
 #include "size/sized_triangles.h"
 
 #include <algorithm>

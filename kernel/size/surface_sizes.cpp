@@ -4,7 +4,6 @@
 // sqrt(H^2 - K). At feature edges K says nothing about the surface on either side and counts as 0. The thickness is the
 // length of a ray from a facet's centroid into the body up to a facet that faces it; facets at the same wall that only
 // turn away from the ray are passed.
-
 #include "size/surface_sizes.h"
 
 #include <cmath>

@@ -3,7 +3,6 @@
 // r in front, so that both sides of a wall have the same keys. A region is closed if at every edge it has as many
 // facets that run along the edge one way as the other; `excess` is the difference. The single region is a special case:
 // it is kept as a Surface, without pairs and names, and all other members are empty then (`names_.empty()`).
-
 #include "surface/complex.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 // counted() makes the plural, the advice, and a second advice for defects that repairs mend. The advice follows a colon
 // in sentences like "The surface has 3 open edge loops, the first at ...: close the holes", so it begins in lower case
 // and ends without a full stop; options that it names become buttons in the viewer.
-
 #include "surface/defect.h"
 
 #include <algorithm>

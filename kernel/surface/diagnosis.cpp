@@ -3,7 +3,6 @@
 // predicates, so that the list depends neither on threads nor on rounding. `unbounded_` marks vertices whose
 // coordinates no predicate can work with, `ignored_` facets left out, `no_area_` facets that the searches for
 // intersections and poor shapes skip.
-
 #include "surface/diagnosis.h"
 
 #include <algorithm>

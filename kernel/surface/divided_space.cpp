@@ -2,7 +2,6 @@
 // sorted corners; the first stands for all of them, because find_cells() takes no copies. Once the cells have regions,
 // a facet is a wall if these differ on its sides; it is turned so that the smaller number, and never the outside, -1,
 // is behind it. All other facets and all copies are dropped and counted in notes.
-
 #include "surface/divided_space.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 // is seen from the apex within a ViewCone of at most four half-spaces, given by inward normals: a node may be left out
 // if its directions lie outside of one of them. All this is computed in doubles; a side counts only if it is certain,
 // by more than `least_sure`, so that rounding adds pairs but loses none.
-
 #include "surface/facet_tree.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 // polygons, and the numbers in its defects are translated back into those of the whole soup. Only if all of them can be
 // meshed are they compared with each other (wall_mismatch.h), without the facets that repairs leave out. The limits of
 // gaps are shares of the longest edge of the finer facet: `certain_gap` is as much as rounding leaves of a common wall.
-
 #include "surface/given_bodies.h"
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 // pieces too small to be divided.
 // A frame has the directions of a facet: its normal, and for each edge the unit vector in its plane that points out of
 // it. Those of needles are noise, so the distance to a needle is computed by its edges.
-
 #include "surface/nearness.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 // its info, each face whether it is inside; edges of the user are constraints. Crossing constraints are refused by an
 // exception of CGAL, which becomes `false`. Handles of faces leave this source as void pointers and are valid until the
 // next insertion, because insertions may delete faces.
-
 #include "surface/planar_delaunay.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

@@ -3,7 +3,6 @@
 // in the nearly empty box would have to look at the triangle. So a triangle may be met several times; distances are
 // always those of the whole triangle. Corners are stored in the order of the leaves, so that a query reads memory in a
 // row: order_[leaf] is the facet, place_[facet] one of its leaves.
-
 #include "surface/triangle_tree.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 // (`gain`, an entry for each vertex and region) are computed anew, and of all changes of the scales that make up for
 // the missing volumes the smallest one, weighted by the gains, is found by conjugate gradients on one multiplier for
 // each region. If facets have turned too far, the moves of their corners are set to 0, and the balance begins again.
-
 #include "surface/volume_balance.h"
 
 #include <algorithm>
