@@ -1,3 +1,13 @@
+// Rounds of division. A round finds the pairs of facets that meet elsewhere than in shared vertices and edges
+// (crossing_pairs.h), puts facets that share area in one plane into groups (plane_groups.h), and has each group divided
+// exactly by all facets that touch it (facet_divider.h). The new points are rounded to doubles, and facets with a
+// common edge are given the same points on it (divided_facets.h), so that nothing opens.
+//
+// Rounding may make pieces cross again (Lazard and Valque 2025, lazard2025). Further rounds look only at facets that
+// have changed, and first join vertices, edges and facets nearer than a tolerance (near_features.h), since rounding
+// alone would make them cross again and again; the tolerance grows with each round. Some surfaces get worse from round
+// to round: then the round with the fewest pairs counts. "Copies", which are facets with the same three vertices, do
+// not count as crossing. All lists of pairs, groups and pieces are ascending, on which the result depends.
 #include "repair/arrangement.h"
 
 #include <algorithm>
@@ -19,10 +29,10 @@ namespace kerf {
 namespace {
 
 constexpr int most_arrangement_rounds = 10;
-constexpr int exact_rounds = 1;         // without a tolerance
-constexpr double first_tolerance = 4;   // of what is near, in spacings of doubles at the largest coordinate
+constexpr int exact_rounds = 1;         // which divide without a tolerance
+constexpr double first_tolerance = 4;   // of the first further round, in spacings of doubles at the largest coordinate
 constexpr double tolerance_growth = 4;  // in each round
-constexpr double bent_tolerances = 2;   // of walls whose facets are bent by the vertices of others
+constexpr double bent_tolerances = 2;   // for walls whose facets are bent by the vertices of others
 
 bool are_copies(const Triangle& s, const Triangle& t) { return std::is_permutation(s.begin(), s.end(), t.begin()); }
 
@@ -81,7 +91,7 @@ class Arranger {
     }
 
  private:
-    // #F, of those that were given: the same for their pieces.
+    // Hands a property of given facets (#F) on to their pieces.
     std::vector<char> pieces_of(const std::vector<char>& given) const {
         std::vector<char> pieces;
         for (const std::int32_t parent : divided_.parent) pieces.push_back(given[parent]);
@@ -93,7 +103,7 @@ class Arranger {
         std::fill(divided_.changed.begin(), divided_.changed.end(), 0);
         return pairs;
     }
-    // Who has more is hopeless: a solid tangle, or one that roundings make worse and worse.
+    // A surface with more pairs is hopeless: a solid tangle, or one that rounding makes worse and worse.
     std::size_t most_pairs() const {
         if (result_.rounds > 0) return 5000 + 10 * static_cast<std::size_t>(result_.crossing_pairs);
         return 200'000 + 2 * divided_.facets.size();
@@ -107,7 +117,7 @@ class Arranger {
     bool is_to_be_divided(const std::vector<FacetPair>& pairs) const {
         return result_.rounds < most_arrangement_rounds && pairs.size() <= most_pairs() && has_crossing(pairs);
     }
-    // Roundings may make more cross in a round than before: then the round with the fewest counts.
+    // Rounding may make more facets cross than in the round before: then the round with the fewest counts.
     void keep_if_best(const std::vector<FacetPair>& pairs) {
         if (!best_.facets.empty() && best_.pairs.size() <= pairs.size()) return;
         best_ = {divided_.facets, divided_.parent, pairs};
@@ -122,7 +132,7 @@ class Arranger {
     DividedFacets divided_;
     const std::function<void()>& poll_;
     double extent_ = 0;                           // the largest coordinate
-    std::optional<double> given_tolerance_ = {};  // instead of that of roundings
+    std::optional<double> given_tolerance_ = {};  // instead of that for roundings
     struct Best {
         std::vector<Triangle> facets;
         std::vector<std::int32_t> parent;
@@ -144,8 +154,8 @@ double Arranger::tolerance() const {
     return first_tolerance * std::pow(tolerance_growth, std::max(0, result_.rounds - exact_rounds)) * spacing;
 }
 
-// Joins what is near, because roundings alone would make it cross again and again. Adds the pairs of facets that lie on
-// one another but for roundings, which are divided as if they did.
+// Joins near features, because rounding alone would make them cross again and again. Adds the pairs of facets that lie
+// on one another up to roundings, which are divided as if they did so exactly.
 std::vector<FacetPair> Arranger::join_near(const std::vector<FacetPair>& pairs) {
     std::vector<char> is_near(divided_.facets.size(), 0);
     for (const FacetPair& pair : pairs)
@@ -163,7 +173,7 @@ std::vector<FacetPair> Arranger::join_near(const std::vector<FacetPair>& pairs) 
     return joined;
 }
 
-// Both directions of the pairs that are not in one group, ascending.
+// Returns both directions of the pairs that are not in one group, ascending.
 std::vector<FacetPair> contacts_between(const PlaneGroups& groups, const std::vector<FacetPair>& pairs) {
     std::vector<FacetPair> contacts;
     for (const auto& [a, b] : pairs)

@@ -1,3 +1,11 @@
+// Regions of bodies that may overlap. All facets, each once, divide space into cells (surface/divided_space.h); a
+// "single" facet stands for all copies of one, and its `times` say how often it is there, turned copies subtracted. A
+// cell belongs to a body if the winding number of the body there, averaged by area over the largest facets of the cell,
+// is above 1/2 (repair/winding_number.h), and of several bodies the one of least volume gets it. A facet of the body
+// itself has no winding number of its own: half of its times is added behind it and taken away in front.
+//
+// Winding numbers, not the cells alone, decide because bodies may have small holes. find_bodies() makes a body of each
+// piece that hangs together over edges; a piece of negative volume is a void, and goes to the smallest body around it.
 #include "repair/body_regions.h"
 
 #include <algorithm>
@@ -21,7 +29,7 @@ namespace kerf {
 
 namespace {
 
-// Closed facets and how they wind.
+// Closed facets, their winding number and their volume.
 struct WindingBody {
     WindingNumber winding;
     Box box;
@@ -34,7 +42,7 @@ struct WindingBody {
     }
 };
 
-// Of voids the body around them is the same.
+// Gives voids the number of the smallest body around them.
 void join_voids(const Soup& soup, std::vector<std::int32_t>& piece, std::int32_t count,
                 const std::function<void()>& poll) {
     std::vector<std::vector<Triangle>> facets(count);
@@ -78,7 +86,7 @@ class RegionMaker {
     }
 
  private:
-    // A facet of a body: how often it is there, less often turned.
+    // A facet of a body, with the number of its copies, turned ones subtracted.
     struct Member {
         std::int32_t body, facet, times;
     };
@@ -121,7 +129,7 @@ class RegionMaker {
         return counted.empty() ? 0 : enclosed_volume(soup_.vertices, counted);
     }
 
-    // How often a body winds around the space beside a facet. `sign`: 1 behind it, -1 in front.
+    // Returns the winding number of a body in the space beside a facet. `sign`: 1 behind it, -1 in front.
     double winding_beside(std::int32_t body, std::int32_t facet, const Vec3& centroid, int sign) const {
         const auto begin = members_.begin() + first_[body], end = members_.begin() + first_[body + 1];
         const auto found =
@@ -130,7 +138,7 @@ class RegionMaker {
         return bodies_[body].winding.beside(static_cast<std::int32_t>(found - begin)) + sign * found->times / 2.0;
     }
 
-    // The largest facets of each cell, the cell behind them or in front.
+    // Returns the largest facets of each cell, which lies behind them or in front.
     std::vector<std::vector<std::int32_t>> samples_of_cells() const {
         constexpr std::size_t most_samples = 8;
         std::vector<std::vector<std::int32_t>> of(space_.cells.count);

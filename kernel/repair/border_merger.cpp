@@ -1,3 +1,12 @@
+// Vertices of the border are merged greedily, pair by pair in the order of their distances, of which each vertex has
+// its 16 nearest. `representative` names the vertex in whose place each is, called its root; vertices with one root are
+// a ring by `next_`, so that a walk around it finds all facets of the root. Each pair is judged on the facets as they
+// are by then: fits_together() counts the facets that edges would have, may_move() compares normals before and after.
+// Nothing is taken back here.
+//
+// `reach_` adds up the moves that have led to a vertex, so that a chain of mergings stays within the bound.
+// undo_useless() comes later, when facets have been divided as well: it keeps only mergings by which facets share an
+// edge, because others would pinch the surface at a vertex.
 #include "repair/border_merger.h"
 
 #include <algorithm>
@@ -13,7 +22,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::size_t most_near_vertices = 16;  // of one vertex, the nearest
+constexpr std::size_t most_near_vertices = 16;  // tried for each vertex, the nearest
 constexpr double least_side_cosine = 0.2;       // between the normals of a facet before and after
 
 class BorderMerger {
@@ -34,7 +43,7 @@ class BorderMerger {
  private:
     struct Edge {
         std::int32_t other;                   // representative of its far end
-        std::array<std::int32_t, 2> of = {};  // how many facets have it from each of two vertices
+        std::array<std::int32_t, 2> of = {};  // number of facets that have it from each of the two vertices
 
         bool is_good() const { return of[0] == 0 || of[1] == 0 || of[0] + of[1] == 2; }
     };
@@ -43,7 +52,7 @@ class BorderMerger {
     std::vector<VertexPair> find_pairs() const;
     void try_pair(const VertexPair& pair);
     template <class Visit>
-    void for_each_facet(std::int32_t root, Visit visit) const {  // of all in the place of the root
+    void for_each_facet(std::int32_t root, Visit visit) const {  // all facets in the place of the root
         std::int32_t v = root;
         do {
             for (const std::int32_t f : border_.facets_at(v)) visit(f);
@@ -63,11 +72,11 @@ class BorderMerger {
     const Border& border_;
     double tolerance_, bound_;
     std::vector<double>& reach_;
-    std::vector<std::int32_t> next_;  // in a ring of those with one representative
+    std::vector<std::int32_t> next_;  // the next of a ring of vertices with one root
     BorderMerging merging_;
 };
 
-// Ascending by distance.
+// Returns the pairs to be tried, ascending by distance.
 std::vector<VertexPair> BorderMerger::find_pairs() const {
     const std::vector<std::int32_t>& all = border_.vertices();
     std::vector<VertexPair> pairs;
@@ -121,7 +130,7 @@ void BorderMerger::try_pair(const VertexPair& pair) {
         merging_.refused.push_back({high, low, apart});
 }
 
-// No edge gets more than two facets, and no two facets the same vertices.
+// Whether no edge gets more than two facets, and no two facets get the same vertices.
 bool BorderMerger::fits_together(std::int32_t a, std::int32_t b) const {
     std::vector<Edge> edges;
     std::vector<UndirectedEdge> opposite;
@@ -169,7 +178,7 @@ void BorderMerger::merge(std::int32_t gone, std::int32_t stays) {
     merging_.merged.push_back({gone, stays, apart});
 }
 
-// What was in the place of `vertex` in the facet; the vertex itself where the facet was divided at it.
+// Returns the vertex of the facet that `vertex` stands for; the vertex itself where the facet was divided at it.
 std::int32_t origin_of(std::int32_t vertex, const Triangle& before, const std::vector<std::int32_t>& representative) {
     for (const std::int32_t v : before)
         if (representative[v] == vertex) return v;

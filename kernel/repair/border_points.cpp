@@ -1,5 +1,8 @@
-// Edges and their points are taken as a whole, because two sides of a crack whose vertices differ everywhere divide
-// each other: what has no use is left out, until all that is left has one.
+// Vertices of the border divide the open edges that they are near. First each vertex takes the nearest edge that it may
+// join (find_nearest()); then points are dropped that would turn pieces over, and, until nothing changes, points that
+// join nothing or fold the surface. Edges and their points are judged as a whole, because two sides of a crack whose
+// vertices differ everywhere divide each other: a point is of use if a piece beside it is the edge of exactly two
+// facets or pieces.
 #include "repair/border_points.h"
 
 #include <algorithm>
@@ -21,9 +24,9 @@ namespace {
 // One of the pieces into which points divide an open edge.
 struct BorderPiece {
     UndirectedEdge ends;
-    std::size_t left, right;  // its points, among all; no_point: an end of the edge
+    std::size_t left, right;  // its points, by numbers among all; no_point: an end of the edge
 };
-constexpr double near_share = 0.2;  // of an edge, what is near its end
+constexpr double near_share = 0.2;  // of an edge, the part of it that is near its end
 constexpr std::size_t no_point = std::numeric_limits<std::size_t>::max();
 
 class BorderPointSearch {
@@ -58,7 +61,7 @@ class BorderPointSearch {
     const std::vector<Triangle>& facets_;
     const Border& border_;
     double tolerance_, near_end_;
-    std::vector<SidePoint> points_;  // those of an edge side by side, from its start on
+    std::vector<SidePoint> points_;  // points of an edge follow each other, from its start on
 };
 
 void BorderPointSearch::find_nearest() {
@@ -106,7 +109,7 @@ void BorderPointSearch::sort_points() {
     });
 }
 
-// Whether a piece of a facet at these points of it looks to another side.
+// Whether a piece of the facet of these points looks to another side, or has no area.
 bool BorderPointSearch::turns(std::span<const SidePoint> points) const {
     const Triangle& facet = facets_[points[0].corner / 3];
     std::array<std::vector<std::int32_t>, 3> chains;
@@ -120,7 +123,7 @@ bool BorderPointSearch::turns(std::span<const SidePoint> points) const {
     });
 }
 
-// Of a facet that does not stand all of its points those are kept that it stands one after another.
+// Of a facet that would turn over at its points, keeps those that can be added one after another without that.
 void BorderPointSearch::drop_turning() {
     std::vector<char> drop(points_.size(), 0);
     for (std::size_t i = 0, j = 0; i < points_.size(); i = j) {
@@ -151,7 +154,7 @@ std::vector<BorderPiece> BorderPointSearch::pieces() const {
     return pieces;
 }
 
-// Without those whose edge it is and is divided.
+// Returns the number of facets that have an edge, without those in which the edge is divided.
 std::int32_t BorderPointSearch::count_facets(const UndirectedEdge& edge) const {
     std::int32_t count = 0;
     for (const std::int32_t f : border_.facets_at(edge[0])) {
@@ -189,7 +192,7 @@ bool BorderPointSearch::drop_useless() {
 bool BorderPointSearch::drop_folded() {
     struct Face {
         Triangle sorted;
-        std::size_t first, last;  // the points of its facet; none: a facet as it is
+        std::size_t first, last;  // the points of its facet; none: an undivided facet
     };
     std::vector<Face> faces;
     std::vector<std::int32_t> whole;

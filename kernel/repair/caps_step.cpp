@@ -1,4 +1,5 @@
-// Ends of what is open on purpose, as vessels are, are closed: each by a lid in a patch of its own.
+// Ends that are open on purpose, as those of vessels, are closed by lids, each in a patch of its own, the largest
+// first.
 #include <algorithm>
 #include <numeric>
 

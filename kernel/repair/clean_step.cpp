@@ -1,5 +1,8 @@
-// Facets that bound nothing go: first those that are none, then those without area, then copies, which the pieces of
-// their neighbours may be.
+// Facets that bound nothing go, in this order: facets with a repeated vertex or without finite coordinates; facets
+// without area (repair/flat_facets.h), whose neighbours are divided at their vertices so that nothing opens; copies
+// (repair/facet_copies.h), which come last because the pieces of those neighbours may be such. Bodies that share facets
+// are united where their winding numbers tell how (repair/covered_facets.h); where these bodies also cross, or are to
+// be regions, that is left to a later step, if there is one.
 #include <algorithm>
 #include <utility>
 
@@ -29,7 +32,7 @@ class Cleaning {
 
  private:
     void drop_copies() {
-        if (has_walls(soup_, request_)) return;  // which may be there twice
+        if (has_walls(soup_, request_)) return;  // of which there may be two facets in one place
         SurplusCopies surplus = find_surplus_copies(soup_.facets, unites());
         if (surplus.copies.empty() && surplus.folds.empty()) return;
         const std::vector<std::int32_t> inside = take_out_closed(surplus);
@@ -41,8 +44,9 @@ class Cleaning {
              drop);
         drop_facets(soup_, drop);
     }
-    // Closed bodies that have facets in common are united as they wind, which copies tell: where these cross, too, or
-    // are to be regions, that is left to the step that divides them, if it is asked for. What lies inside.
+    // Unites closed bodies that have facets in common, as their winding numbers tell. Bodies that cross as well, or are
+    // to be regions, are left to the step that divides them, if it is asked for. Returns the facets inside of the
+    // union.
     std::vector<std::int32_t> take_out_closed(SurplusCopies& surplus) const {
         if (!unites() && !request_.is_divided_later) return {};
         CoveredFacets covered = find_covered_facets(soup_.vertices, soup_.facets, request_.poll);
@@ -73,7 +77,7 @@ class Cleaning {
         }
         report_.actions.push_back(std::move(action));
     }
-    // Faces whose triangles are another surface than what the file says, if that says one: the triangles count.
+    // Takes the triangles of a face as the surface where they are not quite the face that the file describes.
     void accept_unfit() {
         RepairAction accepted{"warped face taken as its triangles", "warped faces taken as their triangles"};
         for (const std::int32_t polygon : soup_.unfit_polygons) {
@@ -110,7 +114,7 @@ class Cleaning {
             if (!std::exchange(is_divided[point.corner / 3], char{1}))
                 divided.add({soup_.vertices[point.vertex], soup_.file_facets({point.corner / 3})});
         report_.actions.push_back(std::move(divided));
-        std::vector<std::int32_t> new_number(drop.size());  // of what is left without the flat ones
+        std::vector<std::int32_t> new_number(drop.size());  // without the flat facets
         for (std::size_t f = 0, kept = 0; f < drop.size(); kept += drop[f++] == 0)
             new_number[f] = static_cast<std::int32_t>(kept);
         drop_facets(soup_, drop);

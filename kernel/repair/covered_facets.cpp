@@ -15,10 +15,10 @@ namespace kerf {
 
 namespace {
 
-// What becomes of the copies of one facet.
+// The fate of the copies of one facet.
 enum class SingleFate : std::uint8_t { stays_as_first, stays_turned, goes };
 
-// Per piece whether its edges are there as often in one direction as in the other.
+// Returns per piece whether its edges are there as often in one direction as in the other.
 std::vector<char> find_balanced(const std::vector<Triangle>& facets, const Rims& rims) {
     std::vector<char> is_balanced(rims.pieces.size(), 1);
     EdgeCorners(facets).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
@@ -29,7 +29,7 @@ std::vector<char> find_balanced(const std::vector<Triangle>& facets, const Rims&
     return is_balanced;
 }
 
-// Of each of the single facets of a piece; none: its winding numbers do not tell.
+// Returns the fate of each single facet of a piece; none: its winding numbers do not tell.
 std::optional<std::vector<SingleFate>> find_fates(const std::vector<Vec3>& vertices, const SingleFacets& single,
                                                   const std::vector<std::int32_t>& times) {
     if (!find_self_intersections(vertices, single.facets, 1).empty()) return {};

@@ -1,5 +1,5 @@
-// Facets near each other are asked for after each other, so that what they look at is at hand: in the order of the
-// leaves of the hierarchy where they are in it, else in their own.
+// Facets near each other are asked for after each other, so that the memory which they read is at hand: in the order of
+// the leaves of the hierarchy where they are in it, else in their own.
 #include "repair/crossing_pairs.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// All pairs of facets that meet elsewhere than in what they share.
+// All pairs of facets that meet elsewhere than in the vertices and edges that they share.
 #pragma once
 
 #include <array>
@@ -13,8 +13,9 @@ namespace kerf {
 /// Two facets, the smaller number first.
 using FacetPair = std::array<std::int32_t, 2>;
 
-/// All pairs that triangles_intersect() is true for and of which at least one facet is `changed` (#F), ascending; the
-/// search ends where there are more than `most`. Facets have area. Expected O(#F log #F), 100 bytes a changed facet.
+/// Returns the pairs that triangles_intersect() is true for and of which at least one facet is `changed` (#F),
+/// ascending; the search ends where there are more than `most`. Facets have area. Expected O(#F log #F), 100 bytes a
+/// changed facet.
 std::vector<FacetPair> crossing_pairs(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                       const std::vector<char>& changed, std::size_t most,
                                       const std::function<void()>& poll);

@@ -1,4 +1,4 @@
-// Points that have numbers, each place once.
+// Numbered points, of which each place has one.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,17 @@
 
 namespace kerf {
 
-/// Points by number, and numbers by coordinates. -0 equals 0.
+/// Points that are found by number and by coordinates. -0 equals 0.
 class DistinctPoints {
  public:
-    /// Points that are equal keep their numbers.
+    /// Takes points with their numbers; equal ones among them keep theirs.
     explicit DistinctPoints(std::vector<Vec3> points);
 
     const std::vector<Vec3>& all() const { return points_; }
     std::vector<Vec3> take() { return std::move(points_); }
 
-    /// The smallest number of a point with these coordinates, which gets one if there is none. Expected O(1).
+    /// Returns the smallest number of a point with these coordinates, and adds the point if there is none. Expected
+    /// O(1).
     std::int32_t number_of(const Vec3& p);
 
  private:

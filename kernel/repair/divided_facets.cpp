@@ -1,3 +1,8 @@
+// Facets that share an edge must have the same points on it, though each plane of facets is divided by itself. All
+// points on edges are sorted by edge and by distance from the smaller end. Each facet compares that list with its own
+// points: points that it lacks lie between two vertices that follow each other on its edge, and every piece with both
+// of these is divided there. A facet that was whole becomes a piece first. So an edge ends up with one chain of points
+// in all of its facets, whichever of them was divided, and a surface that was closed stays closed.
 #include "repair/divided_facets.h"
 
 #include <algorithm>
@@ -31,7 +36,7 @@ void split_between(std::int32_t from, std::int32_t to, std::span<const std::int3
         }
 }
 
-// Of one facet: brings the points that `on_edge` has of all facets, ascending along it, into its pieces.
+// Brings the points that all facets have on an edge, ascending along it, into the pieces of one facet.
 void share_points_of(std::span<const PointOnEdge> on_edge, std::int32_t facet, std::vector<FacetPiece>& pieces) {
     std::int32_t last = on_edge[0].edge[0];
     std::vector<std::int32_t> missing;

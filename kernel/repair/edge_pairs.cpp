@@ -11,8 +11,8 @@ namespace kerf {
 
 namespace {
 
-// Sorts the corners so that those at 0 and 1, 2 and 3, ... have material between them: from one to the other all that
-// begins ends, as brackets do.
+// Sorts the corners so that those at 0 and 1, 2 and 3, ... have material between them: going around the edge, every
+// pair that begins within another ends within it, as brackets do.
 void pair_crowded(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                   std::span<const EdgeCorners::Corner> corners, CrowdedEdge& edge) {
     for (const EdgeCorners::Corner& c : corners) edge.corners.push_back(c.corner);
@@ -25,7 +25,7 @@ void pair_crowded(const std::vector<Vec3>& vertices, const std::vector<Triangle>
     const std::vector<std::int32_t>& order = around.corners;
     edge.corners.clear();
     std::vector<std::int32_t> open;
-    for (std::size_t i = 0; i < 2 * order.size(); ++i) {  // twice around: what ends first may have begun last
+    for (std::size_t i = 0; i < 2 * order.size(); ++i) {  // twice around: a pair may end before it has begun
         const std::int32_t corner = order[i % order.size()];
         if (has_back_ahead(facets, edge.low, corner)) {
             if (i < order.size()) open.push_back(corner);
@@ -40,7 +40,7 @@ void pair_crowded(const std::vector<Vec3>& vertices, const std::vector<Triangle>
     edge.reason = "the facets there are walls, or sheets that bound nothing";
 }
 
-// Joins what two facets have of the ends of an edge.
+// Joins the corners of two facets at both ends of their common edge.
 void join_ends(const std::vector<Triangle>& facets, std::int32_t c, std::int32_t d, UnionFind& fans) {
     const bool same_way = start_vertex(facets, c) == start_vertex(facets, d);
     fans.join(c, same_way ? d : next_corner(d));

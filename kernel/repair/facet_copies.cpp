@@ -1,5 +1,8 @@
-// Each sheet of copies is judged by its rim, with one facet for each group of copies: without the sheet an edge has a
-// facet less.
+// Copies, which are facets with the same three vertices, are judged by sheets: groups of copies that hang together over
+// edges of two groups. With one facet for each group, the edges of the rim of a sheet are counted: without the sheet an
+// edge has one facet less, so that an odd number above 1 means that the surface closes without it. A sheet whose copies
+// are turned against each other is a fold if that holds for most of its rim; then all of its copies go. Walls between
+// bodies that touch are copies as well, turned in equal numbers; they go where all other facets close without them.
 #include "repair/facet_copies.h"
 
 #include <algorithm>
@@ -24,7 +27,7 @@ struct CopySheet {
     std::int64_t groups = 0;
     std::int64_t free = 0, even = 0, odd = 0;  // edges of its rim with one facet, an even number, an odd one above 1
 
-    // Whether nothing of it stays.
+    // Whether no facet of the sheet stays.
     bool is_fold(bool is_all, bool with_walls) const {
         if (!is_folded || (!with_walls && free == 0)) return false;
         if (groups == 1 && odd + even == 0) return !is_all;  // a flat pocket
@@ -80,8 +83,8 @@ class CopyJudge {
         });
         return sets.take();
     }
-    // Copies of which as many are turned one way as the other, if all of a piece that hangs together over edges may go:
-    // it has others, and the number of these is even at all edges. They are the walls of bodies that touch.
+    // Marks groups with as many copies turned one way as the other, the walls of bodies that touch. A piece that hangs
+    // together over edges may lose all of them if it has other facets, an even number of these at each edge.
     std::vector<char> find_cancelling() const {
         std::vector<char> cancels(copies_.size(), 0), is_cancelling(facets_.size(), 0);
         for (std::size_t g = 0; with_walls_ && g < copies_.size(); ++g) {
@@ -135,7 +138,7 @@ class CopyJudge {
     bool with_walls_;
     std::vector<std::int32_t> group_of_;  // of the first facet of a group, else -1
     std::vector<Triangle> single_;        // one facet of each group
-    std::vector<std::int32_t> number_;    // of them
+    std::vector<std::int32_t> number_;    // their numbers
 };
 
 }  // namespace

@@ -1,7 +1,10 @@
-// The facets are projected along a coordinate axis, which changes neither what crosses nor what lies between what. A
-// facet that crosses them leaves a segment, whose ends are corners, or points in which an edge goes through a facet:
-// the ends are among such points of both, because the segment is what both facets have of the line of their planes.
-// Edges and segments are the constraints of a triangulation, which finds the points in which they cross.
+// The facets of a plane are projected along a coordinate axis, which keeps crossings and the order of points on lines.
+// A facet that crosses them leaves a segment, whose ends are corners, or points in which an edge goes through a facet:
+// the ends are among such points of both, because the segment is the common part of both facets on the line in which
+// their planes meet. Edges and segments are the constraints of a triangulation with rational coordinates (CGAL), which
+// finds the points in which they cross. Its vertices are rounded to doubles and numbered by their coordinates, then
+// flips make it nearly Delaunay, and the pieces of each facet are collected by walking over faces from the facet's
+// border inwards. The order of faces in memory must not matter: lists follow the order in which faces were made.
 #include "repair/facet_divider.h"
 
 #include <algorithm>
@@ -9,7 +12,7 @@
 #include <optional>
 #include <unordered_map>
 
-#define CGAL_NO_CDT_2_WARNING  // of its own way to intersect constraints, which serves
+#define CGAL_NO_CDT_2_WARNING  // its way to intersect constraints is used knowingly
 #include <CGAL/Constrained_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -31,8 +34,8 @@ struct PointNumber {
     std::int32_t value = -1;
 };
 
-// Of a face: its place among all before they are flipped; while pieces are collected, which facet has reached it, and
-// of which facet its sides are bounds.
+// Marks of a face: its place among all before they are flipped, and, while pieces are collected, the facet that has
+// reached it and, for each of its sides, the facet that is bounded by it.
 struct FaceMark {
     std::int32_t place = -1;
     std::int32_t seen = -1;
@@ -50,7 +53,7 @@ using FaceHandle = PlaneTriangulation::Face_handle;
 
 constexpr std::int32_t no_number = -1;
 
-// The nearest double, which depends on the value only.
+// Returns the nearest double, which depends on the value only.
 double nearest_double(const ExactKernel::FT& value) {
     using Rational = std::decay_t<decltype(value.exact())>;
     const Rational& exact = value.exact();
@@ -95,7 +98,7 @@ class PlaneDivision {
         const Triangle& t = facets_[facet];
         return {at(t[0]), at(t[1]), at(t[2])};
     }
-    // With the axis of projection last, turned like before.
+    // Returns the point with the axis of projection last, which keeps orientations.
     ExactPoint3 in_frame(const Vec3& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3], p[axis_]}; }
 
     static ExactPoint2 projected(const ExactPoint3& p) { return {p.x(), p.y()}; }
@@ -127,7 +130,7 @@ class PlaneDivision {
     ExactKernel::Plane_3 plane_ = {};  // of the largest facet, in the frame
     double largest_rounding_ = 0;
     PlaneTriangulation triangulation_;
-    VertexHandle last_ = {};                                    // inserted, near which the next one is looked for
+    VertexHandle last_ = {};  // the vertex inserted last, near which the next one is looked for
     std::unordered_map<std::int32_t, VertexHandle> vertex_of_;  // only looked up
 };
 

@@ -1,4 +1,9 @@
-// Openings of few edges are filled: by patches that go on as the surface does, by lids, or by bands between two rims.
+// Openings of few edges are filled by patches that go on as the surface does, by lids, or by bands between two rims.
+// Rims that cannot be spanned or have too many edges are refused first; the others are paired where a band fits
+// (repair/rim_pairs.h). The angle of a filling with the surface around it tells the rest: beyond 135 degrees the rim is
+// that of a sheet, and lids, from 45 degrees on, are refused where sheets are to be thickened. The remaining openings
+// get patches (repair/opening_filler.h), all in the patch "filled"; only where `intersections` follows may these cross
+// the surface. Each reason of a refusal is an action of the report.
 #include "repair/opening_filler.h"
 #include "repair/repair_step.h"
 #include "repair/rim_pairs.h"

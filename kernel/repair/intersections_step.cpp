@@ -1,4 +1,12 @@
-// All facets are divided where they cross; then what bounds the inside stays.
+// All facets are divided where they cross (repair/arrangement.h); then the facets that bound the inside stay
+// (repair/hull.h), by winding numbers (Jacobson et al. 2013, jacobson2013). Shells are turned outwards before
+// (repair/shell_turning.h), because winding numbers are meaningless for shells that are turned at random. There are two
+// other ways: facets that part regions named elsewhere are divided only, and all pieces stay; bodies that are to be
+// regions become that by their cells (repair/body_regions.h).
+//
+// A "piece" is a facet of the arrangement, its parent the facet of the soup that it is of; `fate_` is per piece,
+// `turned_` per facet. The soup is not changed where nothing crosses and nothing goes, nor where more area would be
+// lost as bounding nothing than is kept: then the surface is open, and its inside unknown.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -65,8 +73,8 @@ class CrossingResolver {
             refused.count = 1;
         report_.actions.push_back(std::move(refused));
     }
-    // The corner with the largest coordinate, if doubles next to it are farther apart than half of the facets are long.
-    // Roundings would lose what those facets are divided into, and its exact points have fractions of many digits.
+    // Returns the corner with the largest coordinate, if doubles next to it are farther apart than half of the facets
+    // are long. Rounding would lose the pieces of those facets, and exact points there have fractions of many digits.
     std::optional<RepairPlace> find_far_out() const {
         const auto size_of = [](const Vec3& p) { return p.cwiseAbs().maxCoeff(); };
         std::vector<double> lengths;
@@ -112,7 +120,7 @@ class CrossingResolver {
         drop_unused_vertices(soup_);
     }
 
-    // False: there is one body, or what there is bounds no regions.
+    // Makes each body a region. False if there is one body alone, or the facets bound no regions.
     bool become_regions(Soup divided) {
         GivenBodies bodies = find_bodies(divided, request_.poll);
         if (bodies.names.size() < 2) return false;
@@ -137,7 +145,7 @@ class CrossingResolver {
         return true;
     }
 
-    // Whether less of the surface bounds nothing than what bounds something.
+    // Whether more of the surface bounds something than nothing, by area.
     bool is_mostly_bound() {
         double bounding = 0, loose = 0;
         for (std::size_t f = 0; f < fate_.size(); ++f) {
@@ -153,7 +161,7 @@ class CrossingResolver {
         return false;
     }
 
-    // Places are the new vertices, with what meets there.
+    // Reports crossings; their places are the new vertices, with the facets that meet there.
     void tell_crossings() {
         RepairAction resolved{"crossing resolved", "crossings resolved"};
         const auto first_new = static_cast<std::int32_t>(soup_.vertices.size());
@@ -169,7 +177,7 @@ class CrossingResolver {
         report_.actions.push_back(std::move(resolved));
     }
 
-    // What goes, as far as it hangs together.
+    // Pieces of one fate that go and hang together.
     struct LeftOut {
         std::vector<std::int32_t> facets;
         bool is_apart;  // nothing at its edges stays
@@ -199,7 +207,7 @@ class CrossingResolver {
         return of;
     }
 
-    // Shells within others: parity tells what they are.
+    // Keeps shells within others: parity tells their meaning.
     void keep_shells() {
         for (const LeftOut& own : find_left_out())
             if (own.is_apart && fate_[own.facets.front()] == HullFate::inside)
@@ -223,7 +231,7 @@ class CrossingResolver {
         for (RepairAction* action : {&inner, &shells, &loose, &copies}) report_.actions.push_back(std::move(*action));
     }
 
-    // At the largest facet.
+    // Returns the place of the largest facet, with the area of all.
     RepairPlace place_of(const std::vector<std::int32_t>& pieces) const {
         constexpr std::size_t most_facets_told = 16;
         RepairPlace place;

@@ -1,3 +1,10 @@
+// Two kinds of components matter: a "piece" hangs together over edges of any number of facets, a "sheet" only over
+// edges of two. In each piece with edges of more than two, sheets with an open edge are fins. If such edges are left
+// then, the rest divides space into cells (surface/cells.h): a facet with the same cell on both sides is a membrane, a
+// facet between two bounded cells may be a wall. A void that touches the surface around it has such facets, too, but
+// only edges of an even number of facets: it is no cell of material, so that facets are walls only if those that hang
+// together have an edge of an odd number. Facets of a kind are taken out only if the rest is closed and has more area
+// than they; else the surface is made of them.
 #include "repair/loose_sheets.h"
 
 #include <algorithm>
@@ -58,8 +65,8 @@ class SheetSearch {
         const std::vector<char> is_wall = find_walls(piece, sides);
         leave_out(piece, found_.walls, [&](std::size_t i) { return is_wall[i] != 0; });
     }
-    // Facets between bounded cells, of what hangs together and has an edge of an odd number of facets. A void that
-    // touches what is around it has edges of even numbers alone: it is no cell of material.
+    // Returns the facets between bounded cells, as far as those that hang together have an edge of an odd number of
+    // facets. A void that touches the surface around it has edges of even numbers alone: it is no cell of material.
     std::vector<char> find_walls(const std::vector<std::int32_t>& piece, const std::vector<FacetSides>& sides) const {
         UnionFind sets(piece.size());
         std::vector<char> has_odd(piece.size(), 0), is_wall(piece.size(), 0);
@@ -81,7 +88,7 @@ class SheetSearch {
         for (const std::int32_t f : numbers) facets.push_back(facets_[f]);
         return facets;
     }
-    // Takes these out of the piece, if what is left is closed and large. What was taken.
+    // Takes facets out of the piece, if the rest is closed and larger. Returns which were taken out.
     template <class IsOut>
     std::vector<char> leave_out(std::vector<std::int32_t>& piece, std::vector<std::int32_t>& out, IsOut is_out) {
         std::vector<char> dropped(piece.size(), 0);

@@ -1,7 +1,8 @@
-// First what bounds nothing goes. Then each fan of facets at a vertex gets a vertex of its own, and moves a little into
-// itself, so that what touched is apart: equal coordinates would be welded again. Where both ends of an edge have one
-// fan, the pairs of its facets get middles of their own. What is divided where it crosses is opened only behind that,
-// but for the borders of openings, which are to be filled before: bodies that touch would come apart by a crack.
+// First sheets go that bound nothing. Then each fan of facets at a vertex gets a vertex of its own, and moves a little
+// into itself, so that the fans are apart: equal coordinates would be welded again. Where both ends of an edge have one
+// fan, the pairs of its facets get middles of their own. Where facets are to be divided at crossings by a later step,
+// places are opened only behind that, because bodies that touch would come apart by a crack; the borders of openings
+// are an exception, since openings are filled before.
 #include <algorithm>
 #include <numeric>
 #include <utility>

@@ -1,3 +1,9 @@
+// Passes over the near facets. Each pass does the first of three things for which it finds a place: it joins vertices,
+// divides edges at vertices, or divides facets at vertices; then it begins anew. The order matters, since an edge is to
+// be divided at one vertex, not at two that are about to be joined. A pass divides an edge at one vertex at most, the
+// nearest to its first end, and a facet at the smallest one; further ones wait for the next pass. Vertices are replaced
+// in all facets, and an edge is divided in all facets that have it, near or not, so that nothing opens. Pieces of near
+// facets are near. Passes are bounded, because long chains may go on for many.
 #include "repair/near_features.h"
 
 #include <algorithm>
@@ -16,14 +22,14 @@ namespace {
 
 constexpr int most_passes = 100;
 
-// Where an edge, or a facet at its lowest corner, is divided.
+// The vertex at which an edge is divided.
 struct EdgeSplit {
     UndirectedEdge edge;
     std::int32_t vertex;
     auto operator<=>(const EdgeSplit&) const = default;
 };
 
-// Places within a hierarchy of boxes that are found again by what is near them.
+// Items that are found by a box near them.
 class NearItems {
  public:
     explicit NearItems(const std::vector<Box>& boxes) : order_(boxes.size()) {
@@ -54,7 +60,7 @@ class NearFeatures {
             if (is_near_[f]) divided_.changed[f] = 1;
     }
 
-    // Whether there was something to join.
+    // Joins the first kind of feature that there is. False if nothing is near any more.
     bool pass() {
         collect();
         if (join_vertices()) return true;
@@ -140,7 +146,7 @@ bool NearFeatures::join_vertices() {
     return true;
 }
 
-// At most one of each edge: the one nearest to its first end.
+// Returns at most one vertex for each edge: the one nearest to its first end.
 std::vector<EdgeSplit> NearFeatures::edges_at_vertices(const NearItems& near_vertices) const {
     std::vector<EdgeSplit> splits;
     for (const UndirectedEdge& edge : edges_) {
@@ -156,7 +162,7 @@ std::vector<EdgeSplit> NearFeatures::edges_at_vertices(const NearItems& near_ver
     return splits;
 }
 
-// Of a piece with this edge two are made; of a facet, each edge of which may be divided, up to four.
+// Divides all facets at their edges: one such edge gives two pieces, three give four.
 bool NearFeatures::split_edges(std::vector<EdgeSplit> splits) {
     if (splits.empty()) return false;
     std::sort(splits.begin(), splits.end());
@@ -212,7 +218,7 @@ bool NearFeatures::split_facets(const NearItems& near_vertices) {
     return true;
 }
 
-// Pieces are as near as what they are of.
+// Puts pieces into place; they are as near as the facet that they are of.
 void NearFeatures::replace(std::vector<FacetPiece>& pieces, const std::vector<char>& is_divided) {
     std::vector<char> is_near;
     std::stable_sort(pieces.begin(), pieces.end(),

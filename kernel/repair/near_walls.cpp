@@ -1,3 +1,10 @@
+// Each facet is compared with those whose boxes are within the tolerance; it is near another if the corners of the
+// smaller are within the tolerance of the plane of the larger and both share area in the projection. The first pass
+// finds facets near another body, and among these thin ones: their own body has another facet within 4 tolerances, so
+// that moving one wall could flatten the body. The second pass measures the distance of facets that are near. Thin
+// facets are no walls, and facets near thin ones alone are none either; thin ones are measured only to be reported. A
+// distance counts heights, and the gaps of corners to corners and edges that are within the tolerance: 0 means that
+// both are alike already.
 #include "repair/near_walls.h"
 
 #include <algorithm>
@@ -79,7 +86,7 @@ class NearWallFinder {
         });
         return is;
     }
-    // Of two facets that lie on one another; 0: nothing is near but not the same.
+    // Returns the distance of two facets that lie on one another; 0: all that is near is the same.
     double distance(std::int32_t f, std::int32_t g) const {
         Corners large = corners(f), small = corners(g);
         if (doubled_area_vector(large).squaredNorm() < doubled_area_vector(small).squaredNorm())

@@ -1,3 +1,9 @@
+// An opening is described by the outline of its rims: their points one after another, each rim in the direction of
+// facets that would fill it. Triangles and patches use places in the outline, not vertices of the soup. The bend is the
+// mean angle between the normals of the triangle inside and the facet outside over all edges of the rims, weighted by
+// their lengths: it tells a hole, an end and the rim of a sheet apart. Edges that the surface has between points of the
+// rims are "taken": a patch with one of them would give it more than two facets. Only smooth patches need the
+// surroundings, the facets at the rims and their other vertices, which are numbered on from the outline.
 #include "repair/opening.h"
 
 #include <algorithm>
@@ -46,7 +52,7 @@ double mean_bend(const RimOutline& outline, const std::vector<Triangle>& triangl
     return length > 0 ? sum / length * 180 / std::numbers::pi : 0;
 }
 
-// Edges between vertices of the rims that the surface has.
+// Returns the edges of the surface between vertices of the rims that are not edges of a rim.
 std::vector<UndirectedEdge> taken_edges(const OpenRims& all, const RimOutline& outline) {
     std::vector<std::pair<std::int32_t, std::int32_t>> place;  // of vertices of the soup
     for (std::size_t i = 0; i < outline.vertices.size(); ++i)

@@ -1,3 +1,13 @@
+// Patches are chosen in rounds. A round makes a patch of its current shape for each open opening, adds all patches to
+// the surface, and looks for facets of open patches that cross something. Of two new patches the later gives way, of a
+// new and a settled one the new; the one that gives way tries the next shape (smooth, relaxed, plain), and after the
+// last one its opening stays open. Two patches with the same chord, an edge between points of rims, count as crossing,
+// since the edge would have four facets. Comparisons are made on vertices welded by coordinates, so that patches at
+// equal points are neighbours.
+//
+// If crossings are so many that the search ends early, no patch is settled in that round. An opening is "folded" if its
+// plain patch meets facets of the surface with which it shares vertices: let_cross() leaves it open, and fills the
+// others across the surface where that may be.
 #include "repair/opening_filler.h"
 
 #include <algorithm>
@@ -14,7 +24,7 @@ namespace kerf {
 
 namespace {
 
-// Of each vertex the first one with its coordinates.
+// Returns for each vertex the first one with its coordinates.
 std::vector<std::int32_t> first_in_place(const std::vector<Vec3>& vertices) {
     std::vector<std::int32_t> order, first(vertices.size());
     std::iota(first.begin(), first.end(), 0);
@@ -65,7 +75,7 @@ class OpeningFiller {
     }
 
  private:
-    // Of all openings that have none; false if no patch is left to be looked at.
+    // Makes patches for all openings that have none; false if no patch is left to be looked at.
     bool make_patches() {
         bool is_any = false;
         for (std::size_t i = 0; i < filled_.size(); ++i) {
@@ -93,7 +103,7 @@ class OpeningFiller {
         else
             filled_[i].shape = static_cast<PatchShape>(static_cast<int>(filled_[i].shape) + 1);
     }
-    // Of patches that meet something the next shape is to be tried, or none if it is the last round.
+    // Patches that meet something get the next shape, or none if it is the last round.
     void settle(bool is_last) {
         facets_.resize(surface_count_);
         vertices_.resize(surface_vertices_);
@@ -106,7 +116,7 @@ class OpeningFiller {
         const auto pairs = find_intersections_of(chosen, vertices_, facets_, most_pairs);
         for (const auto& [f, g] : pairs) {
             const std::int32_t one = owner_[f], two = owner_[g];
-            // Of two patches that are both new the later one, of others the new one.
+            // Two new patches: the later one gives way. Otherwise the new one does.
             const bool first_gives_way = two < 0 || !is_open_[two] || (one > two && is_open_[one]);
             const std::int32_t which = one >= 0 && first_gives_way && is_open_[one] ? one : two;
             meets[which] = 1;
@@ -135,7 +145,7 @@ class OpeningFiller {
             owner_.push_back(static_cast<std::int32_t>(i));
         }
     }
-    // Of the points of a patch: those of the surface, then from `next` on.
+    // Returns numbers for the points of a patch: those of the surface, then numbers from `next` on.
     std::vector<std::int32_t> numbers(std::size_t i, std::int32_t next) const {
         std::vector<std::int32_t> number;
         for (const Rim* rim : filled_[i].opening.rims)
@@ -143,7 +153,7 @@ class OpeningFiller {
         while (static_cast<std::int32_t>(number.size()) < filled_[i].patch->count()) number.push_back(next++);
         return number;
     }
-    // Two patches with the same edge between vertices of their rims would be four facets at it.
+    // Marks two patches with the same edge between vertices of their rims, which would have four facets.
     void mark_equal_chords(std::vector<char>& meets) {
         std::vector<std::pair<UndirectedEdge, std::size_t>> chords;
         for (std::size_t i = 0; i < filled_.size(); ++i) {
@@ -159,7 +169,7 @@ class OpeningFiller {
                 meets[later_is_open ? chords[c].second : chords[c - 1].second] = 1;
             }
     }
-    // Whether a patch meets facets that it also shares vertices with.
+    // Notes a patch that meets facets with which it also shares vertices.
     void note_fold(std::int32_t which, std::int32_t f, std::int32_t g) {
         for (const std::int32_t v : facets_[f])
             for (const std::int32_t w : facets_[g]) is_folded_[which] |= v == w;
@@ -180,10 +190,10 @@ class OpeningFiller {
     std::vector<FilledOpening> filled_;
     std::vector<Vec3> vertices_;       // of the surface, then of patches
     std::vector<std::int32_t> first_;  // #V of the surface
-    std::vector<Triangle> facets_;     // of the surface that have an area, then of patches
+    std::vector<Triangle> facets_;     // of the surface if they have area, then of patches
     std::size_t surface_count_ = 0, surface_vertices_ = 0;
     std::vector<std::int32_t> owner_;  // of each facet; -1: the surface
-    std::vector<char> is_open_;        // of each opening: its patch is not settled
+    std::vector<char> is_open_;        // per opening: its patch is not settled
     std::vector<char> is_folded_;
 };
 

@@ -1,4 +1,4 @@
-// Openings of a surface closed by patches that cross nothing.
+// Openings of a surface, closed by patches that cross nothing.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,11 @@
 
 namespace kerf {
 
-/// What came of an opening.
+/// An opening, and the patch that closes it, if one does.
 struct FilledOpening {
     RimOpening opening;
-    std::optional<PatchMesh> patch;        ///< none: it stays open
-    PatchShape shape = PatchShape::plain;  ///< of the patch, or the last one tried
+    std::optional<PatchMesh> patch;        ///< none: the opening stays open
+    PatchShape shape = PatchShape::plain;  ///< the shape of the patch, or the last one tried
     bool crosses = false;                  ///< its patch crosses other facets
 
     double area() const;
@@ -22,31 +22,31 @@ struct FilledOpening {
 };
 
 struct FillingRequest {
-    double growth = 0;       ///< as PatchMesh::refine() has it
-    bool may_cross = false;  ///< a patch that crosses facets away from its rims is better than none
+    double growth = 0;       ///< see PatchMesh::refine()
+    bool may_cross = false;  ///< prefers a patch that crosses facets away from its rims to none
     std::function<void()> poll = [] {};
 };
 
-/// A patch for each opening, in their order, of the first shape that meets neither the surface nor another patch but
-/// at its rims; where two patches meet, the first one stays. Facets of the surface that cross each other have no say.
-/// O(#F log #F) for each of a few rounds.
+/// Makes a patch for each opening, in their order, of the first shape that meets the surface and other patches only at
+/// its rims; where two patches meet, the first one stays. Places where the surface crosses itself do not count. O(#F
+/// log #F) for each of a few rounds.
 std::vector<FilledOpening> fill_openings(const OpenRims& all, std::vector<RimOpening> openings,
                                          const FillingRequest& request);
 
-/// Appends patches to the soup, numbered on behind what the file has. O(#V) to begin with.
+/// Appends patches to the soup, with numbers behind those of the file. Its construction takes O(#V).
 class PatchAppender {
  public:
     explicit PatchAppender(Soup& soup);
 
-    /// `filled`: of an opening of this soup; `patch`: the number of its facets' patch.
+    /// Appends the patch of an opening of this soup. `patch`: the number of the patch that its facets are put into.
     void append(const FilledOpening& filled, std::int32_t patch);
 
  private:
     Soup& soup_;
-    std::int32_t next_vertex_ = 0, next_polygon_ = 0;  // numbers in the file, if there are some
+    std::int32_t next_vertex_ = 0, next_polygon_ = 0;  // next numbers in the file, if it has some
 };
 
-/// A new patch, whose name is `name` or, if there is one of that name, that with a number. Returns its number.
+/// Adds a patch to the soup, called `name` or, if there is one of that name, `name` with a number. Returns its number.
 std::int32_t add_patch(Soup& soup, const std::string& name);
 
 }  // namespace kerf

@@ -1,6 +1,10 @@
-// Facets agree over edges of two. Where only edges of more facets close a shell, the cells around these tell which side
-// of a facet is the outside. Then what is closed is turned outwards as a whole, with all that lies inside of it, so
-// that a void stays one, in a body that is open, too.
+// Facets are made to agree over edges of two; a shell is what hangs together over such edges. Where only edges of more
+// facets close a shell, the cells around these tell which side of a facet is the outside (turn_by_cells()). Then each
+// shell that nothing encloses is turned outwards as a whole, with all shells inside of it, so that a void stays one.
+// Closed shells are nested by locate_shells(); open ones with an inside are nested by winding numbers, since a body may
+// have a hole. An open shell has an inside if it is full: the volume between it and the middle of its rim, over its
+// area to the power of 3/2, is then not small. One-sided shells have no right answer, and stay as they came unless
+// turning makes more facets agree.
 #include <algorithm>
 #include <cmath>
 
@@ -59,7 +63,7 @@ class Orienting {
     Soup& soup_;
     const StepRequest& request_;
     StepReport& report_;
-    std::vector<std::int32_t> number_;  // of the facets that are looked at
+    std::vector<std::int32_t> number_;  // in the soup, of the ordinary facets
     std::vector<Triangle> facets_;      // as they came
     ConsistentFacets new_;
     Rims rims_;
@@ -86,7 +90,7 @@ void Orienting::restore_one_sided() {
         if (is_one_sided_[new_.shell[f]] && gain[new_.shell[f]] <= 0) new_.facets[f] = facets_[f];
 }
 
-// What hangs together over edges of more than two facets, and has no open edge, is one shell from here on.
+// A piece that hangs together over edges of more than two facets, and has no open edge, is one shell from here on.
 void Orienting::turn_by_cells() {
     const std::vector<std::vector<std::int32_t>> pieces = rims_.facets_of_pieces();
     std::vector<std::int32_t> new_shell(new_.shell.size(), -1);
@@ -113,7 +117,7 @@ void Orienting::turn_by_cells() {
     new_.shell_count = count;
 }
 
-// The side that most of its area says to be the outside stays so: a void is none the less one for being torn.
+// The outside stays on the side where most of the area has it: a void is a void though its facets are torn.
 void Orienting::turn_piece_by_cells(const std::vector<std::int32_t>& piece) {
     std::vector<Triangle> facets;
     for (const std::int32_t f : piece) facets.push_back(new_.facets[f]);
@@ -134,8 +138,8 @@ void Orienting::turn_piece_by_cells(const std::vector<std::int32_t>& piece) {
         if (is_hull_[piece[i]] && (cells->sides[i].front < 0) != (outward >= 0)) turn(new_.facets[piece[i]]);
 }
 
-// A shell that nothing is around is turned outwards, and what is inside of it is turned with it: a void stays one,
-// though it or what is around it may have a hole.
+// Turns shells that nothing encloses outwards, and shells inside of them with them: a void stays one, though it or the
+// shell around it may have a hole.
 void Orienting::turn_shells_outwards() {
     std::vector<double> fullness = find_fullness();
     const auto has_inside = [](double full) { return std::abs(full) > least_fullness; };
@@ -152,8 +156,8 @@ void Orienting::turn_shells_outwards() {
     turn_shells(is_turned);
 }
 
-// Of each closed shell the outermost closed one around it, maybe itself; -1 of others. Those outermost are as full as
-// can be, unless they touch another.
+// Returns for each closed shell the outermost closed one around it, maybe itself; -1 for others. Sets the fullness of
+// outermost shells to 1 or -1, unless they touch another.
 std::vector<std::int32_t> Orienting::find_roots(std::vector<double>& fullness) const {
     std::vector<std::int32_t> number(fullness.size(), -1), shell, roots(fullness.size(), -1);
     ConsistentFacets closed;
@@ -178,8 +182,8 @@ std::vector<std::int32_t> Orienting::find_roots(std::vector<double>& fullness) c
     return roots;
 }
 
-// The volume between a shell and the middle of its rim; for one that is nearly closed, nearly its own. As a share of
-// the area to the power of 3/2; 0 of closed and one-sided shells.
+// Returns the fullness of open shells: the volume between a shell and the middle of its rim, which for one that is
+// nearly closed is nearly its own, over its area to the power of 3/2; 0 for closed and one-sided shells.
 std::vector<double> Orienting::find_fullness() const {
     struct Open {
         Vec3 middle = Vec3::Zero();
@@ -208,7 +212,7 @@ std::vector<double> Orienting::find_fullness() const {
     return fullness;
 }
 
-// How often other facets wind around each shell with an inside, at some of its facets.
+// Returns the winding number of other facets around each shell with an inside, at some of its facets.
 std::vector<double> Orienting::find_what_is_around(const std::vector<double>& fullness) const {
     constexpr std::size_t most_samples = 64;
     std::vector<std::vector<std::int32_t>> facets_of(fullness.size());

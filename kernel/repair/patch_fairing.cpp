@@ -10,8 +10,8 @@ namespace kerf {
 
 namespace {
 
-// Sum over points w of the patch of |sum over v of weight(w, v) (x_v - x_w)|^2 / area(w); x of points within is
-// unknown.
+// The equations of a fair patch: the sum over points w of the patch of |sum over v of weight(w, v) (x_v - x_w)|^2 /
+// area(w) is least; x is unknown for points within the rims.
 class FairnessEquations {
  public:
     FairnessEquations(const PatchMesh& patch, const PatchSurroundings& around, const Vec3& origin, double scale)
@@ -21,7 +21,7 @@ class FairnessEquations {
         for (const auto& t : around.facets) add(t, patch.rim_count());
     }
 
-    // The new places of the points within; none if there is no solution.
+    // Returns the new places of the points within the rims; none if there is no solution.
     PointRows solve() {
         Eigen::VectorXd weight(patch_.count());
         for (std::int32_t w = 0; w < patch_.count(); ++w) {
@@ -36,7 +36,7 @@ class FairnessEquations {
         const bool is_beside = v >= rim_or_all;
         return ((is_beside ? around_.points[v - rim_or_all] : patch_.points()[v]) - origin_) / scale_;
     }
-    // `count`: of the points of the patch that the numbers may be of.
+    // `count`: numbers below it are points of the patch.
     void add(const std::array<std::int32_t, 3>& t, std::int32_t count) {
         const std::array<Vec3, 3> x = {place(t[0], count), place(t[1], count), place(t[2], count)};
         const double doubled_area = (x[1] - x[0]).cross(x[2] - x[0]).norm();

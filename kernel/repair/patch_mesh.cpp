@@ -1,3 +1,12 @@
+// Triangles with links: corner 3 t + i stands for the edge of triangle t from its vertex i to the next one, and
+// `partner_` has the corner on the other side, -1 at a rim. Edges longer than 4/3 of the wanted length at their ends
+// are split in the middle, with flips between the sweeps, then points move to the middle of their neighbours. An edge
+// is flipped where the angles opposite to it sum up to more than 180 degrees, which the sign of the sum of their
+// cotangents tells.
+//
+// In space flips may go round in circles, so their number is bounded, and a flip must not make an edge that the patch
+// or the surface has already. In split() and flip() the edge goes from a to b, p and q are the points opposite to it,
+// and pa, aq, qb and bp the corners beyond the sides of the quadrilateral.
 #include "repair/patch_mesh.h"
 
 #include <algorithm>
@@ -15,7 +24,7 @@ constexpr std::int32_t most_patch_points = 200'000;  // beyond them it stays coa
 
 std::int32_t previous_corner(std::int32_t corner) { return next_corner(next_corner(corner)); }
 
-// Of the angle at `apex`; large for a triangle without area.
+// Returns the cotangent of the angle at `apex`; large for a triangle without area.
 double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b) {
     const Vec3 u = a - apex, v = b - apex;
     return u.dot(v) / std::max(u.cross(v).norm(), 1e-12 * u.norm() * v.norm());
@@ -35,7 +44,7 @@ PatchMesh::PatchMesh(std::vector<Vec3> points, std::vector<Triangle> triangles,
 
 void PatchMesh::find_partners() { partner_ = edge_partners(triangles_); }
 
-// Half of the two edges of its rim.
+// Sets the size of each point to half of the sum of its two edges of the rim.
 void PatchMesh::find_sizes(const std::vector<std::int32_t>& rim_sizes) {
     next_.assign(points_.size(), 0);
     size_.assign(points_.size(), 0);
@@ -130,7 +139,7 @@ void PatchMesh::split(std::int32_t corner, const Vec3& at, double size) {
 void PatchMesh::relax() {
     std::vector<std::int32_t> open(partner_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = static_cast<std::int32_t>(open.size() - 1 - i);
-    // In space flips may go round in circles.
+    // Flips in space may go round in circles, hence the limit.
     for (std::size_t left = 10 * open.size(); !open.empty() && left > 0;) {
         const std::int32_t corner = open.back();
         open.pop_back();
@@ -157,7 +166,7 @@ bool PatchMesh::should_flip(std::int32_t corner) const {
     return doubled_area_vector(p, a, q).dot(old) > least && doubled_area_vector(q, b, p).dot(old) > least;
 }
 
-// Goes around the start of the corner.
+// Whether a triangle around the start of the corner has an edge from there to a point.
 bool PatchMesh::has_edge(std::int32_t corner, std::int32_t to) const {
     const auto reaches = [&](std::int32_t c) { return start(next_corner(c)) == to || start(previous_corner(c)) == to; };
     for (std::int32_t c = corner;;) {

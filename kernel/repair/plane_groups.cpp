@@ -1,5 +1,5 @@
-// Facets that overlap pair by pair may lead around a bend where they are small or thin. What is not near the plane of
-// the largest facet therefore makes groups of its own.
+// Facets that overlap pair by pair may lead around a bend where they are small or thin. Facets that are not near the
+// plane of the largest one therefore make groups of their own.
 #include "repair/plane_groups.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double allowed_tolerances = 4;
 
-// Facets with the same corners are divided together, whatever pairs they are in.
+// Facets with the same corners are divided together, though they may be in no overlapping pair.
 void join_copies(const DividedFacets& divided, std::span<const std::int32_t> chosen, UnionFind& joined) {
     std::vector<std::pair<Triangle, std::int32_t>> sorted;
     sorted.reserve(chosen.size());

@@ -1,4 +1,4 @@
-// Facets that lie on one another, but for roundings.
+// Facets that lie on one another up to roundings.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace kerf {
 
-/// All pairs that lie in one plane within `tolerance` and share area, of which one is near, ascending. `is_near` (#F):
-/// facets that are found become near, too, and so on. Expected O(#F log #F).
+/// Returns all pairs of facets that lie in one plane within `tolerance` and share area, and of which one is near,
+/// ascending. `is_near` (#F): facets of these pairs become near, too, and so on. Expected O(#F log #F).
 std::vector<FacetPair> plane_overlaps(const DividedFacets& divided, std::vector<char>& is_near, double tolerance,
                                       const std::function<void()>& poll);
 

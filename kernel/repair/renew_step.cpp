@@ -1,4 +1,8 @@
-// What no other step could mend goes, with the facets around it, so that the hole that it leaves can be filled anew.
+// Defects that no other step could mend are cut out, so that the holes can be filled anew. In round r of renewing each
+// defect loses its facets and r - 1 rings of facets around them, the smallest defects first, as long as no more than a
+// quarter of the surface goes. Small open pieces that no step before has closed go before facets are divided at
+// crossings and in the last round, unless they are much of the surface together: then they are what it is made of. The
+// caller fills the holes, and takes a round back that was of no use (repair/repair.cpp).
 #include <algorithm>
 #include <utility>
 
@@ -11,11 +15,11 @@ namespace kerf {
 
 namespace {
 
-// Shares of the area of the surface.
+// Shares of the area of the surface, but for the rim.
 constexpr double largest_share_to_renew = 0.25;
 constexpr double largest_share_of_loose = 0.005;  // of an open piece that may go as a whole
 constexpr double largest_share_of_all_loose = 0.25;
-constexpr double largest_share_of_a_rim = 0.1;  // of the facets of its piece
+constexpr double largest_share_of_a_rim = 0.1;  // open edges of a nearly closed piece, over its facets
 
 class SurfaceRenewal {
  public:
@@ -40,7 +44,8 @@ class SurfaceRenewal {
             if (chosen[f] != 0) area += triangle_area(soup_.vertices, soup_.facets[f]);
         return area;
     }
-    // Those with the least area first, as long as there is room; then more around them, as long as there is.
+    // Takes out defects with the least area first, as long as there is room; then rings of facets around them, as long
+    // as there is.
     void take_out_defects(double largest_area) {
         std::vector<std::pair<double, RemainingDefect>> defects;
         for (RemainingDefect& defect : find_remaining_defects(soup_, request_.amount)) {
@@ -67,7 +72,7 @@ class SurfaceRenewal {
             if (total_area(drop_) > largest_area) drop_ = before;
         }
     }
-    // By all facets that share a vertex with one that goes.
+    // Adds all facets that share a vertex with one that goes.
     void grow() {
         std::vector<char> is_near(soup_.vertices.size(), 0);
         for (std::size_t f = 0; f < drop_.size(); ++f)
@@ -76,8 +81,8 @@ class SurfaceRenewal {
         for (std::size_t f = 0; f < drop_.size(); ++f)
             for (const std::int32_t v : soup_.facets[f]) drop_[f] |= is_near[v];
     }
-    // Pieces that are open, small beside the whole, and that no step before has closed. Where they are much of the
-    // surface together, they are what it is made of, and stay.
+    // Drops pieces that are open, small beside the whole, and not closed by a step before. Where they are much of the
+    // surface together, the surface is made of them, and they stay.
     void drop_loose_pieces(double area_of_all) {
         std::vector<std::pair<double, std::vector<std::int32_t>>> loose;
         double sum = 0;

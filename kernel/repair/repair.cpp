@@ -1,3 +1,10 @@
+// The ladder is climbed once in the order of the table of steps, with the repetitions that repair.h names; apply()
+// gives each step its request and a report, and passes over steps that the plan does not have. Later steps rely on
+// earlier ones: `is_divided_later_` tells steps before `intersections` to leave contacts of bodies alone.
+//
+// renew() then climbs from `manifold` on again in rounds. A round is a transaction: the soup and the list of reports
+// are put back unless fewer defects remain and at least nine tenths of the area that it began with. Round 0 takes
+// nothing out, and only tries longer holes; each further round cuts out more around the defects.
 #include "repair/repair.h"
 
 #include <algorithm>
@@ -62,11 +69,11 @@ class Ladder {
         if (row.kind != RepairKind::holes || !is_renewing_ || last == nullptr) return row.usual;
         return last->amount.value_or(repair_step_rows().back().usual);
     }
-    // Whether the last step was this one, and did something.
+    // Whether the last step was of this kind, and did something.
     bool has_changed(RepairKind kind) const {
         return !report_.steps.empty() && report_.steps.back().kind == kind && report_.steps.back().changed();
     }
-    // Behind intersections: what was divided may touch itself and leave specks, and what touched before waits for it.
+    // Behind intersections: divided facets may touch themselves and leave specks, and contacts from before wait for it.
     void tidy(bool was_divided) {
         if (!soup_.sides.empty()) return;
         if (was_divided) apply(RepairKind::clean);
@@ -74,8 +81,9 @@ class Ladder {
         if (was_divided) apply(RepairKind::specks);
     }
 
-    // Goes up the rest of the ladder again: first with all that is left, then without what is still defective, each
-    // time with more around it. What leaves no less defects than before, or less of the area, is undone.
+    // Goes up the rest of the ladder again: first with all that is left, then without facets that are still defective,
+    // each time with more around them. A round that leaves as many defects as before, or too little of the area, is
+    // undone.
     void renew() {
         const RepairStep* step = plan_.find(RepairKind::renew);
         if (step == nullptr || !soup_.sides.empty() || has_regions()) return;
@@ -104,7 +112,7 @@ class Ladder {
             defects = left;
         }
     }
-    // To whose walls find_remaining_defects() would object.
+    // Whether there are walls, to which find_remaining_defects() would object.
     bool has_regions() const {
         return has_ordinary_facets(soup_) && has_walls(soup_, {.bodies = plan_.bodies, .are_walls = plan_.are_walls});
     }
@@ -127,7 +135,7 @@ class Ladder {
     }
 
     static constexpr int most_renewals = 5;
-    static constexpr double largest_loss = 0.1;  // of the area, in all of them
+    static constexpr double largest_loss = 0.1;  // of the area, over all rounds
 
     Soup& soup_;
     const RepairPlan& plan_;

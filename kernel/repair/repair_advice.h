@@ -1,4 +1,4 @@
-// Which repairs mend which defects.
+// Advice which repairs mend which defects.
 #pragma once
 
 #include <span>
@@ -8,11 +8,12 @@
 
 namespace kerf {
 
-/// The steps that mend defects of a kind, in the order of RepairKind; advice() names the same. Empty: none does.
+/// Returns the steps that mend defects of a kind, in the order of RepairKind; advice() names the same. Empty: none
+/// does.
 std::span<const RepairKind> repairs_for(DefectKind kind);
 
-/// The least level whose steps are there for all errors of a diagnosis; none: no level has what they need, or there are
-/// no errors. What the steps do not refuse only a try tells.
+/// Returns the least level with a step for each error of a diagnosis; none: no level has steps for all, or there are no
+/// errors. Whether these steps refuse something is only known by a try.
 RepairLevel level_for(const Diagnosis& diagnosis);
 
 }  // namespace kerf

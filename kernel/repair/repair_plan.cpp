@@ -1,3 +1,7 @@
+// A plan is parsed word by word, from left to right, by the table of steps (repair/repair_step.h), which also makes the
+// words of help and errors: a new step needs nothing here. A level adds only steps that the plan does not have, so that
+// an amount given before it stays; "no-NAME" takes out the step if it is there by then, so that it must follow the
+// level. Steps are kept ascending by kind, which is the order in which they are done.
 #include "repair/repair_plan.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which repairs a surface is to have, as users write them: "near", "full,holes=200,bound=0.2%", "weld,stitch".
+// The repairs that a surface is to have, as users write them: "near", "full,holes=200,bound=0.2%", "weld,stitch".
 #pragma once
 
 #include <optional>
@@ -22,55 +22,56 @@ enum class RepairKind {
     holes,          ///< openings of few edges are filled
     thicken,        ///< open sheets become walls
     snap,           ///< walls of two bodies that nearly coincide become one
-    intersections,  ///< facets that cross share the curve, and what lies inside goes
-    renew,          ///< what is still defective goes, with facets around it, and is filled
+    intersections,  ///< facets that cross share the curve, and facets inside go
+    renew,          ///< remaining defects go, with facets around them, and are filled
 };
 inline constexpr std::size_t repair_kind_count = static_cast<std::size_t>(RepairKind::renew) + 1;
 
-/// How much is done.
+/// The extent of a repair; each level has the steps of the one before.
 enum class RepairLevel {
     none,
-    exact,  ///< no area is added, and points move only to part what touches, by 1e-4 of the edges there
+    exact,  ///< no area is added, and points move only to part contacts, by 1e-4 of the edges there
     near,   ///< points move within the bound, holes are filled
     full,   ///< facets that cross are resolved, too
 };
 
 const char* name(RepairLevel level);
 
-/// What becomes of bodies that overlap, or that share walls.
+/// The treatment of bodies that overlap, or that share walls.
 enum class BodyRepair {
-    as_found,  ///< what bounds regions by walls that they share stays so; of others their hull
-    unite,     ///< their hull, without walls
-    regions    ///< a region each, with common walls
+    as_found,  ///< regions that share walls stay so; other bodies become their hull
+    unite,     ///< bodies become their hull, without walls
+    regions    ///< bodies become a region each, with common walls
 };
 
 struct RepairStep {
     RepairKind kind;
-    std::optional<Length> amount = {};  ///< a tolerance, a number of edges, ...: what RepairStepRow says; else its own
+    std::optional<Length> amount = {};  ///< a tolerance, a number of edges, ..., see RepairStepRow; none: its usual one
 };
 
 struct RepairPlan {
     std::vector<RepairStep> steps;        ///< ascending by kind, each once
-    Length bound = Length::percent(0.1);  ///< farther from its place no vertex of the input is moved, > 0
+    Length bound = Length::percent(0.1);  ///< the largest move of a vertex of the input from its place, > 0
     BodyRepair bodies = BodyRepair::as_found;
-    bool are_walls = false;         ///< facets part regions that are named elsewhere: none goes but for copies
-    bool voids_are_parity = false;  ///< shells within others that cross none stay, however they are turned
+    bool are_walls = false;         ///< facets part regions that are named elsewhere: no facet goes, except copies
+    bool voids_are_parity = false;  ///< shells within others that cross none stay, whichever way they are turned
 
     bool empty() const { return steps.empty(); }
     const RepairStep* find(RepairKind kind) const;
-    /// Adds a step at its place, or in the place of the one of its kind.
+    /// Adds a step at its place; it replaces one of the same kind.
     void put(const RepairStep& step);
 };
 
-/// The steps of a level, with their own amounts.
+/// Returns the steps of a level, with their usual amounts.
 RepairPlan plan_of(RepairLevel level);
 
-/// A list with commas: a level ("none", "exact", "near", "full"), then steps by name, with "=AMOUNT" where they have
-/// one, "no-NAME" for a step of the level that is left out, "bound=D", and "bodies=unite" or "bodies=regions". Empty:
-/// none. Throws Error(usage), naming `option`, the word and what it may be.
+/// Returns the plan that a list with commas stands for: a level ("none", "exact", "near", "full"), then steps by name,
+/// with "=AMOUNT" where they have one, "no-NAME" for a step of the level that is left out, "bound=D", and
+/// "bodies=unite" or "bodies=regions". An empty text asks for nothing. Throws Error(usage), naming `option`, the word
+/// and its alternatives.
 RepairPlan parse_repair_plan(std::string_view option, std::string_view text);
 
-/// What parse_repair_plan() may be given, as a sentence for help.
+/// Returns the words that parse_repair_plan() takes, as a sentence for help.
 std::string repair_words();
 
 }  // namespace kerf

@@ -11,53 +11,54 @@
 
 namespace kerf {
 
-/// What a step is told.
+/// The request to a step.
 struct StepRequest {
-    double amount = 0;    ///< of the step, a length in units of the surface
-    double bound = 0;     ///< farther no vertex of the input is moved, units of the surface
+    double amount = 0;    ///< of the step, a length in units of the surface or a count
+    double bound = 0;     ///< the largest move of a vertex of the input, units of the surface
     double diagonal = 0;  ///< of the bounding box of the surface as it came
     BodyRepair bodies = BodyRepair::as_found;
     bool are_walls = false;              ///< see RepairPlan
     bool voids_are_parity = false;       ///< see RepairPlan
     std::function<void()> poll = [] {};  ///< to be called now and then; may throw
-    const RepairPlan* plan = {};         ///< all that is asked for; none: this step alone
-    int round = 0;                       ///< of renewing; 0: before facets are divided where they cross
+    const RepairPlan* plan = {};         ///< the whole plan; none: this step alone
+    int round = 0;                       ///< the round of renewing; 0: before facets are divided where they cross
     bool is_last_round = false;
-    bool is_divided_later = false;  ///< facets that cross or touch, by a step behind this one
+    bool is_divided_later = false;  ///< a later step divides facets that cross or touch
 
     bool has(RepairKind kind) const { return plan != nullptr && plan->find(kind) != nullptr; }
 };
 
-/// Changes the soup, see repair(), and says what it did in `report`.
+/// The function of a step: it changes the soup, see repair(), and adds its actions to `report`.
 using ApplyStep = void(Soup& soup, const StepRequest& request, StepReport& report);
 
-/// What can be asked of a step.
+/// The kind of amount that a step takes.
 enum class AmountKind { none, length, count };
 
 struct RepairStepRow {
     RepairKind kind;
     const char* name;   ///< as users write it
-    RepairLevel level;  ///< from which on it belongs to it; none: only by its name
+    RepairLevel level;  ///< the least level that has it; none: it is done only by name
     AmountKind amount;
-    Length usual;      ///< of the amount, where nobody says it
+    Length usual;      ///< the amount where nobody gives one
     const char* help;  ///< "merge vertices nearer than this"
     ApplyStep* apply;
 };
 
-/// In the order of RepairKind.
+/// Returns a row for each step, in the order of RepairKind.
 std::span<const RepairStepRow> repair_step_rows();
 const char* name(RepairKind kind);
 
-/// Whether facets part regions, by walls that these share or are said to, which no step may take out or part; never
-/// where bodies are to be united. Requires ordinary facets. Cost as is_of_touching_bodies() where edges have more than
-/// two facets.
+/// Whether facets part regions, by walls that these share or are said to share, which no step may take out or part;
+/// never where bodies are to be united. Requires ordinary facets. Cost as is_of_touching_bodies() where edges have more
+/// than two facets.
 bool has_walls(const Soup& soup, const StepRequest& request);
 
-/// Says that nothing is done to a surface that has facets with a repeated vertex, or without finite coordinates.
+/// Reports that nothing is done to a surface that has facets with a repeated vertex, or without finite coordinates.
 void refuse_odd_facets(StepReport& report);
 
-/// intersections_step() refuses, and says, surfaces whose coordinates are not finite, and those of which half of the
-/// facets are shorter than doubles as large as the largest coordinate are apart: divided facets would not be theirs.
+/// The functions of the steps. intersections_step() refuses, with a report, surfaces whose coordinates are not finite,
+/// and surfaces half of whose facets are shorter than the spacing of doubles at the largest coordinate: divided facets
+/// would not be theirs.
 ApplyStep weld_step, clean_step, stitch_step, orient_step, manifold_step, specks_step, caps_step, holes_step,
     thicken_step, snap_step, intersections_step, renew_step;
 

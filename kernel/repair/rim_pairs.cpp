@@ -1,3 +1,8 @@
+// Pairs of rims are tested in the order of cost: the distance of their boxes, then the mean distance of a few vertices,
+// each times half of the longer rim as an estimate of the band's area, and only then the band itself. The share of a
+// band is its area over that of the two lids; the bands with the smallest shares are taken first, and each rim once. A
+// band may stand off the surface by hardly more than the flatter lid: otherwise two holes beside each other would be
+// joined by a tunnel.
 #include "repair/rim_pairs.h"
 
 #include <algorithm>
@@ -14,7 +19,7 @@ namespace kerf {
 namespace {
 
 struct RimPair {
-    double share;  // of the areas of the lids
+    double share;  // area of the band over that of the two lids
     std::size_t one, two;
     RimOpening band;
 };

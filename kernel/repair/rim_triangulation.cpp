@@ -1,3 +1,9 @@
+// A rim is triangulated in one of three ways. In its plane, by a constrained Delaunay triangulation, if it is planar,
+// or long and nearly planar. By dynamic programming over the largest angle between neighbours if it has at most 100
+// vertices (Liepa 2003, liepa2003; surface/hole_triangulation.h), which takes O(n^3). A longer one is divided at a
+// short chord, and its halves are triangulated likewise; each half has a vertex of the other as the apex beyond the
+// chord, so that the two bend little there. Triangles name positions in the whole rim. A band between two rims is made
+// by a walk along both that takes the shorter diagonal each time.
 #include "repair/rim_triangulation.h"
 
 #include <algorithm>
@@ -12,7 +18,7 @@ namespace kerf {
 
 namespace {
 
-// Of the rim as it lies in its plane.
+// Triangulates the rim as it lies in its plane.
 std::vector<Triangle> span_in_plane(const std::vector<Vec3>& rim, const RimPlane& plane) {
     const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
     std::vector<Vec3> flat;
@@ -50,7 +56,7 @@ std::vector<Triangle> span_divided(const std::vector<Vec3>& rim, const std::vect
         std::vector<Vec3> half, beside;
         for (std::size_t k = from; k <= to; ++k) half.push_back(rim[k % n]);
         for (std::size_t k = from; k < to; ++k) beside.push_back(apexes[k % n]);
-        beside.push_back(rim[((to + n / 8) % n)]);  // of the chord: a vertex of the other half
+        beside.push_back(rim[((to + n / 8) % n)]);  // beyond the chord: a vertex of the other half
         for (const Triangle& t : triangulate_rim(half, beside))
             triangles.push_back({static_cast<std::int32_t>((from + static_cast<std::size_t>(t[0])) % n),
                                  static_cast<std::int32_t>((from + static_cast<std::size_t>(t[1])) % n),
@@ -100,7 +106,7 @@ std::vector<Triangle> triangulate_band(const std::vector<Vec3>& first, const std
         for (std::size_t j = 0; j < m; ++j)
             if ((first[i] - second[j]).squaredNorm() < (first[from] - second[to]).squaredNorm()) from = i, to = j;
     std::vector<Triangle> triangles;
-    for (std::size_t i = 0, j = 0; i < n || j < m;) {  // the second one backwards
+    for (std::size_t i = 0, j = 0; i < n || j < m;) {  // goes along the second one backwards
         const std::size_t a = (from + i) % n, next_a = (a + 1) % n, b = (to + m - j % m) % m, next_b = (b + m - 1) % m;
         const double by_first = (first[next_a] - second[b]).squaredNorm();
         const double by_second = (first[a] - second[next_b]).squaredNorm();

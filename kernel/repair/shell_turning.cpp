@@ -1,3 +1,9 @@
+// Shells, which hang together over edges of two facets, are made consistent (surface/orientation.h). The sign of its
+// volume tells whether a closed shell points outwards. How other facets wind around it is measured, because shells may
+// cross and none need lie inside of another as a whole: the winding number at up to 64 of its facets, by area, less the
+// 1/2 or -1/2 that the shell has on itself. Above 1/2 the shell lies in a body and stays; below -1/2 it lies in a shell
+// that is inside out, and is turned with that; in between it is turned if it points inwards. If all closed shells point
+// outwards nothing is measured.
 #include "repair/shell_turning.h"
 
 #include <algorithm>
@@ -25,7 +31,7 @@ class ShellTurner {
             facets_of_[consistent_.shell[f]].push_back(static_cast<std::int32_t>(f));
     }
 
-    /// Per facet.
+    /// Returns for each facet whether it is to be turned.
     std::vector<char> run() {
         std::vector<char> to_turn(consistent_.facets.size(), 0);
         for (const std::int32_t f : consistent_.turned) to_turn[f] = 1;
@@ -44,7 +50,7 @@ class ShellTurner {
     }
 
  private:
-    // Those of which an edge is passed in one direction more often than in the other, and one-sided ones.
+    // Marks shells of which an edge is passed in one direction more often than in the other, and one-sided ones.
     std::vector<char> find_open_shells() const {
         std::vector<char> is_open(consistent_.shell_count, 0);
         for (const std::int32_t f : consistent_.contradictions) is_open[consistent_.shell[f]] = 1;
@@ -74,9 +80,9 @@ class ShellTurner {
         constexpr std::size_t most_samples = 64;
         poll_();
         const std::vector<std::int32_t>& own = facets_of_[shell];
-        const double of_shell = is_out ? 0.5 : -0.5;  // on itself
+        const double of_shell = is_out ? 0.5 : -0.5;  // winding number of the shell on itself
         const std::size_t step = (own.size() + most_samples - 1) / most_samples;
-        double area = 0, around = 0;  // how often others wind around it
+        double area = 0, around = 0;  // winding number of the others around it, times area
         for (std::size_t i = 0; i < own.size(); i += step) {
             const double weight = triangle_area(vertices_, consistent_.facets[own[i]]);
             area += weight;

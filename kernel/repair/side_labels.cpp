@@ -1,3 +1,13 @@
+// Two nodes for each facet, its front and back side, are labelled inside or outside by a minimum cut, as the cells of
+// an arrangement are by winding numbers (Zhou et al. 2016, zhou2016; Jacobson et al. 2013, jacobson2013). The vote of a
+// side is its winding number less 1/2, clamped to [-1/2, 1/2], times the area of the facet; it is the capacity of the
+// link to inside or outside. Sides that face each other around an edge (surface/radial_order.h) have a link whose
+// capacity is a share of the squared length of the edge: a cut through it leaves the edge open.
+//
+// Where no edge is open, winding numbers are whole: sides are joined over edges of two facets into sets, and a sample
+// of each patch votes for all of it. Where edges are open, all facets vote, and sides are joined only where their votes
+// agree, since a wall inside may begin at a facet that is missing. The cut is needed only where joined sets that face
+// each other vote differently; if it takes too many steps, votes alone decide.
 #include "repair/side_labels.h"
 
 #include <algorithm>
@@ -79,7 +89,7 @@ class SideLabeller {
         });
     }
 
-    // Area times how far winding numbers are above 1/2, at most 1/2; negative: outside.
+    // Votes for both sides of a facet: weight times winding number less 1/2, at most 1/2; negative: outside.
     void ask(std::int32_t facet, double weight) {
         const double beside = winding_.beside(facet);
         for (const auto& [side, sign] : {std::pair(front_side(facet), -1), std::pair(back_side(facet), 1)})
@@ -126,8 +136,8 @@ class SideLabeller {
         return (of_a > 0) == (of_b > 0) || !(std::abs(of_a - of_b) > jump);
     }
 
-    // Into sets that are labelled as a whole. Where edges are open, those of two facets may be crossed by the border
-    // between inside and outside, as where a wall inside begins at a facet that is missing.
+    // Joins sides into sets that are labelled as a whole. Where edges are open, the border between inside and outside
+    // may cross an edge of two facets, as where a wall inside begins at a facet that is missing.
     void join() {
         UnionFind joined(votes_.size());
         for (std::size_t i = 0; i + 1 < facing_.size(); ++i) {
@@ -145,7 +155,7 @@ class SideLabeller {
     }
 
     std::vector<char> cut() {
-        // An open edge costs as much as facets of this share of its squared length on the wrong side.
+        // The price of an open edge is that of facets on the wrong side with this share of its squared length as area.
         constexpr double cost_of_edge = 0.05;
         constexpr std::int64_t steps_of_link = 1000;
         std::vector<double> votes(sets_.count, 0);
@@ -175,7 +185,7 @@ class SideLabeller {
     const WindingNumber& winding_;
     const std::function<void()>& poll_;
     std::vector<double> areas_, votes_;  // #F; 2 #F
-    std::vector<Facing> facing_;         // those of an edge follow each other
+    std::vector<Facing> facing_;         // the links of an edge follow each other
     bool is_open_ = false;
     Components sets_;  // of sides
 };

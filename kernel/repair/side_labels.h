@@ -1,4 +1,4 @@
-// Which sides of facets are inside.
+// Labels of the sides of facets, inside or outside.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 
 namespace kerf {
 
-/// Whether the space on each side of facets is inside, by front_side() and back_side() (surface/radial_order.h).
+/// Returns whether the space on each side of each facet is inside (2 #F), by front_side() and back_side()
+/// (surface/radial_order.h).
 ///
-/// Winding numbers above 1/2 vote for it, by areas, and sides that face each other around an edge should be alike: of
-/// all labels those win that are least against votes and leave the fewest edges open, a minimum cut. What hangs
-/// together over edges of two facets is labelled as a whole, and only some of its facets vote, if no edge is open; else
-/// all do, and are parted where they disagree.
+/// Winding numbers above 1/2 vote for inside, weighted by areas, and sides that face each other around an edge should
+/// be alike: a minimum cut finds the labels that are least against votes and leave the fewest edges open. If no edge is
+/// open, facets that hang together over edges of two are labelled as a whole, and only some of them vote; else all
+/// vote, and are parted where they disagree.
 ///
-/// `facets`: in range, each once, with different corners, each there so many `times` less often turned; `winding` is
-/// that of them. `poll` may throw. O(#F log #F) and the questions to `winding`.
+/// `facets`: in range, each once, with different corners, each standing for `times` facets, those that are turned
+/// subtracted; `winding` is that of them. `poll` may throw. O(#F log #F) and the questions to `winding`.
 std::vector<char> find_inside_sides(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                     const std::vector<std::int32_t>& times, const WindingNumber& winding,
                                     const std::function<void()>& poll);

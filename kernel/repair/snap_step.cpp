@@ -1,7 +1,7 @@
-// Facets of walls that nearly coincide are divided alike, with the same vertices, so that they are copies of each
-// other. Where that would turn facets over, those around are left out, and it is tried again. Where vertices would move
-// farther than allowed, as those of a chain along which each is near the next, or where bodies would open, all walls
-// stay.
+// Walls of two bodies that nearly coincide (repair/near_walls.h) are divided alike, with the same vertices
+// (arrange_walls()), so that they are copies of each other. Where that would turn facets over, the walls at their
+// vertices are left out, and it is tried again, a few times. Where vertices would move farther than allowed, as those
+// of a chain along which each is near the next, or where bodies would open, all walls stay.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -94,7 +94,7 @@ class WallSnapping {
                bent * unbalanced_length(soup_.vertices, soup_.facets);
     }
 
-    // Whether facets would turn over: walls with a vertex of these are none any more.
+    // Whether facets would turn over: walls with a vertex of these are left out then.
     bool leave_out_turned(const Arrangement& divided) {
         turned_.refused_because = "facets would turn over there";
         std::vector<char> is_at_turned(soup_.vertices.size(), 0);

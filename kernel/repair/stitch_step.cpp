@@ -1,6 +1,7 @@
-// From small distances to the tolerance, so that what fits best is joined first: a vertex on an edge before another
-// vertex farther away. In rounds, until nothing is joined any more: vertices of borders that are near become one, then
-// those near an edge go onto it. Only what makes two facets share an edge stays.
+// Borders are joined at distances that grow up to the tolerance, so that the best fit is joined first: a vertex on an
+// edge before another vertex farther away. At each distance there are rounds, until nothing is joined any more: near
+// vertices of borders become one (repair/border_merger.h), then vertices near an edge go onto it
+// (repair/border_points.h). Only changes stay by which two facets share an edge.
 #include <algorithm>
 
 #include "geometry/closest_point.h"
@@ -15,7 +16,7 @@ namespace kerf {
 namespace {
 
 constexpr int few_stitch_rounds = 2, most_stitch_rounds = 5;
-constexpr double stitch_shares[] = {0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1};  // of the tolerance, one after another
+constexpr double stitch_shares[] = {0x1p-10, 0x1p-8, 0x1p-6, 0x1p-4, 0x1p-2, 1};  // of the tolerance, in turn
 
 class Stitching {
  public:

@@ -1,5 +1,9 @@
-// Each facet of a sheet has two sides. Around an edge a side goes on with that which it faces across the space between
-// two neighbours; at a rim it ends. Corners of sides that hang together so at a vertex are one vertex of the wall.
+// Each facet of a sheet has two sides, front and back, and six corners, 6 f + i. Around an edge a side goes on with the
+// one that it faces across the space between two neighbours (surface/radial_order.h); at a rim it ends. Corners of
+// sides that hang together in this way at a vertex, sets of a union-find, are one vertex of the wall. It moves to where
+// the planes of its facets meet once each is moved by half of the thickness: the least squares of their distances,
+// weighted by angles, without directions in which they hardly differ. Front sides take the places of the facets, back
+// sides follow, and two triangles along each edge of a rim close the wall.
 #include "repair/thickening.h"
 
 #include <algorithm>
@@ -21,7 +25,8 @@ namespace {
 // Corner i of the front of facet f is 6 f + i, of its back 6 f + 3 + i.
 std::int32_t side_corner(std::int32_t corner, bool is_back) { return corner / 3 * 6 + (is_back ? 3 : 0) + corner % 3; }
 
-// A vertex of the sheet, and the two of the wall between which what is around a rim ends, as what goes on there has it.
+// A vertex of the sheet, and the two vertices of the wall between which the closing triangles at a rim end, in the
+// direction of the facets that go on there.
 using RimEnd = std::array<std::int32_t, 3>;
 
 // The planes around a vertex of the wall, each moved by the same height.
@@ -33,7 +38,8 @@ struct MovedPlanes {
         products += weight * normal * normal.transpose();
         sum += weight * normal;
     }
-    // Where they meet, as well as that can be; along directions in which they hardly differ it does not move.
+    // Returns the point where they meet, in the sense of least squares; it does not move along directions in which they
+    // hardly differ.
     Vec3 meeting_point() const {
         constexpr double hardly = 0.05, farthest = 4;
         const SymmetricAxes axes = symmetric_axes(products);
@@ -125,7 +131,7 @@ class Thickener {
             join(one, has_back_ahead(proper_, low, one), two, !has_back_ahead(proper_, low, two));
         }
     }
-    // At both ends of the edge that the corners are.
+    // Joins two sides at both ends of their common edge.
     void join(std::int32_t one, bool back_of_one, std::int32_t two, bool back_of_two) {
         const bool agree = start_vertex(proper_, one) != start_vertex(proper_, two);
         const std::int32_t start = agree ? next_corner(two) : two, end = agree ? two : next_corner(two);
@@ -208,7 +214,7 @@ class Thickener {
         }
         close_seams(std::move(ends), patch);
     }
-    // Where rims of more than two sheets meet, the ends of what is around them leave a polygon open.
+    // Closes the polygons that the ends of closing triangles leave where rims of more than two sheets meet.
     void close_seams(std::vector<RimEnd> ends, std::int32_t patch) {
         std::sort(ends.begin(), ends.end());
         std::vector<RimEnd> open;
@@ -245,7 +251,7 @@ class Thickener {
     UnionFind same_;                         // corners of sides
     std::vector<Triangle> proper_;           // facets with three vertices
     std::vector<std::int32_t> number_;       // of these in the soup
-    std::vector<std::int32_t> rims_;         // corners at whose edges their walls end
+    std::vector<std::int32_t> rims_;         // corners at whose edges walls end
     std::vector<std::int32_t> wall_vertex_;  // of each corner of a side
     std::int32_t next_number_ = -1;
     Thickening done_;

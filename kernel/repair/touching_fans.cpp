@@ -1,3 +1,13 @@
+// A fan is a set of corners of facets at one vertex that edges connect, by pairs where an edge has more than two facets
+// (repair/edge_pairs.h). Each fan but the widest of a vertex gets a copy of the vertex, which moves along the fan's
+// middle, the mean direction of its edges; its narrowness is the least cosine of an edge with the middle, and the fan
+// where it is least is the widest. A move is 1e-4 of the shortest edge, or the resolution of single precision if that
+// is more, so that files keep it. Pairs of facets at an edge whose ends are still common then get a middle of their
+// own, moved into the wedge of material between the two facets; the pair with the widest wedge keeps the edge.
+//
+// All moves are tried at once; those whose facets cross something that they did not cross before are taken back, until
+// none do. Fans with facets that lie on others at the vertex are not moved at all, because a move would leave a crack
+// between bodies that touch.
 #include "repair/touching_fans.h"
 
 #include <algorithm>
@@ -19,11 +29,11 @@ namespace kerf {
 namespace {
 
 constexpr double move_share = 1e-4, largest_move_share = 0.25;
-constexpr double single_precision = 0x1p-22;  // of a coordinate; what files of single precision can tell
+constexpr double single_precision = 0x1p-22;  // of a coordinate; the resolution of files of single precision
 constexpr int most_separation_rounds = 6;
 constexpr std::size_t most_fan_crossings = 100'000;
 
-// How far something may move apart at a point; 0 if that is too near to tell.
+// Returns the distance by which something may move at a point; 0 if none is both large enough to tell and small enough.
 double move_at(const Vec3& point, double shortest_edge, double bound) {
     const double move = std::max(move_share * shortest_edge, single_precision * point.cwiseAbs().maxCoeff());
     return move <= std::min(bound, largest_move_share * shortest_edge) ? move : 0;

@@ -1,4 +1,4 @@
-// Places where a surface touches itself, at a vertex or along an edge, and how they come apart.
+// Places where a surface touches itself, at a vertex or along an edge, and their separation.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,19 @@
 
 namespace kerf {
 
+/// The outcome of a separation.
 struct FanSeparation {
     std::vector<RepairAction> actions;
-    double largest_move = 0;
+    double largest_move = 0;  ///< of a fan, in units of the surface
 };
 
-/// Gives each closed fan of facets at a vertex but the widest a vertex of its own, and at an edge of more than two
-/// facets both of whose ends have one fan each pair but one a middle of its own (repair/edge_pairs.h). They move into
-/// their fan, by 1e-4 of its shortest edge, or what single precision can tell if that is more, at most by `bound`.
-/// What would cross other facets then, or lies on others at the vertex, stays as it is, and is said. Open fans stay
-/// together: what fills the openings joins them. `at_openings`: only at vertices of edges of one facet. Requires finite
-/// coordinates, facets with three different vertices, and orientation. O(#F log #F).
+/// Parts a surface where it touches itself. At a vertex each closed fan of facets but the widest gets a vertex of its
+/// own. At an edge of more than two facets whose ends are not parted so, each pair of facets (repair/edge_pairs.h) but
+/// the widest gets a middle of its own. New vertices move into their fan or pair, by 1e-4 of its shortest edge, or by
+/// the resolution of single precision if that is more, at most by `bound`. A fan that would cross other facets then, or
+/// lies on others at the vertex, stays as it is, and is reported. Open fans stay together: patches of the openings join
+/// them. `at_openings`: only at vertices of edges of one facet. Requires finite coordinates, facets with three
+/// different vertices, and orientation. O(#F log #F).
 FanSeparation separate_fans(Soup& soup, double bound, bool at_openings = false);
 
 }  // namespace kerf

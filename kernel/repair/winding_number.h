@@ -1,4 +1,4 @@
-// How often facets wind around a point, closed or not.
+// The winding number of facets around a point, closed or not.
 #pragma once
 
 #include <array>
@@ -10,32 +10,33 @@
 
 namespace kerf {
 
-/// The generalised winding number of a triangle soup (jacobson2013): the solid angle that the facets fill as seen from
-/// a point, over 4 pi, positive where their backs are seen. Inside of closed facets with normals that point out it is
-/// 1, outside 0; each hole lets it fall off gently, 1/2 in the middle of it.
+/// The generalised winding number of a triangle soup (Jacobson et al. 2013, jacobson2013): the solid angle that the
+/// facets fill as seen from a point, over 4 pi, positive where their backs are seen. Inside of closed facets with
+/// normals that point out it is 1, outside 0; each hole lets it fall off gently, to 1/2 in the middle of the hole.
 ///
-/// Facets far from the point are taken together (barill2018), a node of a tree by its dipole and quadrupole; near ones
-/// have their exact solid angle (vanoosterom1983). The error is below 0.01, where facets close below 0.002. Built in
-/// O(n log n), 0.4 s for a million facets; a question is O(log n), some microseconds. About 300 bytes a facet.
-/// Deterministic, and for several threads at once.
+/// Facets far from the point are taken together (Barill et al. 2018, barill2018), a node of a tree by its dipole,
+/// quadrupole and octupole; near ones have their exact solid angle (van Oosterom and Strackee 1983, vanoosterom1983).
+/// The error is below 0.01, where facets close below 0.002. Built in O(n log n), 0.4 s for a million facets; a question
+/// takes O(log n), some microseconds. About 300 bytes a facet. Deterministic; several threads may ask at once.
 class WindingNumber {
  public:
-    /// `times`: how often each facet counts, negative: turned; empty: once each. Facets without area count nothing.
+    /// `times`: how often each facet counts, negative for turned ones; empty: once each. Facets without area count
+    /// nothing.
     WindingNumber(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                   const std::vector<std::int32_t>& times = {});
 
-    /// At a point, which should not lie on a facet.
+    /// Returns the winding number at a point, which should not lie on a facet.
     double at(const Vec3& point) const { return sum(point, -1); }
-    /// At the centroid of a facet, without that facet: a facet that counts t times adds t / 2 behind and takes it away
-    /// in front.
+    /// Returns the winding number at the centroid of a facet, without that facet: a facet that counts t times adds t /
+    /// 2 behind and takes it away in front.
     double beside(std::int32_t facet) const;
 
  private:
     using QuadraticForm = std::array<double, 6>;  // xx, yy, zz, xy, yz, zx
     using CubicForm = std::array<double, 10>;     // xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
     struct Node : BoxNode {
-        double area = 0;             // of all facets below
-        Vec3 centre = Vec3::Zero();  // of these
+        double area = 0;             // of all facets below the node
+        Vec3 centre = Vec3::Zero();  // of these facets, by area
         Vec3 dipole = Vec3::Zero();  // the sum of the area vectors
         QuadraticForm quadrupole = {};
         CubicForm octupole = {};

@@ -1,3 +1,9 @@
+// A wrap is an alpha wrap with an offset (Portaneri et al. 2022, portaneri2022; repair/alpha_wrap.h), whose vertices
+// are drawn back to the surface (repair/wrap_pullback.h). Facets without area are left out first. Then the distance
+// from wrap to surface and back is proven, not sampled (repair/proven_distance.h); the way back counts only facets that
+// are seen, from which a ray across them leaves freely on one side, because facets inside are lost on purpose. The gap
+// is the diameter of the balls that carve; its limits, as shares of the diagonal, and an estimate of the number of
+// facets, area over squared gap, keep the cost in bounds.
 #include "repair/wrap.h"
 
 #include <algorithm>
@@ -21,7 +27,7 @@ namespace {
 
 constexpr double no_length_of_wrap = 1e-9;  // of the diagonal
 
-// Facets that are none.
+// Marks facets without area or finite coordinates.
 std::vector<char> facets_without_area(const Soup& soup) {
     std::vector<char> is_none(soup.facets.size(), 0);
     for (std::size_t f = 0; f < is_none.size(); ++f) {
@@ -78,7 +84,7 @@ std::vector<std::int32_t> patches_of_wrap(const TriangleSet& wrap, const Triangl
     return patch;
 }
 
-// What the wrap has in place of what the soup had.
+// Puts the wrap into the soup, in the place of its surface.
 void put_wrap_into(Soup& soup, TriangleSet wrap, std::vector<std::int32_t> patch) {
     Soup wrapped{std::move(wrap.vertices), std::move(wrap.facets), std::move(patch), std::move(soup.patch_names)};
     wrapped.notes = std::move(soup.notes);

@@ -1,3 +1,13 @@
+// Each vertex of the wrap has a start, its place in the wrap, a target, the closest point of the input, and a count
+// `held_` of how often its move was halved; at 3 it does not move. Edges whose middle leaves the input are divided at
+// targets where the planes of their ends meet, facets with three such edges also at a corner, as sharp features are
+// restored by Attene et al. (2003, attene2003); then edges of flat facets are flipped. Where the wrap is thin, targets
+// are less far, so that the two sides do not meet.
+//
+// The start has no intersections, and that is the invariant: all vertices go to their targets at once, the vertices of
+// facets that cross or are spoilt are held back, and this is repeated until there are none. Afterwards some that were
+// held are released again, all or an independent set in turn. If facets still cross at the end, the wrap is returned as
+// it came.
 #include "repair/wrap_pullback.h"
 
 #include <algorithm>
@@ -41,15 +51,15 @@ class WrapPullback {
     static constexpr double leaves_input =
         0.03;                               // of the length of an edge: so far from the input its middle is off it
     static constexpr double beside = 0.01;  // of the offset: facets of the place itself
-    static constexpr double least_thickness = 1.5;      // of the offset, of what is left of the wrap
+    static constexpr double least_thickness = 1.5;      // of the offset, left of the wrap
     static constexpr double far_from_input = 0.3;       // of the length: bridges something
     static constexpr double near_input = 0.1;           // of the length: planes meet on the input
     static constexpr double sharp_cosine = 0.82;        // of normals, 35 degrees
-    static constexpr double along_normal = 0.8;         // cosine: what is beside an opening is not below it
+    static constexpr double along_normal = 0.8;         // cosine: a point beside an opening is not below it
     static constexpr double least_corner = 0.2;         // volume that three normals span
     static constexpr double flattest_facet = 0.02;      // height over length: below that an edge is flipped
     static constexpr double thinnest_facet = 1e-3;      // height over length that may come of a move
-    static constexpr double turned_cosine = 0.1;        // of a facet and what it was
+    static constexpr double turned_cosine = 0.1;        // of a facet and its former self
     static constexpr double flipped_cosine = 0.5;       // of facets beside an edge that is flipped
     static constexpr std::size_t most_pairs = 200'000;  // of facets that cross, looked for at once
     static constexpr std::uint64_t release_rounds = 6;  // in which vertices that are held back are tried again
@@ -71,8 +81,8 @@ class WrapPullback {
         }
     }
 
-    // What starts at a point goes to another, or less far where the wrap is thin, so that what comes from its other
-    // side does not meet it.
+    // Adds the target of a vertex, less far where the wrap is thin, so that it does not meet the vertices of the other
+    // side.
     void add_target(const Vec3& start, const Vec3& to) {
         const Vec3 way = to - start;
         const double length = way.norm(), least = least_thickness * offset_, far = 3 * length + least;
