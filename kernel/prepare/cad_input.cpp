@@ -1,3 +1,12 @@
+// Files of other libraries are read by child processes, kerf-cad and kerf-3mf, because OpenCASCADE takes longer to load
+// than a small mesh takes, may crash, and need not be installed. The child gets the path and the options as arguments,
+// for projections the points on standard input, and answers in the bytes of io/cad_body.h: a body, projected points, or
+// an error with its code. No answer means a crash or a program of another build, which are told apart by the way the
+// child ended. The answer names the hash of the bytes that were read, and is refused if it is not that of the file
+// which the caller has hashed.
+//
+// Formats are recognised by content, after decompression. Binary STL never comes through here as a whole string: it is
+// read and hashed by blocks.
 #include "prepare/cad_input.h"
 
 #include <optional>
@@ -18,7 +27,7 @@ namespace kerf {
 
 namespace {
 
-// `input`: for its standard input.
+// `input`: the standard input of the program.
 ChildResult run_import_program(const std::string& program, const std::vector<std::string>& arguments, Bytes input,
                                double timeout_seconds) {
     ChildPool pool;
@@ -26,7 +35,7 @@ ChildResult run_import_program(const std::string& program, const std::vector<std
     return pool.wait_any()->result;
 }
 
-// The answer, or a sentence for a child that gave none.
+// Returns the answer, or throws an error with a sentence for a child that gave none.
 CadAnswer answer_of(const ChildResult& result, const std::string& path, const std::string& program,
                     const ImportProgram& kind) {
     if (result.end == ChildResult::End::exited) try {
@@ -41,7 +50,7 @@ CadAnswer answer_of(const ChildResult& result, const std::string& path, const st
                                               path, kind.library, kind.name, result.describe(), kind.origin));
 }
 
-// Units are converted only where the file says what they were.
+// Refuses a unit for a file that names none, because units are converted only from the one of the file.
 void refuse_unit(const std::string& path, const CadOptions& options) {
     if (!options.unit_is_asked && options.unit == LengthUnit::mm) return;
     throw Error(ErrorCode::usage,

@@ -1,3 +1,11 @@
+// A place is the part of the model on which a point must lie: the faces of some patches, or, if it is a curve, the edge
+// that they share. A vertex on no border lies on the face of its patch, one between two borders of the same patches on
+// their curve, and every other vertex is a corner, which stays. One call of kerf-cad projects all vertices and the
+// middles of all edges.
+//
+// Moves are all or nothing for each vertex. All are made at once; vertices that moved too far stay, and then those of
+// facets that turned too far or cross others, until there are none: so the surface ends as closed and free of
+// intersections as it began. A middle between ends that do not lie on their faces is of no use, and becomes NaN.
 #include "prepare/cad_nodes.h"
 
 #include <algorithm>
@@ -21,7 +29,7 @@ constexpr double furthest_move = 0.3;        // of the shortest edge at a vertex
 constexpr double near_face = 1e-3;           // of an edge: its end lies on the face
 constexpr double least_turn_of_facet = 0.5;  // cosine
 
-// Numbers for places as they come.
+// Numbers of places, in the order in which these come.
 class PlaceNumbers {
  public:
     std::int32_t of(const std::vector<std::int32_t>& patches, bool is_curve) {
@@ -83,7 +91,7 @@ CadPoints points_of(const PlacedSurface& surface, const std::vector<std::string>
     return points;
 }
 
-// Moves that leave the surface what it is; a vertex moves, or it stays.
+// Moves of vertices, all or nothing for each, by which the surface stays closed, free of intersections and unturned.
 class SurfaceMoves {
  public:
     SurfaceMoves(const PlacedSurface& surface, std::vector<Vec3> moved)

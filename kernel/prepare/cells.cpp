@@ -1,5 +1,7 @@
-// Forecasts fall while the size grows, nearly as a power of it: so the size is found by the secant of logarithms,
-// between one that gives too many tetrahedra and the diagonal.
+// Forecasts fall while the size grows, nearly as a power of it: so the size is found by the secant of logarithms (the
+// Illinois variant of regula falsi), between one that gives too many tetrahedra and the diagonal. A remeshed surface
+// depends on the size in ways that no forecast knows: then a few sizes are tried in full, each from the slope of the
+// last two, and the closest is kept.
 #include "prepare/cells.h"
 
 #include <algorithm>
@@ -26,7 +28,7 @@ constexpr double good_forecast = 0.005, good_remeshing = 0.05, noted_excess = 0.
 constexpr double usual_slope = -2.3, flattest_slope = -0.8, steepest_slope = -3.2, largest_step = 4;
 constexpr double usual_edge = 0.89, usual_longest = 1;  // of facets of a remeshed surface, over the wanted length
 
-// What a surface with these options will be filled with, by size. 0: none.
+// Forecasts of the number of tetrahedra that a surface with these options will be filled with, by size. 0: no size.
 class TetForecast {
  public:
     TetForecast(const Input& input, RunOptions options)
@@ -39,7 +41,7 @@ class TetForecast {
         return tets_at_facets(surface_, half_thickness(), options.mesher, coarse) +
                tets_inside(sized_volume_of(options), options.mesher);
     }
-    // If this is done before.
+    // Forecast for a surface that this change will be made to first.
     double tets_after(SurfaceChange change, double size) const {
         if (change == SurfaceChange::remeshing) return tets_if_remeshed(size);
         return tets(size, change == SurfaceChange::division ? CoarseFacets::divided : CoarseFacets::kept);
@@ -65,7 +67,7 @@ class TetForecast {
     const Input& input_;
     SurfaceArrays surface_;
     RunOptions options_;
-    SizeField places_;  // what is asked for besides
+    SizeField places_;  // the other sizes that are asked for
 };
 
 // Written as it is used.
@@ -105,7 +107,7 @@ double forecast_size(const Input& input, const RunOptions& options, SurfaceChang
                      [&](double size) { return std::log(forecast.tets_after(change, size) / cells); });
 }
 
-// The next size after those that were tried, with what came of them.
+// Returns the next size to be tried, by the slope of the forecasts for the last ones.
 double next_size(const std::vector<FoundSize>& tried) {
     const FoundSize& last = tried.back();
     double slope = usual_slope;

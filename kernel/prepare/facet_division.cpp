@@ -1,3 +1,11 @@
+// First each edge of the surface is divided, once for all of its facets: the number of wanted lengths along it is the
+// integral of 1 / size, by steps that are halved until the size hardly varies within one, and its pieces are cut at
+// equal shares of that integral. Of several fields the finest of the facets at the edge counts. Then each facet is
+// triangulated in its plane with these points as its outline, as interfaces are (cut/triangulation.h).
+//
+// Because a facet depends on its outline and the field alone, nothing has to be agreed with its neighbours. Where
+// rounding leaves the outline no inside, the facet is divided without regard to coordinates, by halving the side with
+// most points. Numbers of points on an edge go from its smaller end to the other.
 #include "prepare/facet_division.h"
 
 #include <algorithm>

@@ -1,3 +1,11 @@
+// All ways to a surface go through check_files() and to_input(). check_files() does, in this order: exact welding,
+// welding within a tolerance, the simple repairs, the ladder of repairs (repair/repair.h), the wrap, points of regions,
+// and the diagnosis with its search for regions. The order is part of what users see: each step counts on the ones
+// before. to_input() refuses a surface with errors, drops superfluous facets and orients the rest, and makes the
+// complex; vertices and facets get keys of node 0, which are their numbers.
+//
+// Arrays of other programs are checked row by row first, in every build, because nothing behind that checks numbers
+// again. Regions exclude the optimisation of the surface and patches by angles.
 #include "prepare/input.h"
 
 #include <algorithm>
@@ -100,7 +108,7 @@ std::vector<double> largest_cells_of(const Soup& soup) {
     return is_any ? largest : std::vector<double>();
 }
 
-// Of a surface that was read or given. `advice`: what else to do where it cannot be meshed.
+// Makes the input of a surface that was read or given. `advice`: a sentence for one that cannot be meshed.
 Input to_input(CheckedSoup checked, const std::string& path, const InputOptions& options, const char* advice) {
     Input input;
     input.path = path;
@@ -152,7 +160,7 @@ class RefusedRows {
     RefusedRows(const char* array, ElementKind kind) : array_(array), elements_{kind, {}, {}, {}} {}
 
     void add(std::size_t row) { elements_.ids.push_back(static_cast<std::int64_t>(row)); }
-    /// `describe`: what the row with this number is, and why that is wrong.
+    /// `describe`: returns the content of the row with this number, and the reason why it is wrong.
     template <class Describe>
     void throw_if_any(Describe describe) const {
         if (elements_.ids.empty()) return;
@@ -236,7 +244,7 @@ std::string hash_of(const Soup& soup) {
     return hash_text(hasher.digest());
 }
 
-// What was not given gets its default.
+// Gives defaults to arrays that were not given, and checks all.
 void check_given(Soup& soup) {
     if (soup.patch.empty()) soup.patch.assign(soup.facets.size(), 0);
     check_sizes(soup);
@@ -280,7 +288,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     repairs.unused_vertices = drop_unused_vertices(soup);
     if (options.wraps()) {
         checked.wrapped = wrap(soup, options.wrapping, poll);
-        files = {{}, files.hash, {}, {}};  // one body, whatever was in them
+        files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
     }
     take_points(soup, options);
     diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);

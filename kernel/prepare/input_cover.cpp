@@ -1,3 +1,10 @@
+// Side 2 f is the one behind facet f, side 2 f + 1 the one in front of it; a side is wanted if it has a region. Facets
+// belong to ranks by ranges of their numbers. In a good run no list of facets is sent: each rank sums random words, a
+// function of the side's number, over the sides that its leaves have and over the wanted sides that it owns. If both
+// sums agree over all ranks, each wanted side is there exactly once, but for a chance of 2^-128. Only if they differ,
+// the owners of facets are told the sides of all leaves, and count. Facets that straight cuts have divided are compared
+// as geometry: their pieces go to the owner, which checks that they cover the facet exactly once
+// (surface/facet_cover.h).
 #include "prepare/input_cover.h"
 
 #include <algorithm>
@@ -41,7 +48,7 @@ class SidesOfFacets {
         const FacetSides& facet = sides_.empty() ? FacetSides{} : sides_[static_cast<std::size_t>(side / 2)];
         return (side % 2 == 0 ? facet.back : facet.front) >= 0;
     }
-    // Of a facet of a leaf in this region; the region may be another than that of the side.
+    // Returns the side of a facet of a leaf in this region; the region may be another than that of the side.
     std::int64_t side_of(std::int32_t facet, RegionIndex region) const {
         const bool is_in_front = !sides_.empty() && sides_[static_cast<std::size_t>(facet)].back != region.value();
         return 2 * std::int64_t{facet} + (is_in_front ? 1 : 0);
@@ -157,7 +164,7 @@ struct QuickCount {
     std::int64_t in_wrong_regions;  // facets in leaves of regions that they do not bound
 };
 
-// By 24 bytes of each rank.
+// The difference of both sums, 24 bytes of each rank, tells whether all is there.
 QuickCount count_quickly(Communicator& ranks, const SidesOfFacets& sides, const std::vector<Leaf>& leaves) {
     const SumOfNumbers wanted = sum_of_wanted(ranks, sides);
     SumOfNumbers there;

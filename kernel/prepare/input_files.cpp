@@ -1,3 +1,9 @@
+// Several files become one soup by appending, in the order in which they are given, which is also that of the regions.
+// Numbers of vertices and polygons in the file, which are left implicit where they equal places, are written out as
+// soon as one file has its own, and those of each further file begin behind the last. Bodies are told apart by
+// `file_of_patch`, so a patch never spans two files. A file that is given twice is found by its hash, since two equal
+// bodies would overlap everywhere. The JSON with the regions of patches is read beside a single file only, and is part
+// of the hash.
 #include "prepare/input_files.h"
 
 #include <algorithm>

@@ -1,3 +1,8 @@
+// Every facet between two leaves has two sides in two leaves, maybe on two ranks. Each rank tells a side to the rank
+// that the key of the facet chooses; there all sides are sorted by name, which is the key with the corner keys in a
+// canonical rotation and orientation, because pieces of a facet that straight cuts have split share its key. Sides with
+// one name are neighbours of each other; a match is perfect if there are two, in two leaves, of opposite orientation.
+// The answers are sent back in the order in which sides were told, so that they need no names.
 #include "prepare/interface_match.h"
 
 #include <algorithm>
@@ -18,7 +23,7 @@ struct ToldSide {
     NodeId leaf;
     bool is_reversed;
     std::int32_t rank;  // that has told it
-    std::size_t place;  // in what it has told
+    std::size_t place;  // among the sides that it has told
 
     auto name() const { return std::tie(facet, vertices); }
     auto order() const { return std::tie(facet, vertices, leaf, is_reversed, rank, place); }
@@ -91,7 +96,7 @@ InterfaceMatch::InterfaceMatch(Communicator& ranks, const std::vector<Leaf>& lea
     unmatched_ = sum_of(ranks, match(exchange_items(ranks, std::move(told)), found));
     found = exchange_items(ranks, std::move(found));
     for (const Leaf& leaf : leaves) neighbours_.emplace_back(leaf.surface.facets.size(), -1);
-    std::vector<std::size_t> next(found.size(), 0);  // answers come in the order of what was told
+    std::vector<std::size_t> next(found.size(), 0);  // answers come in the order of the sides that were told
     for_each_shared_facet(leaves, sides, [&](std::size_t i, std::size_t f) {
         const std::size_t owner = owner_of(leaves[i].surface, f);
         neighbours_[i][f] = found[owner][next[owner]++];

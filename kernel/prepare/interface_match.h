@@ -1,4 +1,4 @@
-// Both sides of every interface, brought together over all ranks.
+// The two sides of every interface, brought together over all ranks.
 #pragma once
 
 #include <span>
@@ -29,17 +29,19 @@ struct InterfaceSide {
     }
 };
 
-/// What lies on the other side of the facets between leaves. Both sides of a facet are told to one rank, which its key
-/// chooses, and that tells the ranks of the leaves what it has found: memory and messages of a rank follow the
+/// The leaves on the other sides of facets between leaves. Both sides of a facet are told to one rank, which its key
+/// chooses, and that rank tells the ranks of the leaves their neighbours: memory and messages of a rank follow the
 /// interfaces of its own leaves. O(n log n) for n facets of them.
 class InterfaceMatch {
  public:
-    /// Collective. `leaves`: of this rank. `sides`: as above.
+    /// Collective. `leaves`: of this rank. `sides`: see is_between_leaves().
     InterfaceMatch(Communicator& ranks, const std::vector<Leaf>& leaves, std::span<const FacetSides> sides = {});
 
-    /// For each facet of the leaf with this place on this rank the leaf on the other side, -1 where there is none.
+    /// Returns, for the leaf with this place on this rank, the leaf on the other side of each of its facets, -1 where
+    /// there is none.
     const std::vector<NodeId>& neighbours(std::size_t leaf) const { return neighbours_[leaf]; }
-    /// Facets of all ranks that do not appear exactly twice, on two leaves, with the same vertices in opposite order.
+    /// Returns the number of facets of all ranks that do not appear exactly twice, on two leaves, with the same
+    /// vertices in opposite order.
     std::int64_t unmatched() const { return unmatched_; }
 
  private:

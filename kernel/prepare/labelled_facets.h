@@ -7,8 +7,8 @@
 
 namespace kerf {
 
-/// The facets with a label in place of their patch, which says the patch and the sides: what is made of them tells by
-/// its labels what it is. Walls have the region of the smaller number behind them, so that those beside each other
+/// The facets of a complex with labels, which say patch and sides, in place of their patches: facets that are made of
+/// them have their labels. Walls have the region of the smaller number behind them, so that walls beside each other
 /// face the same way.
 struct LabelledFacets {
     struct Label {
@@ -22,12 +22,12 @@ struct LabelledFacets {
     std::vector<Label> labels;  ///< in the order of their first facets
     std::vector<char> walls;    ///< #F; whether the facet lies between two regions; empty for one region
 
-    /// The complex of other facets with these labels. `names`: of the regions. Throws Error as Complex does.
+    /// Makes the complex of other facets with these labels. `names`: of the regions. Throws Error as Complex does.
     Complex to_complex(SurfaceArrays facets, std::vector<std::string> names) const;
 };
 
-/// Copies of a vertex, at which the surface of a single region touches itself, are one again, and the others move up.
-/// O(#F log #labels).
+/// Labels the facets of a complex. Copies of a vertex, at which the surface of a single region touches itself, are one
+/// again, and the others move up. O(#F log #labels).
 LabelledFacets label_facets(const Complex& complex);
 
 }  // namespace kerf

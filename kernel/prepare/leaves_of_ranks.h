@@ -1,4 +1,4 @@
-// Where the leaves of a run are.
+// The ranks that hold the leaves of a run.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace kerf {
 /// The leaves of all ranks, in the order of the tree, and the ranks that hold them. 16 bytes a leaf.
 class LeavesOfRanks {
  public:
-    /// Collective. `own`: of this rank; those of all ranks follow each other in the tree.
+    /// Collective. `own`: the leaves of this rank; those of all ranks follow each other in the tree.
     LeavesOfRanks(Communicator& ranks, const std::vector<Leaf>& own);
 
     const std::vector<NodeId>& ids() const { return ids_; }

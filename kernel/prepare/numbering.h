@@ -8,17 +8,17 @@
 
 namespace kerf {
 
-/// The vertices of the input come first, then those that each cut added, by node number, then the interior ones of each
-/// leaf, in the order of the tree.
+/// Numbers of vertices: those of the input come first, then those that each cut added, by node number, then the
+/// interior ones of each leaf, in the order of the tree.
 class VertexNumbering {
  public:
     /// `nodes`: all nodes of the tree, ascending by number.
     VertexNumbering(std::int64_t input_vertices, std::span<const TreeNode> nodes);
 
-    /// The key must be that of an input's vertex or of one that a cut has made.
+    /// Returns the number of a vertex of the input or of one that a cut has made, which the key must be of.
     std::int64_t global_id(Key key) const { return offset_of(key_node(key)) + key_index(key); }
     std::vector<std::int64_t> global_ids(const std::vector<Key>& keys) const;
-    /// Number of the first interior vertex of all leaves.
+    /// Returns the number of the first interior vertex of all leaves.
     std::int64_t surface_vertices() const { return end_; }
 
  private:

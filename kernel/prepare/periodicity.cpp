@@ -1,5 +1,7 @@
 // Vertices are sorted into columns along an axis, of those that agree in the other two coordinates: within a column
-// each pair that lies far enough apart votes for its distance.
+// each pair that lies far enough apart votes for its distance. The period is the largest distance with at least half as
+// many votes as any other. Facets are paired afterwards: corners are moved by a period to their partners, and the facet
+// with these corners must have the opposite orientation.
 #include "prepare/periodicity.h"
 
 #include <algorithm>

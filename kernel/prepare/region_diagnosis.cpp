@@ -1,3 +1,12 @@
+// A surface may be one body or several, and which it is may be said by sides of facets, by points of regions, by names
+// of walls in a JSON, by files, by closed patches, or not at all. These are tried in that order, and where something is
+// said it counts: if it does not fit facets that are sound by themselves, that is an error of its own
+// (MisplacedRegion). Otherwise the surface is diagnosed as one body; only if that finds errors as bodies with common
+// walls have them, regions are searched for, and they are taken only if the surface is clean with them. So a surface of
+// one clean body costs nothing more than its diagnosis.
+//
+// If nothing fits, known bodies are diagnosed one by one, and the places where two of them do not fit come first.
+// "Divided" is a copy of the soup with sides, which replaces the soup when it is taken.
 #include "prepare/region_diagnosis.h"
 
 #include <algorithm>
@@ -17,7 +26,7 @@ namespace kerf {
 
 namespace {
 
-// What facets of several bodies look like to a diagnosis that takes them for one.
+// Whether the diagnosis as one body finds defects as several bodies with common walls have them.
 bool may_be_several_bodies(const Diagnosis& diagnosis) {
     constexpr std::array kinds = {DefectKind::duplicate_facet, DefectKind::coincident_shell,
                                   DefectKind::non_manifold_edge};
@@ -29,8 +38,8 @@ void take_regions(CheckedSoup& checked, Soup divided, Diagnosis diagnosis) {
     checked.diagnosis = std::move(diagnosis);
 }
 
-// What was said of regions counts, and what is wrong with that; but where facets have gaps or intersect, these are what
-// is wrong. `find(soup)`: sets the sides. `file`: where it was said, empty for the file of the surface.
+// Takes the regions that were named, or throws an error about them; but where facets have gaps or intersect, these are
+// the defects. `find(soup)`: sets the sides. `file`: the file that names the regions, empty for that of the surface.
 template <class Find>
 void diagnose_said(CheckedSoup& checked, const DiagnosisOptions& options, const std::string& file, const Find& find) {
     Soup divided = checked.soup;
@@ -96,7 +105,7 @@ std::vector<std::int32_t> files_of_patches(const Soup& soup, const InputFiles& f
     return file_of_patch;
 }
 
-// Files, or else patches that are closed by themselves. None: it is not known what the bodies are.
+// Returns the files as bodies, or else patches that are closed by themselves. None: the bodies are not known.
 GivenBodies known_bodies(const Soup& soup, const InputFiles& files) {
     if (files.names.empty()) return closed_patches(soup);
     GivenBodies bodies{{}, files.names};
@@ -120,8 +129,8 @@ bool take_found_regions(CheckedSoup& checked, const InputFiles& files, const Dia
     return true;
 }
 
-// Of the solids of one file all that is wrong stays listed, intersections with the names of both; what two of them have
-// between them comes first.
+// Keeps all defects of the solids of one file, and names both bodies of intersections; places where two of them do not
+// fit come first.
 void tell_mismatches(CheckedSoup& checked, const GivenBodies& bodies, const Diagnosis& by_body) {
     std::vector<Defect>& defects = checked.diagnosis.defects;
     for (Defect& defect : defects) {

@@ -1,3 +1,9 @@
+// A remedy is found by trying, because kinds of defects do not tell which level of repairs helps: facets along a crack
+// cross each other, which is over once the crack is closed. Each way is a set of options, checked in full on a copy of
+// the files (check_files()); the first whose surface is clean wins, so ways are ordered from the least change to the
+// largest. Ways that ask for nothing more than the user's options are left out. With open edges each way is tried with
+// caps first, and without them if no opening takes one. If nothing helps, a wrap is proposed, with an estimate of its
+// distance.
 #include "prepare/remedy.h"
 
 #include <algorithm>
@@ -10,7 +16,7 @@ namespace kerf {
 
 namespace {
 
-// Bodies of several files, and those that do not fit each other, stay bodies.
+// The plan for bodies of several files, and for bodies that do not fit each other, which stay bodies.
 constexpr const char* regions_plan = "full,snap,bodies=regions";
 
 bool are_bodies(const InputOptions& given, const Diagnosis& diagnosis) {
@@ -25,8 +31,8 @@ bool asks_for_more(const InputOptions& options, const InputOptions& given) {
                        [&](const RepairStep& step) { return done.find(step.kind) == nullptr; });
 }
 
-// What may do, in the order of find_remedy(), but for caps. Kinds of defects do not tell which level does: facets along
-// a crack cross each other, which is gone once it is closed.
+// Returns ways in the order of find_remedy(), but for caps. Kinds of defects do not tell which level helps: facets
+// along a crack cross each other, which is over once it is closed.
 std::vector<InputOptions> ways_to_try(const InputOptions& given, const Diagnosis& diagnosis) {
     std::vector<std::string> plans;
     if (are_bodies(given, diagnosis)) plans.emplace_back(regions_plan);
@@ -65,7 +71,7 @@ std::int64_t count_caps(const RepairReport& ladder) {
     return caps;
 }
 
-// What came of one way.
+// The outcome of one way.
 struct Trial {
     bool fits = false;
     Remedy remedy;
@@ -84,7 +90,7 @@ Trial try_way(const InputFiles& files, const InputOptions& way, StageListener* l
         for (const StepReport& step : repaired.ladder.steps)
             for (const RepairAction& action : step.actions)
                 if (action.is_loss) trial.remedy.losses.push_back(to_text(action));
-    } catch (const Error& error) {  // what was repaired fits no region that is asked for
+    } catch (const Error& error) {  // the repaired surface fits no region that is asked for
         if (error.code() != ErrorCode::input) throw;
     }
     return trial;

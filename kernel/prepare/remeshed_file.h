@@ -1,4 +1,4 @@
-// A surface remeshed for its own sake, and a file of one into another file.
+// A surface remeshed for its own sake, in memory or from one file into another.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace kerf {
 
-/// Remeshes a surface within options.deviation to the wanted lengths (prepare/remeshing.h), or those that give the
+/// Remeshes a surface within options.deviation to the wanted lengths (prepare/remeshing.h), or to lengths that give the
 /// wanted number of tetrahedra (prepare/cells.h). `listener` may be null. Throws Error.
 SizedInput remesh_always(Input input, RunOptions options, StageListener* listener = nullptr);
 
-/// What remesh_file() has written.
+/// Report on a file that remesh_file() has written.
 struct RemeshedFile {
     std::int64_t facets = 0;
     InputRemeshing done;
@@ -23,8 +23,8 @@ struct RemeshedFile {
     std::optional<WrapReport> wrapped = {};
 };
 
-/// remesh_always() of options.input, written to `output` as write_surface() does. Throws Error, before the work where
-/// the output cannot be written.
+/// Applies remesh_always() to options.input, and writes the surface to `output` as write_surface() does. Throws Error,
+/// before the work where the output cannot be written.
 RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener = nullptr);
 
 }  // namespace kerf

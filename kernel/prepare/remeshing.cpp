@@ -1,3 +1,13 @@
+// Three questions are answered here: whether a surface is remeshed, divided or kept (change_of()), with which lengths
+// and which deviation (remesh_task()), and what becomes of a refusal. A surface is remeshed where that is asked for,
+// where it comes of a CAD file, or where slivers or facets beside thin layers would spoil cells; it is divided where
+// facets are coarser than sizes; both can be turned off. Forecasts use the same functions as the change itself, so that
+// a run and its forecast never disagree about what is done.
+//
+// A deviation that nobody gave is a twentieth of the wanted length, less where the body is thin, and volumes must then
+// stay. Where nobody has asked for remeshing, or the surface is a wrap, a bound or volume that cannot be kept does not
+// end the run: the facets stay and are divided instead. Lengths of regions are told to the remesher by labels
+// (prepare/labelled_facets.h), of a wall the smaller.
 #include "prepare/remeshing.h"
 
 #include <algorithm>
@@ -38,7 +48,7 @@ constexpr double share_of_length = 0.05, shares_of_diagonal[] = {2e-3, 5e-4, 1.5
 // That it is at most where none is given: of the thickness of most of the body, and at each place.
 constexpr double share_of_median_thickness = 0.05, share_of_thickness = 0.1;
 constexpr double volume_tolerance = 1e-4;  // of a region, as a share, likewise
-constexpr double bytes_per_facet = 280;    // of the process while it remeshes
+constexpr double bytes_per_facet = 280;    // bytes of the process for each facet while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
 std::vector<double> smallest_sines(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets) {
@@ -119,14 +129,15 @@ BadFacets find_bad_facets(const Input& input) {
     return {slivers, std::count(is_thin.begin(), is_thin.end(), char{1})};
 }
 
-// What the remesher is given.
+// The task of the remesher.
 struct RemeshTask {
     LabelledFacets facets;
     RemeshOptions options;
     std::optional<Periodicity> periodicity = {};  // of the file's own facets
 };
 
-// The length that is wanted at a point of a label, and what follows from the sizes of regions. `all`: of the others.
+// Sets the length that is wanted at a point of a label, and the longest one, by the sizes of regions. `all`: the sizes
+// of the other regions.
 void want_lengths_of_regions(const RunOptions& options, const SizeField& all, const Input& input, RemeshTask& task) {
     const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0; })) return;
@@ -224,7 +235,7 @@ std::string note_of_periodicity(const Periodicity& periodicity) {
 void check_memory(double facets, const RunOptions& options, double edge) {
     const double most = most_memory_bytes() / bytes_per_facet;
     if (facets <= most) return;
-    // A twentieth more than what there is memory for, so that it stays enough when it is rounded.
+    // A twentieth more than the memory allows, so that it stays enough when it is rounded.
     const std::string way_out = options.sizes.depends_on_place() ? "Use larger sizes"
                                                                  : fmt::format("Use --size {:.2g} or larger",
                                                                                1.05 * edge * std::sqrt(facets / most));
@@ -239,7 +250,7 @@ std::function<void()> step_counter(StageListener* listener) {
     return [listener, steps = std::make_shared<std::size_t>(0)] { tell_progress(listener, "remesh", (*steps)++, 0); };
 }
 
-// Of what nobody has asked for.
+// Returns a note on remeshing that nobody has asked for.
 std::string note_of_remeshing(const Input& input, const BadFacets& bad, const RemeshOptions& options) {
     if (input.is_cad)
         return "A CAD file has no triangles of its own: they are remeshed. --surface split keeps those of OpenCASCADE.";

@@ -1,4 +1,4 @@
-// Whether and how the surface of a run is remeshed before it is cut.
+// The decision whether and how the surface of a run is remeshed before it is cut.
 #pragma once
 
 #include <optional>
@@ -10,41 +10,42 @@
 
 namespace kerf {
 
-/// What is done to a surface before it is cut.
+/// The change of a surface before it is cut.
 enum class SurfaceChange {
     none,
-    division,  ///< its coarse facets are divided where they lie (prepare/facet_division.h)
+    division,  ///< coarse facets are divided in their planes (prepare/facet_division.h)
     remeshing
 };
 
-/// What `options` have done to this input; division, too, where the size is yet to follow from a number of cells. All
-/// who ask about a run ask here. O(#F).
+/// Returns the change that `options` ask for on this input; division also where the size is yet to follow from a number
+/// of cells. All forecasts and reports ask here. O(#F).
 SurfaceChange surface_change(const Input& input, const RunOptions& options);
 
-/// The deviation where the options ask for none: a twentieth of the shortest length that `wanted` has at a vertex,
-/// which is what chords of that length leave out of a circle with a radius of 2.5 of them; 5e-4 of the diagonal if it
-/// is empty, 2e-3 or 1.5e-4 if that is to be coarse or fine.
+/// Returns the deviation where the options ask for none: a twentieth of the shortest length that `wanted` has at a
+/// vertex, which is what chords of that length leave out of a circle with a radius of 2.5 of them; if `wanted` is
+/// empty, 5e-4 of the diagonal, or 2e-3 for coarse and 1.5e-4 for fine.
 double usual_deviation(const SizeField& wanted, const SurfaceArrays& surface, double diagonal,
                        Fineness fineness = Fineness::medium);
 
-/// The deviation that is wanted of a body with this diagonal. Throws Error(usage), naming the option, for one that is
-/// too small or too large for it.
+/// Returns the deviation that is wanted of a body with this diagonal. Throws Error(usage), naming the option, for one
+/// that is too small or too large for it.
 double deviation_for(const Length& wanted, double diagonal);
 
-/// Facets that the surface will have by remesh_where_asked(), about; more where its shape asks for them. O(#F).
+/// Returns about how many facets the surface will have after remesh_where_asked(); it gets more where its shape asks
+/// for them. O(#F).
 double forecast_changed_facets(const Input& input, const RunOptions& options);
 
-/// The input, remeshed where `options` says so, or with a note about slivers. What is remeshed without being asked for
-/// is noted; where only few facets need it, the others stay (facets_away_from_slivers()), unless sizes are wanted. So
-/// do sides that match (prepare/periodicity.h), unless more than one in fifty of their facets is a sliver.
+/// Returns the input, remeshed where `options` ask for it, or with a note about slivers. Remeshing that nobody has
+/// asked for is noted; where only few facets need it, the others stay (facets_away_from_slivers()), unless sizes are
+/// wanted. So do sides that match (prepare/periodicity.h), unless more than one in fifty of their facets is a sliver.
 /// Where facets are good but coarser than sizes, they are divided, unless the options keep them. Surface, counts, area
-/// and volume are the new ones then, and Input::remeshed tells what was done. The wanted lengths are those of
-/// options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it
-/// lasts, with the steps that are done, of nobody knows how many. Throws Error(usage) for a deviation out of range,
-/// Error(memory) with the way out for more facets than there is memory for, before the first of them,
-/// Error(cancelled). Where the bound cannot be kept, or a volume changes by more than largest_volume_change although no
-/// deviation was asked for, the facets stay and are divided, which is noted; that is Error(input) or
-/// Error(verification) where remeshing was asked for.
+/// and volume are the new ones then, and Input::remeshed reports the change. The wanted lengths are those of
+/// options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it lasts, with the
+/// number of steps that are done, of an unknown total. Throws Error(usage) for a deviation out of range, Error(memory)
+/// with the way out for more facets than there is memory for, before the first of them, Error(cancelled). Where the
+/// bound cannot be kept, or a volume changes by more than largest_volume_change although no deviation was asked for,
+/// the facets stay and are divided, which is noted; that is Error(input) or Error(verification) where remeshing was
+/// asked for.
 Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -1,3 +1,9 @@
+// Facets of input and result are compared by the coordinates of their corners, since repairs renumber vertices: points
+// are sorted, and a facet is the sorted triple of the places of its corners among them. Facets that the input does not
+// have are changed ones if their number is one of the file, else added ones. Their distance from the input is proven by
+// Nearness (surface/nearness.h) for a bound that is raised by a fourth whenever it does not hold for a facet, from
+// 1e-12 of the diagonal on; a bound that has been raised serves all further facets, so that the whole takes few proofs.
+// Beyond the diagonal the distance counts as infinite.
 #include "prepare/repair_measures.h"
 
 #include <algorithm>
@@ -33,7 +39,7 @@ std::vector<Triangle> finite_facets(const Soup& soup) {
     return facets;
 }
 
-// The facets that bound what is inside, turned outwards: of regions, those with nothing on one side.
+// Returns the facets that bound the inside, turned outwards; of regions, those with nothing on one side.
 std::vector<Triangle> outer_facets(const Soup& soup) {
     if (soup.sides.empty()) return soup.facets;
     std::vector<Triangle> outer;
@@ -90,7 +96,8 @@ class FacetsByPlace {
     std::vector<Triangle> facets_;
 };
 
-// What a set of facets is proven to be near, with one bound for all of them that grows as it must.
+// A set of facets and the distance that others are proven to have from it, with one bound for all that grows as it
+// must.
 class GrowingBound {
  public:
     GrowingBound(const TriangleTree& tree, const std::vector<Triangle>& facets, double diagonal)

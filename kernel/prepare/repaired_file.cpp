@@ -50,7 +50,7 @@ void write_result(const RepairedFile& repaired) {
     }
 }
 
-// What was clean and is copied once more is no loss.
+// Whether the output has the bytes of the input already: a clean file that is copied once more is no loss.
 bool are_equal_files(const std::string& a, const std::string& b) {
     std::error_code error;
     return fs::is_regular_file(b, error) && fs::file_size(a, error) == fs::file_size(b, error) && !error &&

@@ -12,26 +12,26 @@
 
 namespace kerf {
 
-/// What repair_file() has written.
+/// Report on a repair by repair_file().
 struct RepairedFile {
     std::string input, output;
-    CheckedSoup checked;           ///< what was written; the diagnosis is empty if it can be meshed
+    CheckedSoup checked;           ///< the result; the diagnosis is empty if it can be meshed
     RepairMeasures measures;       ///< of the result against the files as they were read
-    OrientationReport turned;      ///< of a surface that can be meshed
+    OrientationReport turned;      ///< of a result that can be meshed
     bool can_be_meshed = false;    ///< the result, as it was written
     bool is_unchanged = false;     ///< nothing was found to be repaired
-    bool is_copy = false;          ///< and the output has the bytes of the input
-    std::optional<Remedy> remedy;  ///< what else to do where it cannot be meshed
+    bool is_copy = false;          ///< the output has the bytes of the input, too
+    std::optional<Remedy> remedy;  ///< a way out where the result cannot be meshed
 
-    /// Value of ErrorCode, 0: it can be meshed.
+    /// Returns the value of an ErrorCode, 0 for a result that can be meshed.
     int exit_code() const { return can_be_meshed ? 0 : static_cast<int>(ErrorCode::input); }
 };
 
-/// Does what `options` ask for to a file and InputOptions::more_files, and writes what came of it to `output`, whether
-/// it can be meshed or not: an .obj with patches, of several regions with a closed group for each instead, or an .stl.
-/// Where nothing was to be repaired, a file of the same ending is copied. `listener` may be null. Throws Error, before
-/// the work where the output cannot be written, and before it is written where an .stl, whose coordinates have 7
-/// digits, would have new defects.
+/// Repairs a file and InputOptions::more_files as `options` ask, and writes the result to `output`, whether it can be
+/// meshed or not: an .obj with patches, of several regions with a closed group for each instead, or an .stl. Where
+/// nothing was to be repaired, a file of the same ending is copied. `listener` may be null. Throws Error, before the
+/// work where the output cannot be written, and before it is written where an .stl, whose coordinates have 7 digits,
+/// would have new defects.
 RepairedFile repair_file(const std::string& input, const InputOptions& options, const std::string& output,
                          StageListener* listener = nullptr);
 

@@ -1,4 +1,4 @@
-// Which parts have vertices or edges in common, as far as the parts of one rank are concerned.
+// Vertices or edges that parts have in common, as far as the parts of one rank are concerned.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,12 @@
 
 namespace kerf {
 
-/// Of incidences, each of a thing and a part that has it (SharedVertices, SharedEdges), those of the things that a part
-/// of this rank has, of whichever rank has told them: ascending, each once, and none of a thing that one part alone
-/// has. `number`: of the thing of an incidence; different things may have the same. `is_of_same`: whether two are of
-/// one thing, as incidences in their order follow each other. Collective. Each thing is looked at by one rank, so that
-/// memory and messages of a rank follow what it tells and gets.
+/// Brings incidences of all ranks together; each is a thing and a part that has it (SharedVertices, SharedEdges).
+/// Returns all incidences of the things that a part of this rank has, whichever rank has told them: ascending, each
+/// once, and none of a thing that only one part has. `number`: of the thing of an incidence; different things may have
+/// the same. `is_of_same`: whether two incidences, which follow each other in their order, are of one thing.
+/// Collective. Each thing is looked at by one rank, so that memory and messages of a rank follow the incidences that it
+/// tells and gets.
 template <class Incidence, class Number, class IsOfSame>
 std::vector<Incidence> incidences_of_rank(Communicator& ranks, const LeavesOfRanks& leaves, std::vector<Incidence> told,
                                           const Number& number, const IsOfSame& is_of_same) {

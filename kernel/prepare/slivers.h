@@ -9,8 +9,8 @@
 
 namespace kerf {
 
-/// Whether so many of the facets are more than one in a thousand: the cells there are no better than it, and a cell of
-/// a hundred or so is there.
+/// Whether `count` of `facets` is more than one in a thousand: cells beside bad facets are no better than these, and at
+/// that share about one cell in a hundred is beside one.
 constexpr bool spoil_cells(std::int64_t count, std::int64_t facets) { return 1000 * count > facets; }
 
 struct Slivers {
@@ -20,16 +20,17 @@ struct Slivers {
     double share() const { return facets > 0 ? static_cast<double>(count) / static_cast<double>(facets) : 0; }
     bool spoil_cells() const { return kerf::spoil_cells(count, facets); }
 };
+/// Counts the slivers of facets.
 Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets);
-/// Those of all facets, without a copy of them.
+/// Counts the slivers of all facets of a complex, without a copy of them.
 Slivers find_slivers(const Complex& complex);
 
-/// Which facets may stay where slivers are remeshed: those further than two rings of facets from any. Empty where that
-/// is less than half of them. O(#F).
+/// Returns which facets may stay where slivers are remeshed (#F): those further than two rings of facets from any
+/// sliver. Empty where that is less than half of them. O(#F).
 std::vector<char> facets_away_from_slivers(const SurfaceArrays& surface);
 
-/// A sentence on what they do to the cells, and one that `remedy`, a command or an option, cures that, unless it is
-/// empty. Returns nothing if they spoil nothing.
+/// Returns a sentence on the effect of slivers on cells, and one that `remedy`, a command or an option, cures that,
+/// unless it is empty. Returns nothing if they spoil no cells.
 std::string sliver_note(const Slivers& slivers, const std::string& remedy);
 
 }  // namespace kerf

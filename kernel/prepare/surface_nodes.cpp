@@ -1,3 +1,8 @@
+// Nodes of edges come from a CAD model (prepare/cad_nodes.h), where there is one, or else from the triangles that a
+// remeshed surface was made of. In that case the middle of an edge goes to the closest point of the facets of the same
+// patch in the file; if the edge is sharp or a border, to the closest of the edges of the file between the same
+// patches, which a tree of triangles holds as needles without area. Only nodes off the middle by more than rounding are
+// kept, and none off it by more than a tenth of the edge: such an edge is too long for the curve that it stands for.
 #include "prepare/surface_nodes.h"
 
 #include <algorithm>
@@ -33,7 +38,8 @@ class FileSurface {
         for (const auto& [patches, edges] : features) add_lines(patches, edges);
     }
 
-    /// Of what the edge of another surface stands for; nothing if the file has no such feature.
+    /// Returns the nearest point of the face or feature that the edge of another surface stands for; nothing if the
+    /// file has none.
     std::optional<Vec3> nearest(const Vec3& p, const PlacedEdge& edge) const {
         if (edge.is_sharp) {
             const auto lines = lines_.find(edge.patches);

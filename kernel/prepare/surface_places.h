@@ -1,4 +1,4 @@
-// Which edges and vertices of a surface lie on its features.
+// Edges and vertices of a surface, and the features that they lie on.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace kerf {
 
-/// An edge of a surface, and what meets there.
+/// An edge of a surface, with the patches and the angle that meet there.
 struct PlacedEdge {
     UndirectedEdge ends;                ///< keys of vertices
-    std::vector<std::int32_t> patches;  ///< of its facets, ascending
-    bool is_border = false;             ///< of patches, or of more than two facets
-    bool is_sharp = false;              ///< its facets meet at an angle of more than 30 degrees, or it is a border
+    std::vector<std::int32_t> patches;  ///< patches of its facets, ascending
+    bool is_border = false;             ///< whether it bounds patches, or has other than two facets
+    bool is_sharp = false;  ///< whether its facets meet at an angle of more than 30 degrees, or it is a border
 
     bool operator==(const PlacedEdge&) const = default;
 };
 
-/// The vertices of a surface by their keys, and its edges, each once, ascending. Vertices of equal keys are one. Of the
-/// facets of a complex (Complex::arrays()). O(n log n).
+/// The vertices of a surface by their keys, and its edges, each once, ascending. Vertices of equal keys are one. Made
+/// of the facets of a complex (Complex::arrays()). O(n log n).
 struct PlacedSurface {
     std::vector<Vec3> points;
     std::vector<Triangle> facets;     ///< by keys

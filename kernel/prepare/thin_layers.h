@@ -7,9 +7,9 @@
 
 namespace kerf {
 
-/// Whether the cell behind a facet, on one of its sides, has an angle below 10 degrees whatever is done inside: the
-/// region is not as deep there as the facet is wide (mesh/forced_cells.h has the bound). Per facet; empty for a single
-/// region, whose walls are thin all over or nowhere. O(#F log #F).
+/// Returns for each facet whether the cell behind it, on one of its sides, has an angle below 10 degrees whatever is
+/// done inside: the region is not as deep there as the facet is wide (mesh/forced_cells.h has the bound). Empty for a
+/// single region, whose walls are thin all over or nowhere. O(#F log #F).
 std::vector<char> facets_on_thin_layers(const LabelledFacets& facets);
 
 }  // namespace kerf
