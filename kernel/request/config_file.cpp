@@ -1,3 +1,8 @@
+// A config file is one flat table of TOML, keys being the names of options. Writing and reading go through the text of
+// a field (request/option_field.h), so that a value means the same here, on the command line and in a saved run; only
+// quotes, lists and the point of floating-point numbers are TOML's own. toml++ sorts keys, so entries are put back into
+// the order of the file. Paths are texts with escapes (io/path_text.h), because TOML must be UTF-8 and paths need not
+// be.
 #include "request/config_file.h"
 
 #include <algorithm>
@@ -16,7 +21,7 @@ namespace kerf {
 
 namespace {
 
-// A basic string of TOML.
+// Returns a basic string of TOML.
 std::string quoted(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -31,7 +36,7 @@ std::string quoted(const std::string& text) {
     return result + '"';
 }
 
-// Floating-point numbers of TOML have digits on both sides of a point, or an exponent.
+// Returns a number of TOML: floating-point numbers have digits on both sides of a point, or an exponent.
 std::string float_text(const std::string& text) { return text.find_first_of(".e") == text.npos ? text + ".0" : text; }
 
 std::string value_text(const OptionField& field) {

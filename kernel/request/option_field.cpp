@@ -1,3 +1,8 @@
+// A value is a variant of pointers to members of an option struct, and each kind of value has a function text_of() and
+// one assign(), chosen by overloading: a new kind of option needs both, and nothing else. Text is the common form of
+// all values, in config files, saved runs, reports and on command lines, so text_of() must give back every digit that
+// assign() takes. Units are read but never written: memory is written in megabytes of 2^20 bytes, and counts as whole
+// numbers.
 #include "request/option_field.h"
 
 #include <algorithm>
@@ -12,7 +17,7 @@ namespace kerf {
 
 namespace {
 
-// Megabytes of 2^20 bytes in "2G", "500M" or "1.5GiB", rounded up, or in a number of them alone.
+// Returns megabytes of 2^20 bytes for "2G", "500M" or "1.5GiB", rounded up, or for a number of megabytes alone.
 std::optional<std::int64_t> megabytes_in(std::string_view text) {
     if (const auto megabytes = number_in<std::int64_t>(text)) return megabytes;
     for (const std::string_view ending : {"B", "i"})
@@ -26,7 +31,8 @@ std::optional<std::int64_t> megabytes_in(std::string_view text) {
     return static_cast<std::int64_t>(megabytes);
 }
 
-// Thousands, millions or 10^9 of what stands before the unit, in "50k", "1.5M" or "2G"; or a whole number alone.
+// Returns the number before the unit in thousands, millions or 10^9, for "50k", "1.5M" or "2G"; or a whole number
+// alone.
 std::optional<std::int64_t> count_in(std::string_view text) {
     if (const auto count = number_in<std::int64_t>(text)) return count;
     constexpr std::string_view units = "kKMG";

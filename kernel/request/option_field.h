@@ -1,4 +1,4 @@
-// One option: what it is called, what help says of it, and where its value lives.
+// One option: its names, its help, and the place of its value.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace kerf {
 
-/// Headings under which help and manual list the options, in this order.
+/// The headings under which help and manual list the options, in this order.
 namespace option_group {
 inline constexpr const char* input = "Input";
 inline constexpr const char* cuts = "Cuts";
@@ -23,9 +23,9 @@ inline constexpr const char* expert = "Expert";
 inline constexpr const char* all[] = {input, cuts, sizes, meshing, output, running, expert};
 }  // namespace option_group
 
-/// One option: its name on the command line and in the config file, and where its value lives.
+/// One option: its name on the command line and in the config file, and the place of its value.
 struct OptionField {
-    /// An enumeration by its names.
+    /// An enumeration, by the names of its values.
     struct Choice {
         std::vector<std::string> names;
         std::function<int()> get;
@@ -43,32 +43,32 @@ struct OptionField {
     };
     std::string name;        ///< without dashes
     std::string short_name;  ///< a letter, or empty
-    std::string group;       ///< of option_group
+    std::string group;       ///< one of option_group
     std::string value_name;  ///< stands for the value in the help, as FILE; empty for flags and choices
     std::string help;        ///< one sentence with unit and default
     /// The value of an option that may be given several times; as one text, with semicolons between (join_items()).
     using List = std::vector<std::string>*;
     using Value = std::variant<std::int32_t*, Memory, Count, double*, Length*, bool*, std::string*, List, Choice>;
     Value value;
-    bool shapes_parts = true;  ///< false: a finished run has the same part files whatever it is, but for parts that
-                               ///< took longer than a limit of time, which the run marks (PartOutcome::timed_out)
+    bool shapes_parts = true;  ///< false: part files of a finished run do not depend on it, except parts over a time
+                               ///< limit, which the run marks (PartOutcome::timed_out)
     NumberRange range = {};    ///< of a number or a length
 
-    /// The value as text, numbers with all their digits; set_text() takes it back and throws Error(usage), naming the
-    /// option and what it may be, for what is no such value.
+    /// Returns the value as text, numbers with all their digits. set_text() takes it back, and throws Error(usage),
+    /// naming the option and its range or form, for a text that is no such value.
     std::string text() const;
     void set_text(const std::string& text) const;
     /// Throws Error(usage) for a number that is out of range.
     void check() const;
-    bool is_number() const;  ///< or a length, memory or a count
+    bool is_number() const;  ///< whether it is a number, a length, memory or a count
 };
 
-/// Items with semicolons between; those within an item, and backslashes, get a backslash before them. Empty items
-/// vanish.
+/// Joins items with semicolons between them; semicolons within an item, and backslashes, get a backslash before them.
+/// Empty items vanish. split_items() is the inverse.
 std::string join_items(const std::vector<std::string>& items);
 std::vector<std::string> split_items(const std::string& text);
 
-/// An option as text, as OptionField has it.
+/// An option as text, see OptionField::text().
 struct OptionText {
     std::string name, text;
 

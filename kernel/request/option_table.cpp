@@ -1,4 +1,9 @@
-// The tables of the options: a row says where the value of an option lives in any set of options.
+// The tables of the options: a row says where the value of an option lives in any set of options, by a function from
+// the set to a pointer or a choice. One table belongs to each struct of options (input, sizes, run), and
+// option_fields() joins them; command line, help, manual, completion, config files, reports, saved runs and the
+// viewer's panel are made of these rows alone. Names and the order of rows are seen by users, and texts of values are
+// kept in saved runs, so that a renamed option makes runs of older versions impossible to continue. `shapes_parts`
+// decides whether a changed value lets finished parts of an interrupted run count.
 #include <algorithm>
 #include <iterator>
 
@@ -12,7 +17,7 @@ namespace kerf {
 
 namespace {
 
-/// An option as OptionField has it.
+/// A row of a table, which OptionField is made of.
 template <class Options>
 struct OptionRow {
     const char *name, *short_name, *group, *value_name, *help;
@@ -48,7 +53,7 @@ OptionField::Choice mesher_choice(std::string& name) {
     return {mesher_names(), get, [&name](int i) { name = mesher_names()[static_cast<std::size_t>(i)]; }};
 }
 
-// What is done to the surface, from nothing to most.
+// The choice of the change of the surface, from none to most, which sets three options together.
 OptionField::Choice surface_choice(RunOptions& o) {
     const auto get = [&o] {
         if (o.input_options.wrap) return 4;

@@ -1,3 +1,10 @@
+// Options are resolved in stages, each a function that returns other options: resolved() checks all and fills in values
+// that follow from others, before any file is read; with_lengths() turns percentages into lengths once the diagonal is
+// known; with_sizes() hands the size field to cuts, loads and mesher. Sizes that are the same everywhere become a
+// constant field of a volume at once, unless they are a percentage.
+//
+// check_files() refuses every path by which a run would destroy its own input or another of its outputs, before any
+// work. A run that is continued has its output folder already, which is told by `input_hash`.
 #include "request/options.h"
 
 #include <algorithm>
@@ -20,7 +27,7 @@ namespace {
 constexpr std::int64_t bytes_per_interface_point = 500;
 constexpr double coarse_radius_edge = 2;
 
-// The name may have any character; the last = counts.
+// Returns the seed of NAME=x,y,z; the name may have any character, and the last = counts.
 RegionSeed seed_of(const std::string& text) {
     const std::size_t mark = text.rfind('=');
     RegionSeed seed{text.substr(0, mark), Vec3::Zero()};
@@ -79,7 +86,7 @@ RunOptions resolved(RunOptions options, int cores_of_rank) {
     for (const OptionField& field : option_fields(options)) field.check();
     seeds_of(options.input_options);
     if (options.workers == 0) options.workers = std::max(1, cores_of_rank);
-    options.decompose.threads = options.workers;  // they have nothing to do yet
+    options.decompose.threads = options.workers;  // which have nothing to do yet
     options.sizes.check();
     check_mesher_options(options.mesher);
     if (options.decompose.facets == FacetPolicy::keep && options.decompose.cut.contour == ContourMethod::straight)
@@ -127,7 +134,7 @@ RunOptions with_fineness_at_kept_facets(RunOptions options) {
     return options;
 }
 
-// Loads weigh the field as the mesher does.
+// Hands the field to cuts, loads and mesher; loads weigh it as the mesher does.
 RunOptions with_sizes(RunOptions options, const SizeField& field) {
     options.decompose.cut.size = options.decompose.cut.load.size = options.mesher.size = field;
     options.decompose.cut.load.volume_weight = find_mesher(options.mesher.name).forecast.volume_weight;
@@ -146,7 +153,7 @@ bool names_output(const std::string& option) {
                        [&](const NamedPath& output) { return output.option == "--" + option; });
 }
 
-// Before any work, for all that can be known of the files by then.
+// Checks all that can be known of the files before any work.
 void RunOptions::check_files() const {
     const std::vector<std::string> folders =
         dry_run || output.empty() ? std::vector<std::string>() : RunFolder::folders_of(output);

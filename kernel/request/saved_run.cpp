@@ -1,3 +1,8 @@
+// A saved run is a JSON file in the partial folder of a run: the input with its hash, and all options as texts of the
+// table (request/options.h). It is written durably before the work and removed when a run has ended well, so that its
+// existence says that parts may be missing. Options of the host and of the caller, workers and events, are not saved. A
+// file that cannot be read counts as absent where only reuse is at stake (is_same_run(), interrupted_part_count()), and
+// is an error where a user asks to continue.
 #include "request/saved_run.h"
 
 #include <algorithm>
@@ -41,8 +46,8 @@ RunOptions load_saved_run(const std::string& file) {
 
 void save_run(const std::string& path, const RunOptions& options, const std::string& input_hash) {
     RunOptions saved = options;
-    saved.workers = 0;          // the machine that continues may have other cores
-    saved.events_file.clear();  // who follows the run that continues will say where
+    saved.workers = 0;          // the host that continues may have other cores
+    saved.events_file.clear();  // the caller that continues names its own
     for (std::string* file : {&saved.report_file, &saved.trace_file})
         if (!file->empty()) *file = std::filesystem::absolute(*file).string();
     nlohmann::ordered_json json = {{"input", path_text(std::filesystem::absolute(options.input).string())},

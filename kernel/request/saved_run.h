@@ -1,4 +1,4 @@
-// What an interrupted run needs to be continued by its folder's name alone.
+// The request of an interrupted run, kept so that its folder's name alone is enough to continue it.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ void save_run(const std::string& path, const RunOptions& options, const std::str
 /// Whether the run into `folder` has ended well, so that nothing of it waits.
 bool is_complete_run(const std::string& folder);
 
-/// The options of the run that was interrupted while it wrote to `folder`, or whose partial folder that is. All paths
-/// are absolute, that of the output follows from the given one, in case it was moved. Throws Error(io) if there is none
-/// or what it left is damaged, naming the way out.
+/// Returns the options of the run that was interrupted while it wrote to `folder`, or whose partial folder that is. All
+/// paths are absolute; that of the output follows from the given one, in case it was moved. Throws Error(io) if there
+/// is no such run or its file is damaged, naming the way out.
 RunOptions load_interrupted_run(const std::string& folder);
 
 /// Throws Error(io) if the options are those of an interrupted run and its input had another hash.
@@ -24,8 +24,8 @@ void refuse_changed_input(const RunOptions& options, const std::string& input_ha
 /// Whether a run with these options would have the same part files as the one that has written the file.
 bool is_same_run(const std::string& saved_run_file, const RunOptions& options, const std::string& input_hash);
 
-/// K of the run of this input that was interrupted, or failed in part, while it wrote to the folder `output`; 0 if
-/// there is none that can be read.
+/// Returns the K of the run of this input that was interrupted, or failed in part, while it wrote to the folder
+/// `output`; 0 if there is none that can be read.
 std::int32_t interrupted_part_count(const std::string& output, const std::string& input_hash);
 
 }  // namespace kerf
