@@ -15,7 +15,7 @@ namespace kerf {
 
 namespace {
 
-// The bounding box.
+// Returns the bounding box as text.
 std::string place_of(const SurfaceArrays& surface) {
     const Box box = box_around(surface.vertices);
     return fmt::format("between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g})", box.min().x(), box.min().y(),

@@ -13,8 +13,7 @@ namespace {
 
 constexpr NodeId cut_node = 1;
 
-// A surface of its own, whose vertices and facets are named by their numbers, so that those of the cut are told from
-// them.
+// Returns the surface with its vertices and facets named by their numbers, so that those of the cut are told from them.
 SurfaceArrays renamed(SurfaceArrays arrays) {
     for (std::size_t v = 0; v < arrays.vertices.size(); ++v)
         arrays.vertex_key[v] = make_key(0, static_cast<std::int32_t>(v));

@@ -7,7 +7,7 @@
 
 namespace kerf {
 
-/// Does what mesh_volume() does, by a cut of the surface: both halves are filled, improved and joined at the interface,
+/// Fills a surface as mesh_volume(), by a cut of it: both halves are filled, improved and joined at the interface,
 /// whose vertices become interior ones. The boundary keeps every facet, so the neighbours of the part do not notice.
 /// Throws Error(subdomain) if the surface has no contour of edges near its middle, or if a half is not filled either.
 /// Deterministic.

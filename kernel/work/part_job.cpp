@@ -1,3 +1,11 @@
+// A job goes through stages, whose times are told apart: the surface is filled (or halved first, work/mesh_in_two.h),
+// the laws of the mesh are verified, sizes and quality are measured, the part is hashed, and it is stored. A mesh that
+// breaks a law, or has cells without volume, is an error of the mesher like any other, and is never stored. Memory sets
+// the order: neighbours of cells are freed before the laws are verified, nothing is kept twice, and the mesh moves into
+// the part only after it is measured.
+//
+// All errors become part of the result, because the worker's answer is the only way back to the parent; memory that
+// runs out has a result of its own.
 #include "work/part_job.h"
 
 #include <fmt/format.h>
@@ -95,7 +103,7 @@ void restore_stored_part(const std::string& part_file, const std::string& vtu_fi
     Part part;
     try {
         part = read_part(vtu_file);
-    } catch (const Error&) {  // damaged
+    } catch (const Error&) {  // the file is damaged
         return;
     }
     if (!are_in_range(part.facets, static_cast<std::size_t>(part.mesh.boundary_vertex_count))) return;
@@ -139,7 +147,7 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         result.recovery = filling.recovery;
         result.improvement = filling.improvement;
         result.improve_seconds = filling.improve_seconds;
-        mesh.neighbours = {};  // parts are stored without
+        mesh.neighbours = {};  // parts are stored without neighbours
         timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface, FaceProof::sum); });
         if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
         if (result.laws.tets_without_volume > 0)

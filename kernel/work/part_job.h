@@ -1,4 +1,4 @@
-// All that happens to one part: filled with tetrahedra, verified, measured, written. Runs inside of a worker process.
+// The work on one part, inside of a worker process: the part is filled with tetrahedra, verified, measured and stored.
 #pragma once
 
 #include <string>
@@ -15,19 +15,19 @@
 
 namespace kerf {
 
-/// What is known of a part before it is meshed. The mesh depends on this alone.
+/// The facts about a part before it is meshed, on which alone the mesh depends.
 struct PartJob {
     NodeId part = 1;
     SurfaceArrays surface;  ///< closed; as mesh_volume() takes it: may touch itself at vertices and along edges
     std::vector<std::int64_t> boundary_id;       ///< #V; global numbers
     std::vector<NodeId> neighbour;               ///< #F; the part on the other side of an interface facet, else -1
-    std::vector<std::int32_t> contact_vertices;  ///< as in Part
+    std::vector<std::int32_t> contact_vertices;  ///< see Part
     std::vector<UndirectedEdge> contact_edges;
     std::vector<SharedGroup> shared;
     std::vector<SharedEdgeGroup> shared_edges;
-    NameTable patch_names;  ///< as in Part
+    NameTable patch_names;  ///< see Part
     NameTable region_names;
-    RegionIndex region;       ///< in which the part lies
+    RegionIndex region;       ///< the region in which the part lies
     double length_scale = 1;  ///< diagonal of the whole input, for the bins of the distributions
 
     template <class Archive>
@@ -37,18 +37,18 @@ struct PartJob {
     }
 };
 
-/// The part as it is before it is meshed: its boundary alone.
+/// Returns the part before it is meshed: its boundary alone.
 Part part_of_job(const PartJob& job);
-/// The part of a job with its cells, of which the boundary is the job's surface. Interior vertices have no global
-/// numbers yet: they are -1.
+/// Returns the part of a job with its cells, of which the boundary is the job's surface. Interior vertices have no
+/// global numbers yet: they are -1.
 Part part_of_job(const PartJob& job, TetMesh mesh);
 
-/// One attempt at a part: what a worker is told.
+/// One attempt at a part, as a worker is told of it.
 struct PartAttempt {
-    std::string job_file;   ///< of write_job()
-    std::string part_file;  ///< is written by write_stored_part()
+    std::string job_file;   ///< from write_job()
+    std::string part_file;  ///< where write_stored_part() writes the part
     MesherCall call;
-    bool durable = true;  ///< as write_stored_part() has it
+    bool durable = true;  ///< see write_stored_part()
 
     template <class Archive>
     void archive(Archive& a) {
@@ -71,11 +71,11 @@ struct ImprovedAngles {
     }
 };
 
-/// What the parent keeps of a part; the mesh itself goes from the worker to its file.
+/// The record that the parent keeps of a part; the mesh itself goes from the worker to its file.
 struct PartResult {
     int code = 0;          ///< value of ErrorCode, 0: the part is verified and written
     std::string message;   ///< if code
-    std::string mesher;    ///< that has filled the part; empty if none was asked
+    std::string mesher;    ///< the mesher that has filled the part; empty if none was asked
     std::string strategy;  ///< Filling::strategy
     std::string reason;    ///< Filling::reason
     std::int64_t vertices = 0, interior_vertices = 0, tets = 0;
@@ -87,12 +87,12 @@ struct PartResult {
     FileHash file_hash = {0, 0};                 ///< of the stored part
     FacetRecovery recovery;                      ///< Filling::recovery
     Improvement improvement;                     ///< Filling::improvement
-    ImprovedAngles angles;                       ///< by it
-    double improve_seconds = 0;                  ///< of mesh_seconds
+    ImprovedAngles angles;                       ///< before and after the improvement
+    double improve_seconds = 0;                  ///< the share of the improvement in mesh_seconds
     double load_seconds = 0, mesh_seconds = 0, verify_seconds = 0, store_seconds = 0;
     std::int64_t peak_rss_bytes = 0;
 
-    /// What has filled the part: the way of a mesher that has several, else its name.
+    /// Returns the way in which the part was filled: the strategy of a mesher that has several, else its name.
     const std::string& way() const { return strategy.empty() ? mesher : strategy; }
     /// Whether TetGen has filled the part or half of it, asked for or not.
     bool is_by_tetgen() const { return mesher == "tetgen" || strategy.find(way_by_tetgen) != std::string::npos; }
@@ -105,21 +105,21 @@ struct PartResult {
     }
 };
 
-/// The result of a part that did not fit into the memory of its worker.
+/// Returns the result of a part that did not fit into the memory of its worker.
 PartResult out_of_memory();
 
-/// Stores the part of a job again as it is in a file of write_part(), if there is a whole one: whoever finds its hash
-/// as it was has lost nothing. Throws Error(io) only if it cannot be written.
+/// Stores the part of a job again as it is in a file of write_part(), if there is a whole one; if its hash is still the
+/// same then, nothing is lost. Throws Error(io) only if it cannot be written.
 void restore_stored_part(const std::string& part_file, const std::string& vtu_file, const PartJob& job);
 
 /// Keeps the bytes of a job in a file, from which any worker can take it. Throws Error(io).
 void write_job(const std::string& path, const PartJob& job);
-/// Throws Error(io) if the file cannot be read or is damaged.
+/// Returns the job that a file holds. Throws Error(io) if the file cannot be read or is damaged.
 PartJob read_job(const std::string& path);
 
-/// Meshes, verifies, measures and stores a part. Never throws kerf::Error: it comes back as the result's code and
-/// message. A part whose laws do not hold is not written and has code `subdomain`. Deterministic but for seconds and
-/// memory.
+/// Meshes, verifies, measures and stores a part. Never throws kerf::Error: the error comes back as the result's code
+/// and message. A part whose laws do not hold is not written and has code `subdomain`. Deterministic but for seconds
+/// and memory.
 PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file, bool durable = true);
 
 }  // namespace kerf

@@ -1,3 +1,12 @@
+// A queue has workers, which are slots, and starts a child process for each attempt at a part: kerf-worker gets a
+// PartAttempt on its standard input and answers with a PartResult, while job and mesh are files. take_result() sorts
+// the ways in which a child can end. An answer is taken as it is. A first end by a signal counts as sent from outside,
+// and the same call is made again without counting as an attempt. A broken law, a limit of time and a second crash are
+// failures of the mesher, for which the next call of the table follows (volume/retries.h); any other end, such as lack
+// of memory, is final.
+//
+// A part that is tried again goes to the front of the queue and gets the worker that has just become free, which is why
+// idle workers are a stack.
 #include "work/part_queue.h"
 
 #include <unistd.h>
@@ -31,7 +40,7 @@ std::string last_line(const std::string& text) {
                        end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
-// What a worker that gave no answer left behind.
+// Returns the result of a worker that gave no answer.
 PartResult result_of_silence(const ChildResult& child) {
     PartResult result;
     result.code = static_cast<int>(ErrorCode::subdomain);
@@ -40,7 +49,7 @@ PartResult result_of_silence(const ChildResult& child) {
     return result;
 }
 
-// The first reason is that of the call as it was wanted; the others are those of fallbacks.
+// Returns one message for all attempts: first the reason of the call as it was wanted, then the last one of fallbacks.
 std::string message_of_all(const PartOutcome& outcome) {
     const std::string& last = outcome.result.message;
     if (outcome.failures.empty() || outcome.failures.front() == last) return last;

@@ -1,4 +1,4 @@
-// Which of the parts that wait a worker gets next.
+// The order in which workers get the parts that wait.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@ namespace kerf {
 /// A part that no worker has begun.
 struct WaitingPart {
     double load = 0;        ///< predicted work
-    std::int32_t host = 0;  ///< that its files were written on, and whose memory may still hold them
+    std::int32_t host = 0;  ///< the host that its files were written on, and whose memory may still hold them
 };
 
-/// Gives each part of a list to one worker, the longest first: so the last ones to end are short. Among those that are
+/// Gives each part of a list to one worker, the longest first: so the last ones to end are short. Among parts that are
 /// nearly as long as the longest one left, a host gets its own.
 class PartTickets {
  public:
     /// `parts`: in descending order of load; hosts from 0 on. O(parts).
     explicit PartTickets(std::vector<WaitingPart> parts);
 
-    /// The place in the list of the part that a worker of the host takes now; nothing if none is left. A host without
-    /// parts may have any number. O(1), amortised over all.
+    /// Returns the place in the list of the part that a worker of the host takes now; nothing if none is left. A host
+    /// without parts may have any number. O(1), amortised over all.
     std::optional<std::size_t> take(std::int32_t host);
 
-    /// A host's own part is taken before the longest one if its load is at least this share of that one's.
+    /// The least load of a host's own part, as a share of that of the longest one, with which it is taken first.
     static constexpr double nearly_as_long = 0.75;
 
  private:

@@ -1,3 +1,9 @@
+// Ratios are counted in bins of a sixteenth of an octave, from three octaves below the obeyed range, which is one
+// octave, to three above; counts of parts add up, and percentiles are read from them without the ratios. The field is
+// asked once for each vertex. Edges inside are found from the cells bucket by bucket, by their smaller vertex
+// (mesh/buckets.h), so that they need half of the memory of the cells and not a list of all edges; in each bucket a
+// small table keeps the different other ends. Large meshes count the edges of a sample of vertices, each with the
+// weight of the sampling, which is a power of two, so that the choice depends on numbers alone.
 #include "work/size_ratios.h"
 
 #include <algorithm>
@@ -15,7 +21,7 @@ namespace kerf {
 
 namespace {
 
-// The different ones among some numbers, none of which is negative, by a table of the places where they may be.
+// Finds the different ones among some numbers, none of which is negative, by a table of the places where they may be.
 class DistinctNumbers {
  public:
     /// Calls visit(number) for each, in the order of their first.
@@ -40,7 +46,7 @@ class DistinctNumbers {
 
 constexpr std::size_t most_vertices = std::size_t{1} << 18;  // of which all edges are counted
 
-// Of large meshes the edges of one vertex in so many say enough.
+// Returns the sampling: in large meshes the edges of one vertex in so many are enough.
 std::int32_t sampling_of(const TetMesh& mesh) {
     return static_cast<std::int32_t>(std::bit_ceil((mesh.vertices.size() + most_vertices - 1) / most_vertices));
 }

@@ -1,4 +1,4 @@
-// How well edges obey the wanted sizes: length got over length asked.
+// Ratios of the lengths of edges to the wanted sizes, which tell how well these are obeyed.
 #pragma once
 
 #include <array>
@@ -12,19 +12,20 @@
 
 namespace kerf {
 
-/// Counts of edges by their length over the wanted size, the mean of that at their ends. They add up over parts in any
-/// order.
+/// Counts of edges by their length over the wanted size, the mean of that at their ends. Counts of parts can be added
+/// in any order.
 class RatioCounts {
  public:
-    /// The range that counts as obeyed.
+    /// The range of ratios that counts as obeyed.
     static constexpr double low = 0.7, high = 1.4;
 
-    void add(double ratio, std::int64_t times = 1);  ///< positive, or infinite
+    void add(double ratio, std::int64_t times = 1);  ///< `ratio`: positive, or infinite
     void add(const RatioCounts& other);
     std::int64_t count() const;
-    /// The share of all that lies from `low` to `high`; 0 if there is none.
+    /// Returns the share of all that lies from `low` to `high`; 0 if there is none.
     double share_obeyed() const;
-    /// Ratio below which the given fraction in [0, 1] lies, to 2.5 %; ratios beyond 1/11 and 11 count as these.
+    /// Returns the ratio below which the given fraction in [0, 1] lies, to 2.5 %; ratios beyond 1/11 and 11 count as
+    /// these.
     double percentile(double fraction) const;
 
     template <class Archive>
@@ -61,13 +62,13 @@ struct SizeRatios {
     }
 };
 
-/// Measures the mesh that fills a surface and has its vertices first; empty for a field that asks nothing. Of meshes of
-/// more than 2^18 vertices those edges inside count whose smaller vertex is a multiple of a power of two, each for so
-/// many. O(#T), and the field once for each vertex.
+/// Measures the mesh that fills a surface and has its vertices first; empty for a field that asks nothing. In meshes of
+/// more than 2^18 vertices, edges inside count only if their smaller vertex is a multiple of a power of two, each for
+/// so many. O(#T), and the field once for each vertex.
 SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, const SizeField& field);
 
-/// Text for people: a line on the edges inside, and with `every_kind` one on interfaces and on each of the first
-/// patches.
+/// Returns text for people: a line on the edges inside, and with `every_kind` one on interfaces and on each of the
+/// first patches.
 std::string size_text(const SizeRatios& ratios, const std::vector<std::string>& patch_names, bool every_kind);
 
 }  // namespace kerf
