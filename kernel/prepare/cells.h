@@ -22,7 +22,7 @@ struct FoundSize {
 struct SizedInput {
     Input input;
     RunOptions options;
-    std::optional<FoundSize> found;  ///< where a number of tetrahedra was asked for
+    std::optional<FoundSize> found;  ///< none: no number of tetrahedra was asked for
 };
 
 /// Returns the options with a size in place of SizeOptions::cells, forecast from the input as it is, before it is

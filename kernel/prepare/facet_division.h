@@ -39,7 +39,7 @@ double forecast_divided_facets(const SurfaceArrays& surface, const FacetSizes& w
 
 /// A surface after its division.
 struct DividedSurface {
-    SurfaceArrays surface;                   ///< with keys like those of a surface that was read
+    SurfaceArrays surface;                   ///< its keys are like those of a surface that was read
     std::int64_t kept = 0;                   ///< number of facets that are as they were
     std::vector<std::int32_t> facet_before;  ///< #F; the facet that each is a piece of
 };

@@ -93,7 +93,8 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
     soup.vertices = std::move(moved);
 }
 
-// Of points with one name the smallest bound counts; of the points of a body without regions that of all.
+// Returns the bounds of cells by region. Among points with one name the smallest bound counts, for a body without
+// regions that of all points.
 std::vector<double> largest_cells_of(const Soup& soup) {
     const bool is_single = soup.region_names.empty();
     std::vector<double> largest(is_single ? 1 : soup.region_names.size(), 0);

@@ -39,7 +39,7 @@ struct InputRepairs {
 /// A surface file after the repairs that come before orientation, and the defects that are left.
 struct CheckedSoup {
     Soup soup;
-    Diagnosis diagnosis;  ///< of `soup`, which still has the facets that are dropped later
+    Diagnosis diagnosis;  ///< defects of `soup`, which still has the facets that are dropped later
     InputRepairs repairs;
     double weld_tolerance = 0;  ///< the tolerance that was used, units of the file
     RepairReport ladder = {};   ///< the steps of InputOptions::repair
@@ -106,7 +106,7 @@ struct Input {
     double volume_error = 0;           ///< see BoundedVolume
     double area = 0;                   ///< area of all facets, each once
     std::vector<InputRegion> regions;  ///< one for each of Complex::region_names(); empty if there is only one
-    double largest_coordinate = 0;     ///< as an absolute value
+    double largest_coordinate = 0;     ///< the largest absolute value of a coordinate
     double diagonal = 0;               ///< diagonal of the bounding box
     InputRepairs repairs;
     double weld_tolerance = 0;  ///< the tolerance that was used, units of the input

@@ -141,7 +141,7 @@ struct SumOfNumbers {
     }
 };
 
-// Of the sides that are to be there, of the facets that belong to this rank.
+// Returns the sum over the wanted sides of facets that belong to this rank.
 SumOfNumbers sum_of_wanted(const Communicator& ranks, const SidesOfFacets& sides) {
     const std::int64_t first = sides.first_of(ranks.rank(), ranks);
     const auto count = static_cast<std::size_t>(sides.first_of(ranks.rank() + 1, ranks) - first);

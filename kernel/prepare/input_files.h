@@ -14,7 +14,7 @@ namespace kerf {
 /// The content of the input and of InputOptions::more_files.
 struct InputFiles {
     Soup soup;
-    std::string hash;  ///< of the bytes of the file, or of the hashes of all files, see hash_text()
+    std::string hash;  ///< hash of the bytes of the file, or of the hashes of all files, see hash_text()
     std::vector<std::int32_t> file_of_patch;  ///< the file of each patch; empty for one file
     std::vector<std::string> names;           ///< stems of the files, all different; empty for one file
     std::string walls_file = {};              ///< the JSON beside a single file, if it is there

@@ -57,7 +57,7 @@ class Columns {
         return 0;
     }
 
-    // For each vertex the one that lies a period above it, or -1.
+    // Returns for each vertex the one that lies a period above it, or -1.
     std::vector<std::int32_t> partners_above(double period) const {
         std::vector<std::int32_t> partner(vertices_.size(), -1);
         for_each_column([&](std::size_t first, std::size_t last) {
@@ -95,7 +95,7 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-// In this direction.
+// Whether the triangle has the edge in this direction.
 bool has_edge(const Triangle& t, std::int32_t from, std::int32_t to) {
     return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
 }

@@ -80,7 +80,8 @@ void diagnose_named_walls(CheckedSoup& checked, const InputFiles& files, const D
     for (Defect& defect : checked.diagnosis.defects) name_by_walls(defect, checked.soup, files.walls);
 }
 
-// By patch. One that a repair has made, as a cap, is of the file with the first facet beside it.
+// Returns the file of each patch. A patch that a repair has made, such as a cap, is of the file with the first facet
+// beside it.
 std::vector<std::int32_t> files_of_patches(const Soup& soup, const InputFiles& files) {
     std::vector<std::int32_t> file_of_patch = files.file_of_patch;
     const auto is_made = [&](std::int32_t patch) { return std::cmp_greater_equal(patch, files.file_of_patch.size()); };
@@ -196,7 +197,7 @@ void diagnose_filled(CheckedSoup& checked, const DiagnosisOptions& options) {
     take_regions(checked, std::move(divided), std::move(diagnosis));
 }
 
-// Between regions, or between patches that are bodies of their own.
+// Adds gaps between regions, or between patches that are bodies of their own.
 void look_for_gaps(CheckedSoup& checked) {
     if (!checked.diagnosis.clean()) return;
     if (!checked.soup.sides.empty()) return add_gaps(checked.diagnosis, checked.soup, {});

@@ -119,7 +119,7 @@ Remedy wrap_remedy(const InputOptions& given, const Soup& soup) {
     return remedy;
 }
 
-// By the kinds of the defects, and caps by a try of that step alone.
+// Returns a remedy by the kinds of the defects, and caps by a try of that step alone.
 Remedy untried_remedy(const std::string& path, const InputOptions& given, const CheckedSoup& checked, bool may_cap,
                       StageListener* listener) {
     InputOptions way = given;

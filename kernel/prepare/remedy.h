@@ -14,12 +14,12 @@ namespace kerf {
 
 /// A way to mesh a file with errors.
 struct Remedy {
-    InputOptions options = {};  ///< of the check, with the changes that help; with `wrap` where no repair does
-    bool was_tried = false;     ///< by repairing a copy; else the steps fit the kinds of the defects
+    InputOptions options = {};  ///< options of the check with the changes that help; `wrap` where no repair does
+    bool was_tried = false;     ///< whether a copy was repaired; else the steps fit the kinds of the defects
     std::int64_t caps = 0;      ///< openings that InputOptions::cap closes by patches of their own
-    double largest_move = 0;    ///< of a vertex, where it was tried; units of the surface
-    double wrap_distance = 0;   ///< of a wrap: estimated_wrap_distance(); 0: not known
-    std::vector<std::string> losses = {};  ///< where it was tried: losses that may be wanted, see RepairAction::is_loss
+    double largest_move = 0;    ///< the largest move of a vertex, where it was tried; units of the surface
+    double wrap_distance = 0;   ///< estimated_wrap_distance() of a wrap; 0: not known
+    std::vector<std::string> losses = {};  ///< losses that may be wanted, where it was tried, see RepairAction::is_loss
 };
 
 /// Repairs a copy of the files in one way after another, unless `options` ask for as much already, and returns the

@@ -41,13 +41,14 @@ namespace {
 
 constexpr double largest_share = 0.05;   // of the diagonal, for the deviation
 constexpr double smallest_share = 1e-9;  // coordinates have few more digits
-// Of the diagonal, for edges where nothing else is wanted: coarse, medium and fine.
+// Longest edges where nothing else is wanted, as shares of the diagonal: coarse, medium and fine.
 constexpr double longest_shares[] = {0.05, 0.03, 0.015};
-// The deviation where none is given: of the wanted length, or, if none is wanted, of the diagonal.
+// Deviations where none is given, as shares of the wanted length, or, if none is wanted, of the diagonal.
 constexpr double share_of_length = 0.05, shares_of_diagonal[] = {2e-3, 5e-4, 1.5e-4};
-// That it is at most where none is given: of the thickness of most of the body, and at each place.
+// Bounds of the deviation where none is given, as shares of the median thickness of the body, and of that at each
+// place.
 constexpr double share_of_median_thickness = 0.05, share_of_thickness = 0.1;
-constexpr double volume_tolerance = 1e-4;  // of a region, as a share, likewise
+constexpr double volume_tolerance = 1e-4;  // of the volume of a region, where no deviation is given
 constexpr double bytes_per_facet = 280;    // bytes of the process for each facet while it remeshes
 constexpr double deg_per_rad = 180 / std::numbers::pi;
 
@@ -178,8 +179,8 @@ double slender_deviation(const LabelledFacets& facets, double usual) {
     return std::min(usual, share_of_median_thickness * median_thickness(facets.surface, tree, facets.walls, limit));
 }
 
-// Who asks for a deviation says how much the shape may change; a wrap is another shape than the file's. Where curved
-// cells follow, vertices are put on the faces of the model again, and the edges between them bulge.
+// A deviation that is asked for says how much the shape may change; a wrap is another shape than the file's. Where
+// curved cells follow, vertices are put on the faces of the model again, and the edges between them bulge.
 bool may_change_volume(const Input& input, const RunOptions& options) {
     return options.deviation.number() > 0 || input.wrapped || (input.is_cad && options.has_curved_edges());
 }
@@ -222,7 +223,7 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     return task;
 }
 
-// Whose solver joins opposite sides wants to know whether they still match.
+// Returns a note for users whose solvers join opposite sides, and who want to know whether they still match.
 std::string note_of_periodicity(const Periodicity& periodicity) {
     const Vec3& period = periodicity.period;
     return fmt::format("Opposite sides match, {:.6g}, {:.6g} and {:.6g} apart along x, y and z: {}", period.x(),

@@ -16,8 +16,8 @@ namespace kerf {
 struct RepairedFile {
     std::string input, output;
     CheckedSoup checked;           ///< the result; the diagnosis is empty if it can be meshed
-    RepairMeasures measures;       ///< of the result against the files as they were read
-    OrientationReport turned;      ///< of a result that can be meshed
+    RepairMeasures measures;       ///< comparison of the result with the files as they were read
+    OrientationReport turned;      ///< facets turned in a result that can be meshed
     bool can_be_meshed = false;    ///< the result, as it was written
     bool is_unchanged = false;     ///< nothing was found to be repaired
     bool is_copy = false;          ///< the output has the bytes of the input, too

@@ -19,7 +19,7 @@ bool is_sliver(const std::vector<Vec3>& vertices, const Triangle& t) {
     return smallest_sine(vertices[t[0]], vertices[t[1]], vertices[t[2]]) < sine_of_10;
 }
 
-// On threads. `is_bad`: of the facet of a number.
+// Counts slivers on threads. `is_bad`: takes the number of a facet.
 template <class IsBad>
 Slivers count_slivers(std::size_t facets, const IsBad& is_bad) {
     constexpr std::size_t grain = std::size_t{1} << 16;

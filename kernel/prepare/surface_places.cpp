@@ -13,7 +13,7 @@ namespace {
 
 constexpr double sharp_angle_deg = 30;  // as RemeshOptions::feature_angle_deg
 
-// Of two facets that meet; facets of a wall may be turned either way.
+// Whether two facets meet at a sharp angle; facets of a wall may be turned either way.
 bool meet_sharply(const std::vector<Vec3>& points, const Triangle& a, const Triangle& b, bool is_opposite) {
     const Vec3 na = area_vector(points, a), nb = area_vector(points, b);
     const double cosine = (is_opposite ? 1 : -1) * na.dot(nb);

@@ -22,8 +22,8 @@ struct PlacedEdge {
 /// of the facets of a complex (Complex::arrays()). O(n log n).
 struct PlacedSurface {
     std::vector<Vec3> points;
-    std::vector<Triangle> facets;     ///< by keys
-    std::vector<std::int32_t> patch;  ///< of the facets
+    std::vector<Triangle> facets;     ///< corners by keys
+    std::vector<std::int32_t> patch;  ///< patch of each facet
     std::vector<PlacedEdge> edges;
 
     explicit PlacedSurface(const SurfaceArrays& arrays);

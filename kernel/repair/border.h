@@ -39,7 +39,7 @@ class Border {
     const std::vector<Triangle>& facets_;
     std::vector<std::int32_t> corners_, vertices_;
     std::vector<std::int32_t> place_;                         // #V; place in vertices_, -1: not of the border
-    std::vector<std::int32_t> facets_at_, first_facet_;       // per place
+    std::vector<std::int32_t> facets_at_, first_facet_;       // per place: the facets at the vertex
     std::vector<std::int32_t> neighbours_, first_neighbour_;  // per place: other ends of open edges
 };
 

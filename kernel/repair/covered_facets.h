@@ -12,10 +12,10 @@ namespace kerf {
 /// Facets that do not bound the union of bodies, each list ascending.
 struct CoveredFacets {
     std::vector<std::int32_t> copies;  ///< superfluous ones, of which another in the same place stays
-    std::vector<std::int32_t> folds;   ///< as many in one direction as in the other: both sides are alike
+    std::vector<std::int32_t> folds;   ///< facets as often there in one direction as in the other: both sides are alike
     std::vector<std::int32_t> inside;  ///< facets inside of the union, with their copies
-    std::vector<char> is_closed;       ///< #F; of a piece with copies and as many edges in each direction
-    std::vector<char> is_told;         ///< #F; of such a piece, for which the lists are complete
+    std::vector<char> is_closed;       ///< #F; facets of pieces with copies and as many edges in each direction
+    std::vector<char> is_told;         ///< #F; facets of those pieces for which the lists are complete
 };
 
 /// Finds the facets that do not bound the union of closed bodies with common facets. It looks at each piece that hangs

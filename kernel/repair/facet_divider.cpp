@@ -341,7 +341,8 @@ bool PlaneDivision::collect_member(std::int32_t member, std::vector<FacetPiece>&
     return true;
 }
 
-// Where corners fall upon each other in the projection, so that edges are not found, a facet stays whole in this round.
+// Collects the pieces of all facets. Where corners fall upon each other in the projection, so that edges are not found,
+// a facet stays whole in this round.
 void PlaneDivision::collect(std::vector<FacetPiece>& pieces, std::vector<PointOnEdge>& on_edges) {
     for (std::size_t m = 0; m < members_.size(); ++m) {
         const std::size_t piece_count = pieces.size(), point_count = on_edges.size();

@@ -9,7 +9,7 @@ namespace kerf {
 
 /// Flat facets, and where their neighbours are to be divided.
 struct FlatFacets {
-    std::vector<std::int32_t> facets;  ///< with three vertices on one line, ascending
+    std::vector<std::int32_t> facets;  ///< facets with three vertices on one line, ascending
     std::vector<SidePoint> points;     ///< on sides of the facets beside them, which are divided there first
 };
 

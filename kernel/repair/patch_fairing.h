@@ -10,7 +10,7 @@ namespace kerf {
 
 /// The surface around a patch.
 struct PatchSurroundings {
-    std::vector<std::array<std::int32_t, 3>> facets;  ///< at the rims, by numbers of rim points, then of `points`
+    std::vector<std::array<std::int32_t, 3>> facets;  ///< facets at the rims; numbers of rim points, then of `points`
     std::vector<Vec3> points;                         ///< points beside the rims, numbered on from those of the rims
     std::vector<char> is_whole;                       ///< per rim point: only these facets and the patch are around it
 };

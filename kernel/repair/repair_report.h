@@ -13,7 +13,7 @@ namespace kerf {
 /// A place where something was done.
 struct RepairPlace {
     Vec3 where = Vec3::Zero();              ///< units of the surface
-    std::vector<std::int32_t> facets = {};  ///< by numbers in the file (Soup::file_facets()); a few of many
+    std::vector<std::int32_t> facets = {};  ///< numbers in the file (Soup::file_facets()); a few of many
     double measure = 0;                     ///< a distance, a number of edges, ..., see RepairAction; 0: none
 };
 

@@ -13,9 +13,9 @@ namespace kerf {
 
 /// The request to a step.
 struct StepRequest {
-    double amount = 0;    ///< of the step, a length in units of the surface or a count
+    double amount = 0;    ///< amount of the step: a length in units of the surface, or a count
     double bound = 0;     ///< the largest move of a vertex of the input, units of the surface
-    double diagonal = 0;  ///< of the bounding box of the surface as it came
+    double diagonal = 0;  ///< diagonal of the bounding box of the surface as it came
     BodyRepair bodies = BodyRepair::as_found;
     bool are_walls = false;              ///< see RepairPlan
     bool voids_are_parity = false;       ///< see RepairPlan
@@ -36,7 +36,7 @@ enum class AmountKind { none, length, count };
 
 struct RepairStepRow {
     RepairKind kind;
-    const char* name;   ///< as users write it
+    const char* name;   ///< the word that users write
     RepairLevel level;  ///< the least level that has it; none: it is done only by name
     AmountKind amount;
     Length usual;      ///< the amount where nobody gives one

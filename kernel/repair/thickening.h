@@ -14,7 +14,7 @@ struct Thickening {
     std::vector<std::int32_t> infinite;   ///< one facet of each that stays, because a vertex has no finite coordinates
     std::vector<std::int32_t> unordered;  ///< one at each edge where sheets lie on one another: each wall ends there
     std::vector<std::int32_t> turned_over;  ///< facets of which a side is turned over now: too sharp a bend
-    double largest_move = 0;                ///< of a vertex, in units of the surface
+    double largest_move = 0;                ///< the largest move of a vertex, units of the surface
 };
 
 /// Makes walls of the sheets of a soup, which are the facets that hang together over edges and have an open edge. Both

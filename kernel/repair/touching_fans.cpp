@@ -277,7 +277,7 @@ double FanSeparator::wedge(std::int32_t c, std::int32_t d) const {
     return orientation(a, b, point(previous(c)), point(previous(d))) >= 0 ? angle : 360 - angle;
 }
 
-// Of pairs with the same two ends all but the widest get one.
+// Adds a middle for each pair of facets with the same two ends but the widest.
 void FanSeparator::add_middles(const std::vector<std::array<std::int32_t, 2>>& pairs,
                                std::vector<EdgeMiddle>& middles) const {
     std::size_t widest = 0;

@@ -11,7 +11,7 @@ namespace kerf {
 /// The outcome of a separation.
 struct FanSeparation {
     std::vector<RepairAction> actions;
-    double largest_move = 0;  ///< of a fan, in units of the surface
+    double largest_move = 0;  ///< the largest move of a fan, units of the surface
 };
 
 /// Parts a surface where it touches itself. At a vertex each closed fan of facets but the widest gets a vertex of its

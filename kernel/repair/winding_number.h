@@ -35,8 +35,8 @@ class WindingNumber {
     using QuadraticForm = std::array<double, 6>;  // xx, yy, zz, xy, yz, zx
     using CubicForm = std::array<double, 10>;     // xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
     struct Node : BoxNode {
-        double area = 0;             // of all facets below the node
-        Vec3 centre = Vec3::Zero();  // of these facets, by area
+        double area = 0;             // total area of the facets below the node
+        Vec3 centre = Vec3::Zero();  // their centroid
         Vec3 dipole = Vec3::Zero();  // the sum of the area vectors
         QuadraticForm quadrupole = {};
         CubicForm octupole = {};

@@ -22,10 +22,10 @@ struct WrapOptions {
 /// The measures of a wrap, and its distances from the surface inside of it.
 struct WrapReport {
     double gap = 0, offset = 0;      ///< the lengths that were used, units of the surface
-    std::int64_t facets_before = 0;  ///< of the surface
-    std::int64_t left_out = 0;       ///< of these, facets without area or finite coordinates
-    std::int64_t seen = 0;           ///< of these, facets that have a free view on one of their sides
-    std::int64_t facets = 0;         ///< of the wrap
+    std::int64_t facets_before = 0;  ///< facets of the surface
+    std::int64_t left_out = 0;       ///< facets of these without area or finite coordinates
+    std::int64_t seen = 0;           ///< facets of these with a free view on one of their sides
+    std::int64_t facets = 0;         ///< facets of the wrap
     double distance_to_input = 0;    ///< no point of the wrap is further from the surface; proven
     double distance_from_input = 0;  ///< no point of the facets seen is further from the wrap; proven
 };

@@ -70,7 +70,7 @@ class WrapPullback {
         return longest > 0 ? doubled_area_vector(a, b, c).norm() / longest : 0;
     }
 
-    // Where every vertex goes.
+    // Finds the target of every vertex.
     void find_targets() {
         for (std::size_t f = 0; f < facets_.size(); ++f) wrap_normal_[f] = doubled_area_vector(start_, facets_[f]);
         for (std::size_t v = 0; v < start_.size(); ++v) {
@@ -108,7 +108,7 @@ class WrapPullback {
         return centre + planes.transpose() * (planes * planes.transpose()).inverse() * heights;
     }
 
-    // Where the vertex that divides an edge goes; false if none is wanted.
+    // Finds the target of the vertex that divides an edge; false if none is wanted.
     bool find_division(std::int32_t a, std::int32_t b, Vec3& to) const {
         if (!is_free_[a] || !is_free_[b]) return false;
         const Vec3 middle = (target_[a] + target_[b]) / 2;
@@ -126,7 +126,8 @@ class WrapPullback {
                std::abs(way.dot(up)) > along_normal * way.norm();
     }
 
-    // Where three edges are divided, the planes of the corners may meet in one.
+    // Finds the point where the planes of the corners of a facet meet, for one whose three edges are divided; false if
+    // there is none on the input.
     bool find_corner(const Triangle& t, Vec3& to) const {
         const auto& [a, b, c] = t;
         if (std::abs(normal_[a].cross(normal_[b]).dot(normal_[c])) < least_corner) return false;
@@ -281,7 +282,7 @@ class WrapPullback {
                 is_turned_from(normal_[t[0]] + normal_[t[1]] + normal_[t[2]]));
     }
 
-    // Until nothing is spoilt and nothing crosses.
+    // Holds vertices back until no facet is spoilt and none cross.
     void hold_back() {
         constexpr int patient_rounds = 8;
         held_.assign(start_.size(), 0);

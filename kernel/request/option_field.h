@@ -52,7 +52,7 @@ struct OptionField {
     Value value;
     bool shapes_parts = true;  ///< false: part files of a finished run do not depend on it, except parts over a time
                                ///< limit, which the run marks (PartOutcome::timed_out)
-    NumberRange range = {};    ///< of a number or a length
+    NumberRange range = {};    ///< range of a number or a length
 
     /// Returns the value as text, numbers with all their digits. set_text() takes it back, and throws Error(usage),
     /// naming the option and its range or form, for a text that is no such value.

@@ -30,7 +30,7 @@ enum class Curving {
 /// The options of a run.
 struct RunOptions {
     std::string input;
-    std::string input_hash;  ///< of the bytes of the input that a continued run has read; empty: any
+    std::string input_hash;  ///< hash of the input that a continued run has read; empty: any
     std::string output;
     std::string worker_program;  ///< path of kerf-worker; empty: the one that find_kerf_program() finds
     DecomposeOptions decompose = {
@@ -58,7 +58,7 @@ struct RunOptions {
     bool split_regions = false;            ///< OpenFOAM's case has one mesh for each region
     bool transient = false;  ///< the listener gets the parts (RunListener::on_meshes()), and `output` is a folder that
                              ///< its owner removes: nothing is written for others, or to outlive a power cut
-    std::int32_t order = 1;  ///< of the cells: 1, or 2 with a node on each edge
+    std::int32_t order = 1;  ///< order of the cells: 1, or 2 with a node on each edge
     Curving curving = Curving::automatic;
 
     /// Whether edges of the surface may be curved.

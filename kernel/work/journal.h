@@ -10,7 +10,7 @@ namespace kerf {
 
 /// A finished part. It is valid for a run that wants the same job done and finds the part's file as it was.
 struct JournalEntry {
-    FileHash job_hash = {0, 0};  ///< of the job's bytes and the options that shape the mesh, see hash_of_job()
+    FileHash job_hash = {0, 0};  ///< hash of the job's bytes and the options that shape the mesh, see hash_of_job()
     double timeout_seconds = 0;  ///< if an attempt has exceeded it: with another limit the part might be another
     PartOutcome outcome;
 

@@ -45,8 +45,8 @@ Part part_of_job(const PartJob& job, TetMesh mesh);
 
 /// One attempt at a part, as a worker is told of it.
 struct PartAttempt {
-    std::string job_file;   ///< from write_job()
-    std::string part_file;  ///< where write_stored_part() writes the part
+    std::string job_file;   ///< path of a file of write_job()
+    std::string part_file;  ///< path of the file that write_stored_part() writes
     MesherCall call;
     bool durable = true;  ///< see write_stored_part()
 
@@ -58,7 +58,8 @@ struct PartAttempt {
 
 /// Smallest dihedral angles before and after the improvement of cells; all 0 where there was none.
 struct ImprovedAngles {
-    double min_before_deg = 0, p1_before_deg = 0;  ///< of the worst cell, and of a hundredth of the cells at most
+    double min_before_deg = 0,
+           p1_before_deg = 0;  ///< angle of the worst cell, and below which a hundredth of the cells lies
     double min_after_deg = 0, p1_after_deg = 0;
 
     ImprovedAngles() = default;
@@ -83,8 +84,8 @@ struct PartResult {
     MeshLaws laws;
     PartQuality quality;
     SizeRatios sizes;  ///< against the sizes of the call, which a fallback may have made larger
-    std::array<std::uint64_t, 2> hash = {0, 0};  ///< of hash_part()
-    FileHash file_hash = {0, 0};                 ///< of the stored part
+    std::array<std::uint64_t, 2> hash = {0, 0};  ///< see hash_part()
+    FileHash file_hash = {0, 0};                 ///< hash of the stored part
     FacetRecovery recovery;                      ///< Filling::recovery
     Improvement improvement;                     ///< Filling::improvement
     ImprovedAngles angles;                       ///< before and after the improvement

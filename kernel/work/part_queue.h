@@ -13,7 +13,7 @@ namespace kerf {
 
 /// A part that waits for a worker.
 struct QueuedPart {
-    std::string job_file;  ///< from write_job()
+    std::string job_file;  ///< path of a file of write_job()
     std::string part_file;
     SizeField size;           ///< wanted in its region, in place of the one in QueueOptions::mesher
     Eigen::AlignedBox3d box;  ///< around its surface: sizes without effect there are not told to its worker
@@ -21,7 +21,7 @@ struct QueuedPart {
 
 /// The outcome of one part over all of its attempts.
 struct PartOutcome {
-    PartResult result;  ///< of the last attempt
+    PartResult result;  ///< result of the last attempt
     std::int32_t attempts = 0;
     std::int32_t worker = 0;            ///< slot in [0, workers)
     double seconds = 0;                 ///< wall clock over all attempts, starting the processes included
@@ -41,7 +41,7 @@ struct QueueOptions {
     std::string worker_program;
     MesherOptions mesher;
     std::int32_t workers = 1;
-    double timeout_seconds = 0;  ///< of one attempt; 0: none
+    double timeout_seconds = 0;  ///< limit of one attempt; 0: none
     std::int64_t memory_mb = 0;
     std::int32_t attempts = 10;
     bool durable = true;  ///< whether the files of parts outlive a power cut
