@@ -1,4 +1,4 @@
-// Numbers of a file that are written as their bytes.
+// Reads numbers that a file holds as their bytes.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class BinaryScanner {
     BinaryScanner(std::string_view bytes, std::size_t begin, const std::string& path, std::endian order)
         : bytes_(bytes), position_(begin), path_(path), swap_(order != std::endian::native) {}
 
-    /// Throws Error(input) at the end of the file.
+    /// Returns the next number. Throws Error(input) at the end of the file.
     template <class Number>
     Number next() {
         if (left() < sizeof(Number)) fail("the file ends too early. It is truncated: export or copy it again.");

@@ -1,3 +1,6 @@
+// kerf and kerf-cad are two processes of one build: options travel as arguments of the command line, in the order and
+// spelling of arguments(), and the answer as bytes behind a magic text with the version. The fields behind it have no
+// names, so that bytes of another version are refused as a whole. The format of a CAD file is told by its first bytes.
 #include "io/cad_body.h"
 
 #include <algorithm>
@@ -11,10 +14,10 @@ namespace kerf {
 
 namespace {
 
-// With the version, since the fields behind it have no names.
+// The beginning of an answer. It has the version, since the fields behind it have no names.
 constexpr std::string_view cad_magic = "kerf-cad " KERF_VERSION "\n";
 
-// False if the text is no such number.
+// Returns false if the text is no such number.
 template <class Number>
 bool parse_number(const std::string& text, Number& number) {
     const char* end = text.data() + text.size();
@@ -38,7 +41,7 @@ bool set_cad_option(CadOptions& options, const std::string& name, const std::str
     return false;
 }
 
-// Null if it is none.
+// Returns null if the argument is not this option.
 bool* flag_of(CadOptions& options, const std::string& name) {
     if (name == "--unite") return &options.unite;
     if (name == "--no-imprint") return &options.no_imprint;

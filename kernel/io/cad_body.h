@@ -1,4 +1,4 @@
-// What the program kerf-cad makes of a CAD file, and how it is told what to make.
+// The answer of the program kerf-cad to a CAD file, and the options that kerf-cad is given.
 #pragma once
 
 #include <array>
@@ -20,25 +20,25 @@ namespace kerf {
 /// Units of length into which a CAD file is converted.
 enum class LengthUnit : std::int32_t { mm, cm, m, inch, ft };
 
-/// Their names, in the order of the enumeration.
+/// The names of the units, in the order of the enumeration.
 const std::vector<std::string>& length_unit_names();
 double millimetres_of(LengthUnit unit);
 
 struct CadOptions {
-    std::int32_t solid = 0;            ///< only this one, counted from 1 in the order of the file; 0: all
+    std::int32_t solid = 0;            ///< number of the only solid, from 1 in the order of the file; 0: all
     bool unite = false;                ///< solids that touch or overlap become one
     bool no_imprint = false;           ///< solids that touch are refused, and do not become regions that share walls
     LengthUnit unit = LengthUnit::mm;  ///< of the result; a file that names no unit (BREP) keeps its numbers
     double deflection = 0;             ///< largest distance of a chord from its curve as a share of the diagonal of
                                        ///< the solid; 0: such that the volume is right to `volume_tolerance`,
                                        ///< for which vertices leave the curved faces a little
-    bool unit_is_asked = false;        ///< by name: a file that has none is refused then, whatever the unit is
+    bool unit_is_asked = false;        ///< the user named `unit`: a file without a unit is refused
     bool on_faces = false;             ///< all vertices stay on the faces, and the volume is right to 0.001 only: for
-                                       ///< those who put nodes of edges there, too
+                                       ///< meshes whose nodes on edges are put on the faces, too
 
     static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
 
-    /// The options as arguments of kerf-cad.
+    /// Returns the options as arguments of kerf-cad.
     std::vector<std::string> arguments() const;
     /// Throws Error(usage) for arguments that are no options.
     static CadOptions from_arguments(std::span<const std::string> arguments);
@@ -77,7 +77,7 @@ class SolidDefect : public Error {
     std::string kind_;
 };
 
-/// What kerf-cad writes: a body, or why there is none.
+/// The answer of kerf-cad: a body, or the reason why there is none.
 struct CadAnswer {
     std::int32_t error_code = 0;  ///< an ErrorCode; 0: none
     std::string message;
@@ -93,13 +93,13 @@ struct CadAnswer {
 };
 
 /// An answer as bytes between processes of one machine type, and back. from_cad_bytes() throws Error(internal) for
-/// bytes that are none, or of another version of Kerf.
+/// bytes that are no answer, or the answer of another version of Kerf.
 Bytes to_cad_bytes(const CadAnswer& answer);
 CadAnswer from_cad_bytes(std::span<const char> bytes);
 
 enum class CadFormat { none, step, iges, brep };
 
-/// Tells by the first bytes of the content.
+/// Returns the format that the first bytes of the content tell.
 CadFormat cad_format(std::string_view content);
 const char* name(CadFormat format);
 

@@ -1,4 +1,4 @@
-// Points that the program kerf-cad puts on the faces of a CAD file, and how it is told of them.
+// Points that the program kerf-cad puts on the faces of a CAD file, as it gets them and as it returns them.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace kerf {
 
-/// Where on the model points belong.
+/// A place on the model, for points that belong there: some faces, or a curve that they share.
 struct CadPlace {
     std::vector<std::int32_t> patches;  ///< numbers of CadPoints::patch_names, ascending
     std::int32_t is_curve = 0;          ///< 1: a curve that the faces of all of these patches share; 0: their faces
@@ -26,13 +26,14 @@ struct CadPlace {
     }
 };
 
-/// What is to be put on the model: points, and then the middles between some of them. Units of CadBody::soup.
+/// Points that are to be put on the model, and pairs of them whose middles are to be put there after them. In units of
+/// CadBody::soup.
 struct CadPoints {
-    std::vector<std::string> patch_names;           ///< those of the soup; what it has not stands for all faces
-    std::vector<CadPlace> places;                   ///< some, for many points each
+    std::vector<std::string> patch_names;           ///< of the soup; a name that the soup has not stands for all faces
+    std::vector<CadPlace> places;                   ///< few, each of many points
     std::vector<Vec3> points;                       ///< #P
-    std::vector<std::int32_t> place;                ///< #P; of `places`, -1: the point stays
-    std::vector<std::array<std::int32_t, 2>> ends;  ///< #M; the points between which the middles are
+    std::vector<std::int32_t> place;                ///< #P; number in `places`, -1: the point stays
+    std::vector<std::array<std::int32_t, 2>> ends;  ///< #M; the two points of each middle
     std::vector<std::int32_t> place_of_middle;      ///< #M
 
     template <class Archive>
@@ -41,10 +42,10 @@ struct CadPoints {
     }
 };
 
-/// What became of them. A point for which the model has nothing stays where it is.
+/// The points where the model has them. A point for which the model has no place stays where it is.
 struct ProjectedPoints {
     std::vector<Vec3> points;   ///< #P
-    std::vector<Vec3> middles;  ///< #M; of the middles between the new points
+    std::vector<Vec3> middles;  ///< #M; for the middles between the new points
 
     template <class Archive>
     void archive(Archive& a) {

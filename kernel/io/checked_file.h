@@ -1,4 +1,4 @@
-// A file of which every step is checked.
+// A file whose every step is checked for errors.
 #pragma once
 
 #include <cerrno>
@@ -18,13 +18,13 @@
 
 namespace kerf {
 
-/// Nobody reads any more what goes into a pipe.
+/// The error of a pipe that nobody reads any more.
 class ReaderLeft : public Error {
     using Error::Error;
 };
 
-/// Throws Error(io) with the file, the step and the system's reason, a full disk included; ReaderLeft for a pipe
-/// whose reader has gone.
+/// A file that is open until close() or the destructor. Each function throws Error(io) with the file, the step and the
+/// system's reason, a full disk included; ReaderLeft for a pipe whose reader has gone.
 class CheckedFile {
  public:
     CheckedFile(const std::string& path, const char* mode) : path_(path), file_(std::fopen(path.c_str(), mode)) {
@@ -57,7 +57,7 @@ class CheckedFile {
         if (hasher_ && got > 0) hasher_->add_bytes(data, got);
         return got;
     }
-    /// Bytes of the whole file.
+    /// Returns the number of bytes of the whole file.
     std::uint64_t size() const {
         struct stat told {};
         check(::fstat(::fileno(file_.get()), &told) == 0, "read");
@@ -65,15 +65,15 @@ class CheckedFile {
     }
     void seek(std::int64_t position) { check(::fseeko(file_.get(), position, SEEK_SET) == 0, "read"); }
 
-    /// What is written or read from now on is added to `hasher`, too.
+    /// From now on all bytes that are written or read are added to `hasher`, too.
     void hash_into(Hasher& hasher) { hasher_ = &hasher; }
 
     void flush() { check(std::fflush(file_.get()) == 0, "write"); }
 
-    /// Returns when what was written would outlive a power cut.
+    /// Returns when all written bytes would outlive a power cut.
     void sync() { check(std::fflush(file_.get()) == 0 && ::fsync(::fileno(file_.get())) == 0, "write"); }
 
-    /// Buffered bytes may meet a full disk only here.
+    /// Writes the bytes that are buffered, and may meet a full disk only here.
     void close() { check(std::fclose(file_.release()) == 0, "write"); }
 
  private:

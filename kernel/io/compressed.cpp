@@ -1,6 +1,8 @@
-// Both libraries are fed the whole archive and asked for one block after the other, so that the limit is checked before
-// there is memory for more than a block beyond it. It grows with what has been read of the archive so far: a bomb is
-// known by its first bytes, however long it is.
+// Unpacks gzip by zlib and zstd by its own library, block by block: both libraries are fed the whole archive and asked
+// for one block of its content after the other, so that the limit is checked before there is memory for more than a
+// block beyond it. The limit, most_content(), grows with the bytes of the archive that have been read so far: a bomb is
+// known by its first bytes, however long it is. Blocks whose size is known before, those of VTU files and ZIP archives,
+// are inflated at once, after a check that deflate can have made so much of them.
 #include "io/compressed.h"
 
 #include <zlib.h>
@@ -23,7 +25,7 @@ namespace {
 constexpr std::string_view gzip_magic = "\x1f\x8b";
 constexpr std::string_view zstd_magic = "\x28\xb5\x2f\xfd";
 
-// What comes out of an archive.
+// The unpacked bytes of an archive, taken block by block within the limit.
 class Content {
  public:
     explicit Content(const std::string& path) : path_(path), block_(block_size, '\0') {}
@@ -52,7 +54,7 @@ class Content {
     std::string block_, bytes_;
 };
 
-// A block that is in memory; `window`: of zlib, negative without its header.
+// Inflates a block that is in memory. `window` is that of zlib, negative for a block without its header.
 std::string inflate_whole(std::string_view block, std::size_t size, int window, const std::string& path) {
     constexpr std::size_t most_growth = 1032, smallest_block = 16;  // of the method
     const auto fail = [&]() {

@@ -1,4 +1,4 @@
-// Small files that are there as a whole or not at all, whatever happens.
+// Small files that are there as a whole or not at all, whatever ends the process or the machine.
 #pragma once
 
 #include <span>

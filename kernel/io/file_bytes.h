@@ -13,9 +13,9 @@ namespace kerf {
 class FileReader {
  public:
     explicit FileReader(const std::string& path);
-    /// When it was opened.
+    /// The number of bytes when the file was opened.
     std::size_t size() const { return size_; }
-    /// The bytes that follow; throws if they are fewer.
+    /// Fills `bytes` with the next bytes of the file; throws Error(io) if they are fewer.
     void read(std::span<char> bytes);
 
  private:
@@ -24,7 +24,7 @@ class FileReader {
     std::size_t size_ = 0;
 };
 
-/// The whole content. Throws as FileReader.
+/// Returns the whole content. Throws as FileReader.
 std::string read_file(const std::string& path);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// What lies in a folder.
+// The list of the files of a folder.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace kerf {
 
-/// The files below a folder as paths relative to it, ascending, with '/' between names; folders that hold nothing end
-/// with '/'. Links are listed, not followed. Empty for a folder that does not exist. Throws Error(io) for one that
-/// cannot be read.
+/// Returns the files below a folder as paths relative to it, ascending, with '/' between names; empty folders are
+/// listed with a '/' at their end. Links are listed, not followed. The list is empty for a folder that does not exist.
+/// Throws Error(io) for a folder that cannot be read.
 std::vector<std::string> list_files(const std::string& folder);
 
 }  // namespace kerf

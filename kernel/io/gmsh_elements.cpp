@@ -71,7 +71,7 @@ void Elements::add_element() {
     builder_.add_polygon(corners_, fail);
 }
 
-// The number of that of the current patch.
+// Returns the number of the volume of the current patch.
 std::int32_t Elements::volume() {
     if (volume_ < 0) volume_ = builder_.tets().volume(model_.is_partitioned ? VolumeKey() : patch_);
     return volume_;

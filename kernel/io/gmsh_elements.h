@@ -21,15 +21,16 @@ struct ElementType {
     std::int64_t nodes = 0;
 };
 
-/// Takes the elements one by one: faces and tetrahedra, of higher order their corners. What is neither is only counted.
+/// Takes the elements one by one: faces and tetrahedra, with their corners alone where the order is higher. All other
+/// elements are only counted.
 class Elements {
  public:
     Elements(Source& source, SoupBuilder& builder, const Model& model)
         : source_(source), builder_(builder), model_(model) {}
 
-    /// Elements to come are of this type.
+    /// The elements that follow are of this type.
     void set_type(std::int64_t number);
-    /// Says that so many of them follow.
+    /// Announces so many elements of the current type, before they are read.
     void announce(std::int64_t count) const {
         if (is_face()) builder_.announce_facets(count);
     }
@@ -47,14 +48,15 @@ class Elements {
         }
         if (is_taken() && !repeats_last()) add_element();
     }
-    /// Notes and refuses what is known when all have been read.
+    /// Ends the elements: notes those that were ignored, and gives the builder what only all of them tell, names and
+    /// sides.
     void finish() const;
 
  private:
     void note_ignored() const;
     bool is_face() const { return type_.shape == Shape::triangle || type_.shape == Shape::quadrangle; }
     bool is_taken() const { return is_face() || type_.shape == Shape::tetrahedron; }
-    /// Of an element that is taken; they are its first nodes.
+    /// Returns the number of corners of an element that is taken; they are its first nodes.
     std::int64_t corner_count() const { return type_.shape == Shape::triangle ? 3 : 4; }
     // MSH 2 writes an element of several groups once for each, one directly behind the other.
     bool repeats_last() const {
@@ -70,8 +72,8 @@ class Elements {
     const Model& model_;
     ElementType type_;
     std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
-    std::int32_t volume_ = -1;                          // number of that of patch_; -1: not known yet
-    std::vector<SurfaceRun> surfaces_;                  // of faces
+    std::int32_t volume_ = -1;                          // number of the volume of patch_; -1: not known yet
+    std::vector<SurfaceRun> surfaces_;                  // runs of faces by their surface
     std::vector<std::int64_t> corners_, last_corners_;  // of this face, of the last one
     std::array<std::int64_t, static_cast<std::size_t>(Shape::unknown)> counts_{};
 };

@@ -1,4 +1,4 @@
-// What the elements of one of Gmsh's files need from the sections before them: names, entities, nodes.
+// The names, entities and nodes of one of Gmsh's files, which its elements refer to.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@ struct EntityKind {
     std::vector<std::pair<std::int64_t, std::string>> groups = {};            // tag, name; sorted once complete
     std::vector<std::pair<std::int64_t, std::int64_t>> group_of_entity = {};  // entity, physical tag
 
-    /// The name of the group, or of the entity where the group is 0.
+    /// Returns the name of the group, or of the entity where the group is 0.
     std::string name_of(std::int64_t group, std::int64_t entity) const;
 };
 
-/// Everything that comes before the elements.
+/// The content of the sections before the elements.
 struct Model {
     EntityKind surfaces{"surface"}, volumes{"volume"};
     std::vector<std::pair<std::int64_t, std::vector<std::int64_t>>> surfaces_of_volume;  // entities
@@ -31,7 +31,7 @@ struct Model {
     }
 };
 
-/// The value behind a key in sorted pairs, null if there is none. O(log n).
+/// Returns the value behind a key in sorted pairs, null if there is none. O(log n).
 template <class Value>
 const Value* find(const std::vector<std::pair<std::int64_t, Value>>& pairs, std::int64_t key) {
     const auto found = std::lower_bound(pairs.begin(), pairs.end(), key,

@@ -80,7 +80,7 @@ std::int64_t read_group(Source& source) {
     return first < 0 ? -first : first;
 }
 
-// The entities around one, whose sign says how they are turned.
+// Returns the entities around one; their signs, which say how they are turned, are dropped.
 std::vector<std::int64_t> read_boundary(Source& source) {
     std::vector<std::int64_t> tags;
     const std::int64_t count = source.next_count();
@@ -221,7 +221,7 @@ void read_node_data(Source& source, SoupBuilder& builder, const Model& model) {
     }
 }
 
-// Passes over what is left of a section; its end may only be missing at the end of the file.
+// Passes over the rest of a section; its end may only be missing at the end of the file.
 void finish_section(TextScanner& text, std::string_view name) {
     const std::string end = "$End" + std::string(name);
     while (!text.at_end() && text.next_word() != end) continue;

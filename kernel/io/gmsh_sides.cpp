@@ -1,3 +1,10 @@
+// Each volume is turned by itself. Its surfaces are taken from the runs of facets, but for those that it lists twice:
+// they have it on both sides. The facets are made consistent over their edges, which divides them into shells. The
+// shell with the largest absolute volume is the outer one, with the volume behind its facets; every other shell is
+// around a void, with the volume in front. "In front" is the side to which the normal of a facet of the file points,
+// "back" the other one. Signs in the lists of the file are not asked, because Gmsh's two geometries disagree about
+// them. Where two volumes claim the same side of a facet, the second gets the other side, so that a wall always
+// separates the two that list it.
 #include "io/gmsh_sides.h"
 
 #include <algorithm>
@@ -55,7 +62,7 @@ Volumes find_volumes(const Model& model, const FacetsOfSurfaces& of_surfaces) {
     return volumes;
 }
 
-// Of the shells, turned as they are.
+// Returns six times the signed volume that each shell encloses, by the orientation that its facets agree on.
 std::vector<double> six_volumes_of_shells(const ConsistentFacets& consistent, const std::vector<Vec3>& vertices) {
     std::vector<double> six_volumes(static_cast<std::size_t>(consistent.shell_count), 0);
     for (std::size_t f = 0; f < consistent.facets.size(); ++f) {
@@ -67,7 +74,7 @@ std::vector<double> six_volumes_of_shells(const ConsistentFacets& consistent, co
     return six_volumes;
 }
 
-// For each of the facets whether what they bound is in front of it.
+// Tells for each facet whether the volume that all of them bound is in front of it.
 std::vector<char> are_inward(const std::vector<Triangle>& facets, const std::vector<Vec3>& vertices) {
     const ConsistentFacets consistent = make_consistent(facets);
     const std::vector<double> six_volumes = six_volumes_of_shells(consistent, vertices);
@@ -85,7 +92,7 @@ std::vector<char> are_inward(const std::vector<Triangle>& facets, const std::vec
 
 bool has_three_corners(const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
 
-// A side that another volume has already leaves the other one.
+// Puts the region on this side of a facet, or on the other side if another volume has taken this one already.
 void take_side(FacetSides& sides, bool is_in_front, std::int32_t region) {
     const bool is_free = (is_in_front ? sides.front : sides.back) < 0;
     (is_in_front == is_free ? sides.front : sides.back) = region;

@@ -1,4 +1,4 @@
-// Which volumes of one of Gmsh's files its surfaces bound, where it has no tetrahedra.
+// The volumes on the sides of the surfaces of one of Gmsh's files that has no tetrahedra.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace kerf::gmsh {
 
-/// Facets of one surface that follow each other, up to the next run.
+/// A run of facets of one surface that follow each other: it ends where the next run begins.
 struct SurfaceRun {
     std::int64_t entity;
     std::size_t first_facet;
@@ -19,16 +19,17 @@ struct SurfaceRun {
 
 struct SurfaceSides {
     std::vector<FacetSides> sides;          ///< #F; the same on both sides where no region ends
-    std::vector<std::string> region_names;  ///< as of tetrahedra: see regions_of()
+    std::vector<std::string> region_names;  ///< made of names of volumes by regions_of(), as those of tetrahedra are
 };
 
-/// What the lists of surfaces say that bound volumes. Only volumes count all of whose surfaces are in the file; empty
-/// if they are less than two. O(n log n) for volumes of n facets, deterministic.
+/// Returns the sides of the facets that follow from the lists of surfaces that bound volumes. A volume counts only if
+/// all of its surfaces are in the file; the result is empty for less than two such volumes and for partitioned meshes.
+/// O(n log n) for volumes of n facets, deterministic.
 ///
-/// On which side of its surfaces a volume lies does not follow from the signs in its list, which Gmsh's two geometries
-/// write in different ways, and not always consistently. It follows from the facets: they are made to agree over edges;
-/// the shell that encloses most has the volume behind it, and all others are around voids. Whether the shells close is
-/// not checked here: regions that do not are found later.
+/// The side of its surfaces on which a volume lies does not follow from the signs in its list, which Gmsh's two
+/// geometries write in different ways, and not always consistently. It follows from the facets: they are made to agree
+/// over edges; the shell that encloses most has the volume behind it, and all others are around voids. Whether the
+/// shells close is not checked here: regions that are not closed are found later.
 SurfaceSides sides_of_surfaces(const Model& model, const std::vector<SurfaceRun>& runs, const Soup& soup);
 
 }  // namespace kerf::gmsh

@@ -1,4 +1,4 @@
-// The numbers in the sections of one of Gmsh's files, as text or as bytes.
+// Reads the numbers in the sections of one of Gmsh's files, which are text or bytes.
 #pragma once
 
 #include <bit>
@@ -16,7 +16,7 @@ class Source {
  public:
     explicit Source(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path), text_(bytes, path) {}
 
-    /// The part of the file that is text whatever the rest is; it goes on where the numbers ended.
+    /// Returns the scanner of the text, which goes on where the numbers ended; keywords are text in binary files, too.
     TextScanner& text() {
         if (binary_) text_.go_to(binary_->position());
         binary_.reset();
@@ -49,7 +49,7 @@ class Source {
     [[noreturn]] void fail(const std::string& what) const { binary_ ? binary_->fail(what) : text_.fail(what); }
 
  private:
-    // Behind the end of the line in which text was read last.
+    // Numbers as bytes begin behind the end of the line in which text was read last.
     BinaryScanner& binary() {
         if (!binary_) {
             text_.skip_line();

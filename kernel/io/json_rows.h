@@ -7,12 +7,12 @@
 
 namespace kerf {
 
-/// The members of an object with two spaces of indentation, but lists of objects among them with one object a line,
-/// without blanks. Ends with "\n}\n" unless it is empty. Numbers that are not finite are null, bytes that are no UTF-8
-/// are replaced.
+/// Returns an object as text: its members with two spaces of indentation, but lists of objects among them with one
+/// object a line, without blanks. The text ends with "\n}\n" unless the object is empty. Numbers that are not finite
+/// are null, bytes that are no UTF-8 are replaced.
 std::string text_with_rows(const nlohmann::ordered_json& object);
 
-/// The number to six digits: of what is measured or described, and not computed with.
+/// Returns the number to six digits: for results that are read, not computed with.
 double to_six_digits(double number);
 
 }  // namespace kerf

@@ -1,4 +1,5 @@
-// The files of a finished run as its report lists them: whoever reads one knows first that it is what the run has left.
+// The files of a finished run as its report lists them: a file that is compared with the list is known to be as the run
+// has left it.
 #pragma once
 
 #include <map>
@@ -13,17 +14,18 @@
 
 namespace kerf {
 
-/// The text of FOLDER/report.json. Throws Error(io) where there is none, and Error(verification) where it is not as
-/// sealed() has returned it; both say the way out.
+/// Returns the text of FOLDER/report.json. Throws Error(io) where there is none, and Error(verification) where it is
+/// not as sealed() has returned it; both say the way out.
 std::string read_sealed_report(const std::string& folder);
 
-/// The same as JSON. Throws Error(verification) for what is none, too: somebody may have computed the hash again.
+/// Returns FOLDER/report.json as JSON. Throws as read_sealed_report(), and Error(verification) for a text that is no
+/// JSON, too: somebody may have computed its hash again.
 nlohmann::json read_report_json(const std::string& folder);
 
-/// Throws Error(verification): the folder's report is none that a run has left, for `what`; with the way out.
+/// Throws Error(verification) with the way out: the folder's report is none that a run has left, for the reason `what`.
 [[noreturn]] void fail_damaged_report(const std::string& folder, const std::string& what);
 
-/// The files that a report names. Throws nlohmann::json::exception if it has no such list.
+/// Returns the files that a report names. Throws nlohmann::json::exception if it has no list of files.
 template <class Json>
 std::vector<RunFile> files_of_report(const Json& report) {
     std::vector<RunFile> files;
@@ -33,19 +35,20 @@ std::vector<RunFile> files_of_report(const Json& report) {
     return files;
 }
 
-/// Compares files with the hashes of the report, each once, when it is first asked for: reads it as a whole. From any
-/// thread.
+/// Compares files with the hashes of a report. Each file is read as a whole when it is asked for first, and then never
+/// again. May be called from any thread.
 class ListedFiles {
  public:
-    /// `files`: those of the run in the folder.
+    /// Takes the folder of a run and the list of its files.
     ListedFiles(std::string folder, const std::vector<RunFile>& files);
-    /// Those of its report. Throws Error(verification) if that has no such list.
+    /// Takes the folder of a run and its report. Throws Error(verification) if the report has no list of files.
     ListedFiles(std::string folder, const nlohmann::json& report);
     ListedFiles(ListedFiles&& other) noexcept;
 
     const std::string& folder() const { return folder_; }
-    /// FOLDER/path, of the file that the run has written. Throws Error(io) if it is not there, and
-    /// Error(verification), naming it, if it is another or was none of the run's. Cost: the file is read once.
+    /// Returns FOLDER/path for a file that the run has written. Throws Error(io) if the file is not there, and
+    /// Error(verification), naming it, if its content differs or the run has not listed it. Cost: the file is read
+    /// once.
     std::string verified(const std::string& path) const;
 
  private:

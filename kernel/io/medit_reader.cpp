@@ -1,8 +1,8 @@
 // MEDIT's .mesh as text: sections of a capitalised keyword, a count and as many lines of numbers, up to the word End.
 // Vertices are x y z and a reference, Triangles and Quadrilaterals their corners (from 1) and a reference, which is
 // their patch; so are Tetrahedra, whose reference is their volume. TrianglesP2 and TetrahedraP2 have a node for each
-// edge, too, of which nothing is made. Every other section is passed over up to the next
-// keyword: edges, ridges, normals, required elements.
+// edge, too, which is not used. Every other section is passed over up to the next keyword: edges, ridges, normals,
+// required elements.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -33,7 +33,7 @@ void read_vertices(TextScanner& scanner, SoupBuilder& builder) {
     }
 }
 
-// `edges`: those that have a node, which follow the corners.
+// `edges`: number of edges that have a node; these nodes follow the corners.
 void pass_over_edges(TextScanner& scanner, int edges, SoupBuilder& builder) {
     if (edges > 0) builder.count_cell_by_corners();
     for (int i = 0; i < edges; ++i) scanner.next_index(1);
@@ -63,7 +63,7 @@ void read_tets(TextScanner& scanner, SoupBuilder& builder, int edges = 0) {
     }
 }
 
-// Of volume elements the user should know that they were not used.
+// Notes volume elements that are ignored, because the user should know of them.
 void note_volume_elements(TextScanner& scanner, std::string_view keyword, SoupBuilder& builder) {
     struct Kind {
         std::string_view keyword;

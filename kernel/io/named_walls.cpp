@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Which is no JSON, or says a patch twice, of which a parser keeps one.
+// Returns the object. Throws Error(input) for bytes that are no JSON object, and for a patch that is there twice: a
+// parser would keep one of the two.
 Json parse_walls(std::string_view bytes, const std::string& path) {
     std::set<std::string> seen;
     std::string twice;

@@ -1,4 +1,4 @@
-// Which regions the patches of a surface bound, as a JSON beside it says.
+// The regions on the two sides of each patch of a surface, read from a JSON beside it.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ namespace kerf {
 ///
 ///     {"wall": ["bone", "cement"], "outer": ["bone", null]}
 ///
-/// The walls are in the order of `patch_names`, those of the surface. Throws Error(input), naming `path` and the patch,
-/// for what is no such object, a patch that is said twice, one that the surface does not have, one that is missing, and
-/// one that does not separate two regions, or a region from the outside.
+/// Returns the walls in the order of `patch_names`, the patches of the surface. Throws Error(input), naming `path` and
+/// the patch, for bytes that are no such object, a patch that is there twice, one that the surface does not have, one
+/// that is missing, and one that does not separate two regions, or a region from the outside.
 std::vector<NamedWall> read_named_walls(std::string_view bytes, const std::string& path,
                                         const std::vector<std::string>& patch_names);
 

@@ -1,3 +1,8 @@
+// A grid of VTK's cells is collected defect by defect and written as one text: triangles for facets, one polyline for a
+// loop or an edge, and one vertex for the place of the defect. A vertex of the soup becomes a point of the grid when
+// the first cell names it, so that the file is as small as the defects are; the places of defects are points of their
+// own. A loop of open edges has as many facets as vertices, by which it is told from a chain, and is closed. All arrays
+// of cells grow together in end_cell().
 #include "io/offenders_writer.h"
 
 #include <algorithm>

@@ -1,3 +1,9 @@
+// An output is written in full to a new file beside its place, synced, and renamed over the older one, so that neither
+// a full disk nor a power cut leaves half a file. The new file gets the permissions of the older one. Three kinds of
+// place cannot be replaced by a rename and are written to directly: descriptors of the process (fd:N, /dev/stdout),
+// devices and pipes, and files in folders that allow no new name. Two paths are one file if the system says so or if
+// they are equal once links are resolved: the file need not exist yet. All refusals (`refuse_...`, `require_writable`)
+// are made before the work of a run, so that no result is lost for a name.
 #include "io/output_file.h"
 
 #include <fcntl.h>
@@ -45,14 +51,15 @@ std::string folder_of(const std::string& path) {
     return folder.empty() ? "." : folder;
 }
 
-// Without links, as far as it exists, nor a slash at its end.
+// Returns the path without links, as far as it exists, and without a slash at its end.
 fs::path behind_all_links(const std::string& path) {
     std::error_code ignored;  // a path that cannot be used is refused where it is used
     const auto clean = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
     return clean.has_filename() ? clean : clean.parent_path();
 }
 
-// Whether what is written there takes the place of what was.
+// Tells whether an output under this path takes the place of older content: true for files, false for devices and
+// pipes.
 bool is_file_or_nothing(const std::string& path) {
     std::error_code error;
     return descriptor_of(path) < 0 && (!fs::exists(path, error) || fs::is_regular_file(path, error));
@@ -81,7 +88,7 @@ bool is_pipe(const std::string& path) {
     return fs::is_fifo(path, error);
 }
 
-// To open one that nobody reads would wait for ever.
+// Opens a pipe, without waiting for ever for a reader.
 std::FILE* open_pipe(const std::string& path) {
     constexpr int most_tries = 20;
     constexpr std::chrono::milliseconds pause(100);
@@ -98,7 +105,8 @@ std::FILE* open_pipe(const std::string& path) {
     return ::fdopen(fd, "wb");
 }
 
-// Opens a new file beside the target, which is nobody else's, and says its name; -1 with errno if there can be none.
+// Opens a new file beside the target under a name that nobody else has, and returns it by `name`; -1 with errno if none
+// can be made.
 int open_beside(const std::string& target, std::string& name) {
     int fd = -1;
     for (int n = 0; fd < 0; ++n) {

@@ -1,5 +1,5 @@
-// What files that Kerf writes begin with. A file that lies where an output is to be written is replaced only if it is
-// of that kind: anything else is somebody's, and a name was mistyped.
+// The beginnings of the files that Kerf writes. A file that lies where an output is to be written is replaced only if
+// it begins as outputs of that kind do: anything else is somebody's, and a name was mistyped.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@ namespace kerf {
 
 struct OutputKind {
     const char* name;  ///< as in "is no trace of Kerf"
-    /// Whether a file that begins so is of the kind. It has the first 1,024 bytes, or all of a shorter file.
+    /// Tells by the first 1,024 bytes of a file, or all of a shorter one, whether it is of the kind.
     bool (*is)(std::string_view beginning);
 };
 

@@ -212,7 +212,7 @@ void read_face(Source& source, const Element& element, SoupBuilder& builder, std
     }
 }
 
-// Without them a vertex would take no bytes, and all would lie in one point.
+// Requires coordinates: without them a vertex would take no bytes, and all would lie in one point.
 void check_coordinates(const TextScanner& scanner, const Header& header) {
     for (const Element& element : header.elements)
         if (element.name == "vertex")

@@ -32,7 +32,8 @@ fs::path folder_of_program() {
     return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
-// Where the programs of a package of Python are: in a wheel, in a build folder, and in an installed tree.
+// The folders of a package of Python that may hold the programs: in a wheel, in a build folder, and in an installed
+// tree.
 std::vector<fs::path> folders_of_package(const fs::path& package) {
     std::error_code error;
     if (package.empty() || !fs::exists(package / "__init__.py", error)) return {};

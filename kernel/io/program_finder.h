@@ -1,4 +1,4 @@
-// Where the programs of Kerf are that others start: kerf-worker, kerf-cad, kerf-3mf, kerf-solve, kerf-view, kerf.
+// The places of the programs of Kerf that others start: kerf-worker, kerf-cad, kerf-3mf, kerf-solve, kerf-view, kerf.
 #pragma once
 
 #include <string>
@@ -11,17 +11,18 @@ inline constexpr const char* programs_variable = "KERF_PROGRAMS";
 
 struct ProgramSearch {
     bool found = false;
-    std::string path;                    ///< of the program; if it is nowhere, the first place that was looked at
+    std::string path;                    ///< of the program, or the first place that was looked at if it is nowhere
     std::vector<std::string> looked_at;  ///< paths in their order, each once
 };
 
 /// Looks for a program by its name, "kerf-worker": in `folder`, unless that is empty; in the folder that the
-/// environment names; then, if this function is in a module of a package of Python, where that has them; then beside
-/// the library that holds this function and beside the program that runs, there also in ../bin and ../libexec/kerf.
-/// Costs a few calls of the system.
+/// environment names; then, if this function is in a module of a package of Python, where the package has its programs;
+/// then beside the library that holds this function and beside the program that runs, there also in ../bin and
+/// ../libexec/kerf. Costs a few calls of the system.
 ProgramSearch look_for_program(const std::string& name, const std::string& folder = "");
 
-/// The path of a program. Throws Error(io), naming the places that were looked at and the way out, if it is nowhere.
+/// Returns the path of a program. Throws Error(io), naming the places that were looked at and the way out, if it is
+/// nowhere.
 std::string find_kerf_program(const std::string& name, const std::string& folder = "");
 
 }  // namespace kerf

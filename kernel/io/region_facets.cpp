@@ -1,3 +1,10 @@
+// A soup of several regions has one facet for each face at which a region ends: between two regions, a wall, or between
+// a region and the outside. FacetSides are the regions `front` and `back` of a facet, -1 for the outside; the smaller
+// region, or the only one, is always behind. Facets that the file has keep their place, patch and polygon number; their
+// face is found in a sorted table by vertices, whatever the order of their corners, and the orientation of the face
+// replaces theirs. Faces that no facet of the file is come behind them. A face that is in the table twice has three
+// tetrahedra or more: the mesh overlaps and is refused. finish() drops what the facets that are gone leave behind
+// (patches and unfit polygons) and, for a single region, the sides.
 #include "io/region_facets.h"
 
 #include <algorithm>
@@ -24,7 +31,7 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-// Faces by their vertices, in whatever order these are.
+// Finds faces by their three vertices, in any order.
 class FaceTable {
  public:
     explicit FaceTable(const std::vector<RegionFace>& faces) {
@@ -48,7 +55,7 @@ class FaceTable {
     std::vector<std::pair<Triangle, std::int32_t>> entries_;
 };
 
-// Patches by name, some of which the file has.
+// Finds patches by name, and adds those that the file does not have.
 class Patches {
  public:
     explicit Patches(Soup& soup) : soup_(soup) {
@@ -71,7 +78,8 @@ void note_left_out(Soup& soup, std::int64_t count, const char* one, const char* 
     if (count > 0) soup.notes.push_back(fmt::format("{} {} ignored.", count, count == 1 ? one : many));
 }
 
-// The face that each facet is; facets that are none, or the same as one before, are left out.
+// Returns the face that each facet is, for the facets that stay: those that are no face, or the same as one before, are
+// left out.
 std::vector<std::int32_t> keep_faces(Soup& soup, const FaceTable& table, std::size_t face_count) {
     std::vector<std::int32_t> face_of_facet;
     std::vector<char> drop(soup.facets.size(), 0), is_taken(face_count, 0);
@@ -92,7 +100,7 @@ std::vector<std::int32_t> keep_faces(Soup& soup, const FaceTable& table, std::si
     return face_of_facet;
 }
 
-// Faces that are no facets yet follow, with numbers behind those of the file.
+// Appends the faces that are no facets yet, with numbers of polygons behind those of the file.
 void append_faces(Soup& soup, std::size_t face_count, std::int32_t polygon_count,
                   std::vector<std::int32_t>& face_of_facet) {
     std::vector<char> is_taken(face_count, 0);
@@ -114,7 +122,7 @@ std::string patch_name(const FacetSides& sides, const std::vector<std::string>& 
     return wall_name(names, sides);
 }
 
-// Polygons none of whose facets is left need no fit.
+// Forgets unfit polygons none of whose facets is left.
 void drop_unfit_polygons(Soup& soup) {
     std::vector<std::int32_t> kept = soup.polygon;
     std::sort(kept.begin(), kept.end());

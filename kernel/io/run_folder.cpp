@@ -1,8 +1,14 @@
-// A lock belongs to the open file, so it ends with the process however that ends. A folder that was moved away under
-// a waiting run is no longer the one of its name; so the lock counts only if the name still leads to it.
+// A run is built in PATH.kerf-partial, under two locks: the creator holds one, the other ranks share the second. A lock
+// belongs to the open file, so it ends with the process however that ends. A folder that was moved away under a waiting
+// run is no longer the one of its name; so the lock counts only if the name still leads to it.
 //
 // A rename is atomic, but a directory that holds files is not replaced by one. So commit() moves the older run aside,
-// moves the new one in, and only then removes the older; should another run move in between, it does the same again.
+// moves the new one in, and only then removes the older; should another run move in between, it does the same again. A
+// kill between the two renames leaves the older run aside, and the next run puts it back.
+//
+// Nothing is removed that is not known as a run of Kerf: a finished run by its sealed report (io/run_manifest.h), the
+// remains of one under way by the names of their files. "Leaf" is the number of a part in the tree of cuts, by which
+// its files are named.
 #include "io/run_folder.h"
 
 #include <fcntl.h>
@@ -57,7 +63,8 @@ std::string normal_path(const std::string& path) {
                                            folder, file));
 }
 
-// Of a finished run, to which nothing was added; or nothing at all.
+// Returns the content of a folder that holds a finished run to which nothing was added, or nothing at all; throws for
+// all others.
 FolderContent require_replaceable(const std::string& path) {
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_directory(path, error))
@@ -67,7 +74,7 @@ FolderContent require_replaceable(const std::string& path) {
     return content;
 }
 
-// Of a run that has not ended in order, whose files are on no list.
+// Throws unless the folder holds only files of a run that has not ended in order, and so has no list of its files.
 void require_remains_of_run(const std::string& path) {
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_directory(path, error))
@@ -130,16 +137,16 @@ std::vector<int> leaves_in_journal(const std::string& folder) {
     return leaves;
 }
 
-// Where a leaf has its files in folders that hold one of each. A few hundred leaves have a folder of their own, named
-// by the first of them: disks that many hosts share are slow where one folder holds thousands. No leaf before has that
-// name for its file.
+// Returns the name of a file of a leaf in a folder that holds one file of each. A few hundred leaves have a folder of
+// their own, named by the first of them: disks that many hosts share are slow where one folder holds thousands. No leaf
+// before has that name for its file.
 std::string with_folder_of(int leaf, std::string name) {
     constexpr int leaves_without_folder = 2048, leaves_of_folder = 200;
     if (leaf < leaves_without_folder) return name;
     return fmt::format("{}/{}", std::max(leaves_without_folder, leaf - leaf % leaves_of_folder), name);
 }
 
-// By which a run with failed parts is continued.
+// Tells whether a file is needed to continue a run with failed parts.
 bool is_kept_for_next_run(const std::string& file) {
     return file.starts_with("work/journal/") || file == "work/run.json";
 }
@@ -152,7 +159,7 @@ void clear_all_but_parts(const RunFolder& folder) {
     remove_empty_run_folders(folder.partial_path(), "failed");
 }
 
-// What cannot be moved is meshed again.
+// Moves the finished parts of a run with failed parts here. Those that cannot be moved are meshed again.
 void take_over_finished_parts(const std::string& failed, const RunFolder& folder) {
     std::error_code ignored;
     const std::vector<int> leaves = leaves_in_journal(failed);

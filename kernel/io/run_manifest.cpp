@@ -1,3 +1,10 @@
+// Two questions decide whether a folder may be replaced or removed, both without trust in its name. Is it a run? A
+// report lies in it that is sealed: its last member is the hash of the text without that member, which is put back
+// together and compared byte by byte. Is a file foreign? In a run a file is foreign unless the report lists it; only
+// empty folders, and the files in `work` by which a failed run goes on, are known by their names, because no list has
+// them. Whether a name is a run's is a grammar of fixed names, part_NUMBER with an ending, and folders 4000/ of large
+// runs: a file that a run writes under a new name needs a line there. Removal never follows a folder, it goes file by
+// file, and folders go only when they are empty.
 #include "io/run_manifest.h"
 
 #include <algorithm>
@@ -30,20 +37,20 @@ bool is_number(std::string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-// True and without it if the text begins with the prefix.
+// Takes the prefix off the text and returns true if the text begins with it.
 bool take_prefix(std::string_view& text, std::string_view prefix) {
     const bool is_there = text.starts_with(prefix);
     if (is_there) text.remove_prefix(prefix.size());
     return is_there;
 }
 
-// Without the folder that leaves of large runs have: "4000/".
+// Returns the name without the folder that leaves of large runs have: "4000/".
 std::string_view without_leaf_folder(std::string_view name) {
     const std::size_t slash = name.find('/');
     return slash != name.npos && is_number(name.substr(0, slash)) ? name.substr(slash + 1) : name;
 }
 
-// Or the folder of a few.
+// Tells whether the name is that of a part's file with one of these endings, or of a folder of a few hundred parts.
 bool is_part_name(std::string_view name, std::initializer_list<std::string_view> endings) {
     name = without_leaf_folder(name);
     if (name.empty()) return true;
@@ -64,7 +71,7 @@ bool is_work_name(std::string_view name) {
     return name.empty() || is_number(name);
 }
 
-// Without a look into the folders below: this may be anybody's home.
+// Returns the first name in the folder itself. Folders below are not looked into: this may be anybody's home.
 std::string first_name_in(const std::string& folder) {
     std::string first;
     std::error_code error;
@@ -80,13 +87,13 @@ std::string first_name_in(const std::string& folder) {
     return first;
 }
 
-// What the report of a run says of its folder.
+// The list of files and the verdict of a run's report.
 struct SealedReport {
-    std::set<std::string> files;  // the report, too
+    std::set<std::string> files;  // with the report itself
     bool is_valid = false;
 };
 
-// Nothing where there is no report that Kerf has sealed.
+// Returns nothing where there is no report that Kerf has sealed.
 std::optional<SealedReport> read_report(const std::string& folder) {
     try {
         const std::string text = read_file((fs::path(folder) / report_name).string());

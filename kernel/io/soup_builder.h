@@ -1,4 +1,4 @@
-// Collects what a file says of a surface: vertices, polygons and named patches; tetrahedra with it.
+// Collects the surface of a file: vertices, polygons and named patches, and tetrahedra with it.
 #pragma once
 
 #include <algorithm>
@@ -23,15 +23,16 @@ namespace kerf {
 class SoupBuilder {
  public:
     enum class Wanted { surface, tets, tets_and_scalars };
-    /// `path` only serves messages. A reader that meets tetrahedra adds them if they are wanted, else passes over them.
+    /// Takes the path of the file, for messages, and what is wanted of it. A reader that meets tetrahedra adds them in
+    /// any case.
     explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface)
         : path_(path), wanted_(wanted), tets_(path, soup_, !wants_scalars()) {}
-    SoupBuilder& operator=(SoupBuilder&&) = delete;  // what collects tetrahedra refers to the soup
+    SoupBuilder& operator=(SoupBuilder&&) = delete;  // the collector of tetrahedra refers to the soup
 
     bool wants_tets() const { return wanted_ == Wanted::tets || wants_scalars(); }
     bool wants_scalars() const { return wanted_ == Wanted::tets_and_scalars; }
-    /// Where a surface is wanted, the tetrahedra say what it separates, unless other cells fill a part of the space:
-    /// see count_other_cells().
+    /// Returns the collector of tetrahedra. Where a surface is wanted, the regions of the tetrahedra decide where it
+    /// runs, unless other cells fill a part of the space: see count_other_cells().
     TetCollector& tets() { return tets_; }
 
     std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
@@ -42,42 +43,45 @@ class SoupBuilder {
             throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 vertices. Split the surface.");
         soup_.vertices.push_back(p);
     }
-    /// What the file says of its facets before they come. Throws Error(input) if they are more than a surface can have.
+    /// Takes the number of facets that the file claims, before they come. Throws Error(input) if a surface cannot have
+    /// so many.
     void announce_facets(std::int64_t count) const {
         if (count > most_facets - static_cast<std::int64_t>(soup_.facets.size()))
             throw Error(ErrorCode::input, path_ + ": the file claims to hold " + std::to_string(count) +
                                               " facets, but a surface can have " + std::to_string(most_facets) +
                                               " at most. Split it, or export it again if there are fewer.");
     }
-    /// Facets to come belong to the patch of this name; a patch without facets is not kept.
+    /// Facets that follow belong to the patch of this name; a patch without facets is not kept.
     void set_patch(std::string_view name) {
         is_unnamed_ = false;
         if (name == patch_name_) return;
         patch_name_ = name;
         patch_ = -1;
     }
-    /// Facets to come belong to a patch that has its name of Kerf: walls between regions get another one.
+    /// Facets that follow have no patch in the file, and belong to "surface": as walls between regions they get another
+    /// name.
     void set_unnamed_patch() {
         set_patch("surface");
         is_unnamed_ = true;
     }
-    /// What is on the sides of the facets (#F), where the file says that without tetrahedra; see take_region_sides().
+    /// Takes the sides of the facets (#F), where the file has them without tetrahedra; see take_region_sides().
     void set_sides(std::vector<FacetSides> sides, std::vector<std::string> region_names) {
         sides_ = std::move(sides);
         region_names_ = std::move(region_names);
     }
-    /// The polygon as a fan of triangles, in the current patch. Calls `fail(message)`, which must throw, if the polygon
-    /// has less than three corners, or one that is no vertex so far. One that no fan covers (see find_fan()) is noted.
+    /// Adds a polygon as a fan of triangles, in the current patch. Calls `fail(message)`, which must throw, if the
+    /// polygon has less than three corners, or a corner that is no vertex so far. A polygon that no fan covers (see
+    /// find_fan()) is noted.
     template <class Fail>
     void add_polygon(std::span<const std::int64_t> corners, const Fail& fail) {
         if (corners.size() < 3) fail("a facet has less than three vertices. Remove it or export the surface again.");
         check_indices(corners, fail);
         add_fan(corners, corners.size() > 3 ? find_fan(soup_.vertices, corners) : PolygonFan{});
     }
-    /// A facet of several polygons with holes, in the current patch, triangulated without new vertices; so is a single
-    /// polygon that no fan covers. A facet of edges and vertices alone is left out. Calls `fail(message)`, which must
-    /// throw, for a corner that is no vertex so far, and for what triangulate_facet() refuses, but for a single
-    /// polygon, which is noted as add_polygon() does.
+    /// Adds a facet of several polygons with holes, in the current patch, triangulated without new vertices; so is a
+    /// single polygon that no fan covers. A facet of edges and vertices alone is left out. Calls `fail(message)`, which
+    /// must throw, for a corner that is no vertex so far, and for a facet that triangulate_facet() refuses; a refused
+    /// single polygon is noted as add_polygon() does.
     template <class Fail>
     void add_facet_of_polygons(const PolygonalFacet& facet, const Fail& fail) {
         for (const auto& polygon : facet.polygons) check_indices(polygon, fail);
@@ -110,8 +114,8 @@ class SoupBuilder {
         soup_.vertices.reserve(count / 2 + count / 16);  // pages that are not used are none
         table_ = VertexTable(count / 2);
     }
-    /// Triangles by their corners, three each, in the current patch. Corners with equal coordinates are one vertex, as
-    /// weld_exactly() has it, if all vertices come in this way. Best by some hundred corners.
+    /// Adds triangles by their corners, three each, in the current patch. Corners with equal coordinates are one
+    /// vertex, as weld_exactly() has it, if all vertices come in this way. Fastest with some hundred corners a call.
     void add_separate_facets(std::span<const Vec3> corners) {
         hashes_.clear();
         for (const Vec3& p : corners) table_.prefetch(hashes_.emplace_back(hash_of_point(p)));
@@ -121,25 +125,26 @@ class SoupBuilder {
             ++polygon_count_;
         }
     }
-    /// Of a cell with nodes between its corners, straight or curved, only the corners are taken: that is noted.
+    /// Counts a cell with nodes between its corners, straight or curved, of which only the corners are taken: that is
+    /// noted.
     void count_cell_by_corners() { ++cells_by_corners_; }
     bool has_cells_by_corners() const { return cells_by_corners_ > 0; }
     bool has_facets() const { return !soup_.facets.empty(); }
-    /// A point in a void.
+    /// Adds a point in a void.
     void add_hole(const Vec3& point) { soup_.holes.push_back(point); }
     void add_seed(RegionSeed seed) { soup_.seeds.push_back(std::move(seed)); }
     void note(std::string text) { soup_.notes.push_back(std::move(text)); }
-    /// Says that something of the file was not used; nothing if `count` is 0.
+    /// Notes that so many things of the file were not used; no note if `count` is 0.
     void note_ignored(std::int64_t count, const char* one, const char* many) {
         if (count == 0) return;
         soup_.notes.push_back(std::to_string(count) + " " +
                               (count == 1 ? std::string(one) + " was" : std::string(many) + " were") + " ignored.");
     }
-    /// Cells with a volume that are no tetrahedra. Beside them the tetrahedra of a single volume say only where a part
-    /// of it ends, and facets go before them.
+    /// Counts cells with a volume that are no tetrahedra. Beside them the tetrahedra of a single volume tell only where
+    /// a part of the space ends, and facets of the file are taken instead, if there are any.
     void count_other_cells(std::int64_t count) { other_cells_ += count; }
-    /// The soup. With tetrahedra its facets are all faces at which a region ends. Throws Error(input) if there is no
-    /// facet in it.
+    /// Returns the soup. With tetrahedra its facets are all faces at which a region ends. Throws Error(input) if there
+    /// is no facet in it.
     Soup finish() {
         note_ignored(facets_without_area_, "facet of edges or points alone", "facets of edges or points alone");
         note_ignored(edges_outside_, "edge or point outside of its facet", "edges or points outside of their facets");
@@ -154,7 +159,7 @@ class SoupBuilder {
             throw Error(ErrorCode::input, path_ + ": the file holds no facets. Export the surface again.");
         return std::move(soup_);
     }
-    /// What came beside the tetrahedra, which may be no facets.
+    /// Returns the soup without the tetrahedra, which may have no facets.
     Soup finish_beside_tets() {
         note_cells_by_corners();
         return std::move(soup_);
@@ -233,11 +238,11 @@ class SoupBuilder {
     bool has_fans_ = false;
     std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;
-    bool is_unnamed_ = false;          // facets to come
-    std::int32_t unnamed_patch_ = -1;  // of such facets
+    bool is_unnamed_ = false;          // of the facets that follow
+    std::int32_t unnamed_patch_ = -1;  // of the facets without a patch in the file
     std::vector<FacetSides> sides_;
     std::vector<std::string> region_names_;
-    VertexTable table_;  // of separate facets, and the hashes of their corners
+    VertexTable table_;  // vertices of separate facets; below, hashes of their corners
     std::vector<std::uint64_t> hashes_;
 };
 

@@ -1,4 +1,4 @@
-// How binary and ASCII STL are told apart.
+// Tells binary and ASCII STL apart.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace kerf {
 inline constexpr std::size_t stl_header_size = 84;  // 80 bytes of text, then the number of facets
 inline constexpr std::size_t stl_facet_size = 50;   // normal, three corners (float), attribute (uint16)
 
-/// The number of facets that a binary STL claims; 0 if the file ends before it.
+/// Returns the number of facets that a binary STL claims; 0 if the file ends before it.
 inline std::uint32_t claimed_stl_facets(std::string_view bytes) {
     std::uint32_t count = 0;
     if (bytes.size() >= stl_header_size)
@@ -26,7 +26,7 @@ inline bool is_binary_stl(std::string_view bytes) { return is_binary_stl(bytes, 
 
 inline bool holds_nul(std::string_view bytes) { return bytes.find('\0') != std::string_view::npos; }
 
-/// The text without what some programs append to texts: NUL and the end-of-file character of DOS.
+/// Returns the text without the bytes that some programs append to texts: NUL and the end-of-file character of DOS.
 inline std::string_view without_padding(std::string_view text) {
     while (!text.empty() && (text.back() == '\0' || text.back() == '\x1a')) text.remove_suffix(1);
     return text;

@@ -59,7 +59,7 @@ bool holds_claimed_facets(std::string_view bytes) {
                                       ". Export it again.");
 }
 
-// Where a byte was put in between, or lost, those behind it are read as other numbers, some of them of any size.
+// Where a byte was put in between, or lost, the bytes behind it are read as other numbers, some of them of any size.
 void refuse_shifted_records(std::string_view bytes, const std::string& path) {
     constexpr double largest = 1e20;
     const std::size_t count = claimed_stl_facets(bytes);
@@ -132,7 +132,7 @@ bool ends_solid(TextScanner& scanner, std::string_view word) {
 
 // Returns the word behind the facet; counts facets that do not say where they end.
 std::string_view read_facet(TextScanner& scanner, SoupBuilder& builder, std::int64_t& without_end) {
-    // Exporters write what they like as the normal of a sliver ("nan", "-1.#IND"): it is passed over as words.
+    // Exporters write "nan" or "-1.#IND" as the normal of a sliver: it is passed over as words.
     while (!is_keyword(scanner.next_word(), "outer")) continue;
     expect(scanner, "loop");
     std::array<Vec3, 3> corners;

@@ -1,6 +1,7 @@
 // The format is told by the content: a binary STL by its size, which no text meets by chance, the others by their first
 // word or, TetGen's lists of numbers, by their first line. The ending of the name is only asked where that leaves a
-// doubt.
+// doubt. The order of the tests in recognise() matters: the size of STL comes first, since many binary files begin with
+// "solid"; then formats that can only be refused are named, before a test further down takes their bytes for its own.
 #include "io/surface_reader.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ bool is_binary_medit(std::string_view bytes) {
     return version >= 1 && version <= 4;
 }
 
-// Texts of two bytes a character, as some programs save them: every other byte of plain letters is zero.
+// Tells texts of two bytes a character, as some programs save them: every other byte of plain letters is zero.
 bool is_utf16(std::string_view bytes) {
     if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return true;
     constexpr std::size_t looked_at = 32;
@@ -71,7 +72,7 @@ bool is_utf16(std::string_view bytes) {
     return false;
 }
 
-// The first zero byte of what is text up to there, and longer than the header of a binary STL.
+// Returns the first zero byte of content that is text up to there, and longer than the header of a binary STL.
 std::optional<std::size_t> find_nul_in_text(std::string_view bytes) {
     const std::string_view text = without_padding(bytes);
     const std::size_t nul = text.find('\0');
@@ -97,20 +98,20 @@ bool is_vtk_xml(std::string_view bytes, std::string_view word) {
                                               : ": this is a ZIP archive. Unpack it and give the surface."));
 }
 
-// What has no binary kind of its own ends before the bytes that some programs append.
+// Returns the content without the bytes that some programs append, for formats without a binary kind.
 std::string_view body_of(std::string_view bytes, Reader read) {
     const bool may_be_binary = read == read_stl || read == read_ply || read == read_gmsh || read == read_vtu;
     return may_be_binary ? bytes : without_padding(bytes);
 }
 
-// Whether a line begins so.
+// Tells whether a line begins with `begin`.
 bool has_line(std::string_view bytes, std::string_view begin) {
     for (std::size_t at = bytes.find(begin); at != bytes.npos; at = bytes.find(begin, at + 1))
         if (at == 0 || bytes[at - 1] == '\n' || bytes[at - 1] == '\r') return true;
     return false;
 }
 
-// Input of NASTRAN, whose comments begin as the sections of Gmsh's files do.
+// Tells input of NASTRAN, whose comments begin as the sections of Gmsh's files do.
 bool is_nastran(std::string_view bytes) {
     constexpr std::size_t longest_head = 65536;
     const std::string_view head = bytes.substr(0, longest_head);
@@ -118,7 +119,7 @@ bool is_nastran(std::string_view bytes) {
     return has_line(head, "BEGIN BULK") || has_line(head, "GRID") || has_line(head, "CTRIA3") || has_line(head, "CEND");
 }
 
-// Formats of meshes that are known, but not read. Others would be refused for what their bytes look like.
+// Refuses, by name, formats of meshes that are known but not read: the bytes of some look like another format.
 void refuse_foreign(std::string_view bytes, const std::string& path) {
     const auto refuse = [&](const char* format) {
         throw Error(ErrorCode::input, path + ": this is " + format +

@@ -1,4 +1,4 @@
-// A folder of one's own, for as long as it is needed.
+// A folder that lives as long as an object.
 #pragma once
 
 #include <cerrno>
@@ -11,10 +11,11 @@
 
 namespace kerf {
 
-/// A new folder, removed with all that is in it when this goes.
+/// A new folder, which is removed with all that is in it when the object is destroyed.
 class TemporaryFolder {
  public:
-    /// Its path is `stem`, a dot and six characters. Throws Error(io), "Cannot `action`: ... `advice`".
+    /// Makes the folder under the path `stem`, a dot and six characters. Throws Error(io), "Cannot `action`: ...
+    /// `advice`".
     TemporaryFolder(const std::string& stem, const std::string& action, const std::string& advice)
         : path_(stem + ".XXXXXX") {
         if (::mkdtemp(path_.data())) return;

@@ -1,4 +1,4 @@
-// Collects the tetrahedra that a file says, with their volumes and the numbers at their vertices.
+// Collects the tetrahedra of a file, with their volumes and the values at their nodes.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace kerf {
 
-/// Numbers at the vertices of a file.
+/// A scalar at the vertices of a file.
 struct NodeScalar {
     std::string name;
     std::vector<double> values;  ///< #V; NaN where the file has none
@@ -24,15 +24,16 @@ struct NodeScalar {
 
 class TetCollector {
  public:
-    /// Corners are vertices of `soup`. `path` only serves messages. Volumes are kept if `has_volumes`.
+    /// Takes the path of the file, for messages, and the soup whose vertices the corners are. Volumes are kept if
+    /// `has_volumes`.
     TetCollector(const std::string& path, const Soup& soup, bool has_volumes)
         : path_(path), soup_(soup), has_volumes_(has_volumes) {}
 
     bool empty() const { return tets_.empty(); }
     std::int64_t count() const { return static_cast<std::int64_t>(tets_.size()); }
 
-    /// Takes a tetrahedron of any orientation, in a volume(). Calls `fail(message)`, which must
-    /// throw, for a corner that is no vertex so far.
+    /// Adds a tetrahedron of any orientation, in the volume with this number from volume(). Calls `fail(message)`,
+    /// which must throw, for a corner that is no vertex so far.
     template <class Fail>
     void add(std::span<const std::int64_t> corners, const Fail& fail, std::int32_t volume = 0) {
         const auto vertices = static_cast<std::int64_t>(soup_.vertices.size());
@@ -50,32 +51,34 @@ class TetCollector {
         if (has_volumes_) volume_of_tet_.push_back(volume);
     }
 
-    /// The number of a volume, a new one if it is the first time.
+    /// Returns the number of a volume, a new one when the key comes first.
     std::int32_t volume(const VolumeKey& key) {
         return number_of_volume_.try_emplace(key, static_cast<std::int32_t>(number_of_volume_.size())).first->second;
     }
     std::size_t volume_count() const { return number_of_volume_.size(); }
-    /// Names the volumes, `name(key)`, and so the regions that they are. Without a volume() all are "body".
+    /// Names the volumes by `name(key)`, and makes regions of those of one name. Without any volume() all tetrahedra
+    /// are of the region "body".
     template <class Name>
     void name_volumes(const Name& name) {
         if (!number_of_volume_.empty()) regions_ = regions_of(number_of_volume_, name);
     }
     const std::vector<std::string>& region_names() const { return regions_.names; }
-    /// Of volumes that have been named; empty if all are of one region.
+    /// Returns the region of each tetrahedron, once the volumes are named; empty if all are of one region.
     std::vector<std::int32_t> regions_of_tets() const {
         if (regions_.names.size() == 1) return {};
         std::vector<std::int32_t> regions = volume_of_tet_;
         for (std::int32_t& region : regions) region = regions_.region_of_volume[static_cast<std::size_t>(region)];
         return regions;
     }
-    /// Faces of the regions, of volumes that have been named; throws Error(input) if tetrahedra of two overlap.
+    /// Returns the faces at which regions end, once the volumes are named. Throws Error(input) if tetrahedra of two
+    /// regions overlap.
     std::vector<RegionFace> faces_of_regions() const {
         RegionFaces found = region_faces(soup_.vertices, tets_, regions_of_tets());
         if (found.overlap) refuse_overlap(soup_, *found.overlap, regions_.names, path_);
         return std::move(found.faces);
     }
 
-    /// The values of this name, one for each vertex so far.
+    /// Returns the values of this name, one for each vertex so far.
     std::vector<double>& scalar(std::string_view name) {
         const auto of_name = [&](const NodeScalar& scalar) { return scalar.name == name; };
         auto found = std::find_if(scalars_.begin(), scalars_.end(), of_name);
@@ -84,7 +87,7 @@ class TetCollector {
         return found->values;
     }
 
-    /// The tetrahedra; throws Error(input) if there are none.
+    /// Returns the tetrahedra; throws Error(input) if there are none.
     std::vector<Tetrahedron> finish() {
         if (tets_.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no tetrahedra. Name a file of a volume mesh.");

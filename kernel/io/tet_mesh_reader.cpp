@@ -1,3 +1,9 @@
+// The scanners of formats give a SoupBuilder vertices, triangles and tetrahedra; here they become a mesh that the rest
+// of Kerf can rely on. The format is told by the first word of the text, TetGen's two files by the ending of the name.
+// In the file of any program a tetrahedron may have either orientation: the exact sign decides (io/tet_sign.h), and a
+// negative one has two corners swapped; flat ones stay for the measures to report. Nodes that are no corners are
+// dropped only where cells of higher order were read by their corners, so that the vertices of all other files keep
+// their numbers. The extent is limited to 1e-90 to 1e90, so that volumes do not leave the range of doubles.
 #include "io/tet_mesh_reader.h"
 
 #include <algorithm>
@@ -71,7 +77,7 @@ std::vector<char> facets_of_interface(const Soup& soup) {
     return is_interface;
 }
 
-// Those that no cell has: of second order on edges.
+// Drops the nodes that no cell has as a corner: of cells of second order those on the edges.
 void drop_nodes_between_corners(TetFile& file) {
     std::vector<std::int32_t> number(file.mesh.vertices.size(), -1);
     const auto for_corners = [&](const auto& visit) {

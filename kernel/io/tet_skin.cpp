@@ -1,3 +1,9 @@
+// match_faces() (mesh/faces.h) finds the one or two tetrahedra at each face, bucket by bucket. A face with two
+// tetrahedra of different regions is a wall, one with a single tetrahedron is skin; faces between tetrahedra of one
+// region are passed over, so that memory follows the surface. The tetrahedron of the smaller region, or the only one,
+// is at the back, and its exact sign turns the face, because files have tetrahedra of both orientations. Both
+// tetrahedra of a wall on the same side of it mean that two regions overlap. The faces are sorted by the code of their
+// back side, tetrahedron and corner, so that their order does not depend on that of the search.
 #include "io/tet_skin.h"
 
 #include <algorithm>
@@ -24,16 +30,16 @@ class Faces {
     std::int32_t region(const FaceSide& side) const {
         return region_of_tet_.empty() ? 0 : region_of_tet_[static_cast<std::size_t>(side.tet())];
     }
-    // Exact: rounded, that of a flat one may tell the wrong side.
+    // Returns the exact sign: a rounded one of a flat tetrahedron may tell the wrong side.
     int sign(const FaceSide& side) const { return tet_sign(vertices_, tet(side)); }
-    // Counter-clockwise seen from outside of the tetrahedron.
+    // Returns the corners counter-clockwise seen from outside of the tetrahedron.
     Triangle outward(const FaceSide& side) const {
         Triangle face{};
         for (std::size_t i = 0; i < 3; ++i) face[i] = tet(side)[static_cast<std::size_t>(tet_faces[side.corner()][i])];
         if (sign(side) < 0) std::swap(face[1], face[2]);
         return face;
     }
-    // Of tetrahedra without volume nobody knows.
+    // Tells whether the tetrahedra of two sides of a face overlap. Nobody knows of tetrahedra without volume: false.
     bool are_on_same_side(const FaceSide& a, const FaceSide& b) const {
         const int sign_a = sign(a), sign_b = sign(b);
         if (sign_a == 0 || sign_b == 0) return false;

@@ -1,4 +1,4 @@
-// What the tetrahedra of a file say of a surface.
+// The surface of the tetrahedra of a file: faces at which regions end.
 #pragma once
 
 #include <array>
@@ -15,21 +15,21 @@ namespace kerf {
 /// A face of a tetrahedron at which a region ends.
 struct RegionFace {
     Triangle corners;  ///< counter-clockwise seen from outside of the region at the back
-    FacetSides sides;  ///< at the back the smaller number, or the only one
+    FacetSides sides;  ///< the smaller region, or the only one, at the back
 };
 
 struct RegionFaces {
     std::vector<RegionFace> faces;
-    std::optional<RegionFace> overlap;  ///< the first one at which tetrahedra of two regions lie on the same side
+    std::optional<RegionFace> overlap;  ///< first face at which tetrahedra of two regions lie on the same side
 };
 
-/// Faces between tetrahedra of two regions, and those that only one tetrahedron has, which are the skin; whatever the
-/// orientation of the tetrahedra, in the order of those at the back. `region_of_tet`: #T, from 0 on; empty: all are of
-/// region 0. O(#T), deterministic.
+/// Returns the faces between tetrahedra of two regions, and the skin: the faces that only one tetrahedron has. They do
+/// not depend on the orientation of the tetrahedra, and are in the order of the tetrahedra at their back.
+/// `region_of_tet`: #T, from 0 on; empty: all are of region 0. O(#T), deterministic.
 RegionFaces region_faces(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets,
                          const std::vector<std::int32_t>& region_of_tet = {});
 
-/// Sentences for users. Of many names the first are told.
+/// Return sentences for users, which name only the first of many regions.
 std::string tell_skin(std::size_t tets);
 std::string tell_regions(const std::vector<std::string>& regions, std::size_t walls, std::size_t facets);
 std::string tell_joined_volumes(std::size_t volumes, const std::string& region);

@@ -1,10 +1,11 @@
 // TetGen's .smesh and .poly, and .node with .ele.
 //
-// .smesh and .poly are four lists of lines, each behind a line with its length. Nodes are a number (from 0 or
-// 1), x y z and what may follow; if there are none, they are in the .node file beside. A facet of .smesh is its number
-// of corners, the corners and a boundary marker; one of .poly says on a line of its own how many polygons and holes it
-// has and its marker, then lists its polygons as .smesh does and its holes as points. Points of holes and regions of
-// the whole follow, those of regions with an attribute and perhaps the largest volume that a cell may have there.
+// .smesh and .poly are four lists of lines, each behind a line with its length: nodes, facets, holes and regions. Nodes
+// are a number (from 0 or 1), x y z and values that are passed over; if there are none, they are in the .node file
+// beside. A facet of .smesh is its number of corners, the corners and a boundary marker; one of .poly says on a line of
+// its own how many polygons and holes it has and its marker, then lists its polygons as .smesh does and its holes as
+// points. Points of holes and regions of the whole follow, those of regions with an attribute and perhaps the largest
+// volume that a cell may have there. Most files are told by their first facet: .poly and .smesh have no keyword.
 #include <array>
 #include <cmath>
 #include <filesystem>

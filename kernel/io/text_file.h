@@ -6,7 +6,7 @@
 
 namespace kerf {
 
-/// Writes the file, replacing what was there. Throws Error(io) naming the file and the reason, a full disk included.
+/// Writes the file in the place of an older one. Throws Error(io) naming the file and the reason, a full disk included.
 void write_text_file(const std::string& path, std::string_view text);
 
 }  // namespace kerf

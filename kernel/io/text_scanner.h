@@ -1,4 +1,4 @@
-// Words and numbers of a text, for the readers of text formats.
+// Reads words and numbers of a text, for the readers of text formats.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace kerf {
 
-/// What some programs put in front of a text.
+/// The byte order mark that some programs put in front of a text.
 inline constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 
 namespace detail {
@@ -25,13 +25,13 @@ inline std::string_view without_plus(std::string_view word) {
     const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     return has_plus ? word.substr(1) : word;
 }
-// The whole word or nothing.
+// Parses the whole word, or returns an error.
 template <class Number>
 std::errc parse(std::string_view word, Number& value) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     return error == std::errc() && end != word.data() + word.size() ? std::errc::invalid_argument : error;
 }
-// Zero or infinity, by the power of ten of the first digit that is not 0.
+// Returns zero or infinity for a number beyond the doubles, by the power of ten of its first digit that is not 0.
 inline double nearest_beyond_range(std::string_view number) {
     const bool is_negative = number.front() == '-';
     const std::size_t e = std::min(number.find_first_of("eE"), number.size());
@@ -51,7 +51,7 @@ inline double nearest_beyond_range(std::string_view number) {
 /// from the comment character to the end of its line. Numbers do not depend on the locale. Errors name file and line.
 class TextScanner {
  public:
-    /// `comment` 0: the format has no comments.
+    /// Takes the text, the path for messages, and the character that begins comments; 0: the format has no comments.
     TextScanner(std::string_view text, const std::string& path, char comment = '\0')
         : text_(text), path_(path), comment_(comment) {}
 
@@ -64,12 +64,12 @@ class TextScanner {
         skip(false);
         return position_ == text_.size() || detail::is_line_end(text_[position_]);
     }
-    /// The first character of the next word, over line ends; there must be one.
+    /// Returns the first character of the next word, over line ends; there must be one.
     char peek() {
         skip(true);
         return text_[position_];
     }
-    /// The next word, over line ends; throws Error(input) at the end of the text.
+    /// Returns the next word, over line ends; throws Error(input) at the end of the text.
     std::string_view next_word() {
         begin_word();
         return scan_word();
@@ -82,14 +82,14 @@ class TextScanner {
         std::int64_t value = 0;
         return take_plain_number(value, '\0') ? value : to_integer(scan_word());
     }
-    /// The next word up to `mark`, if that is in it, which must be a whole number.
+    /// Returns the whole number that the next word is up to `mark`, or as a whole if `mark` is not in it.
     std::int64_t next_integer_before(char mark) {
         std::int64_t value = 0;
         if (take_plain_number(value, mark)) return value;
         const std::string_view word = scan_word();
         return to_integer(word.substr(0, word.find(mark)));
     }
-    /// An index that counts from `first`, as one that counts from 0.
+    /// Returns the next index, which counts from `first` in the file, as one that counts from 0.
     std::int64_t next_index(std::int64_t first) {
         const std::int64_t index = next_integer();
         if (index < first)
@@ -97,9 +97,10 @@ class TextScanner {
                  ". Correct it or export the surface again.");
         return index - first;
     }
-    /// A whole number that is not negative.
+    /// Returns the next word, which must be a whole number that is not negative.
     std::int64_t next_count() { return to_count(next_word()); }
-    /// The nearest double: infinite or zero for a number beyond the doubles; "nan" and "inf" are read, too.
+    /// Returns the nearest double of a word: infinite or zero for a number beyond the doubles; "nan" and "inf" are
+    /// read, too.
     double to_real(std::string_view word) const {
         double value = 0;
         const std::string_view digits = detail::without_plus(word);
@@ -119,14 +120,14 @@ class TextScanner {
         if (count < 0) fail("a number of elements is negative. Correct it or export the surface again.");
         return count;
     }
-    /// Throws Error(input) if a word is left behind `last`, the last of what the file announced.
+    /// Throws Error(input) if a word is left behind `last`, which names the end of the data that the file announced.
     void expect_end(const std::string& last) {
         if (at_end()) return;
         begin_word();
         fail("the file goes on after " + last + ". Correct the numbers or export the surface again.");
     }
 
-    /// The rest of the current line without surrounding blanks; the scanner stands at the next line.
+    /// Returns the rest of the current line without surrounding blanks; the scanner stands at the next line then.
     std::string_view rest_of_line() {
         const std::size_t begin = position_;
         skip_line();
@@ -142,7 +143,7 @@ class TextScanner {
         if (position_ < text_.size()) ++position_;
     }
     std::size_t position() const { return position_; }
-    /// Goes on at a byte behind what has been read.
+    /// Continues at a byte behind those that have been read.
     void go_to(std::size_t position) { position_ = position; }
 
     /// Throws Error(input) naming file and line of the last word before `what`.
@@ -154,7 +155,8 @@ class TextScanner {
     }
 
  private:
-    // The loops walk by pointers of their own: through a member each step would be a write to memory.
+    // Passes over blanks and comments. The loops walk by pointers of their own: through a member each step would be a
+    // write to memory.
     void skip(bool over_line_ends) {
         const char *at = text_.data() + position_, *const end = text_.data() + text_.size();
         for (; at != end; ++at) {
@@ -171,8 +173,8 @@ class TextScanner {
         if (at_end()) fail("the file ends too early. It is truncated: export or copy it again.");
         word_ = position_;
     }
-    // Begins a word. Takes it if it is a number as from_chars() knows them, `mark` and more behind it perhaps, in one
-    // walk instead of two; all others are looked at as words.
+    // Begins a word, and takes it if it is a number that from_chars() reads, ended by a blank, a comment or `mark`: one
+    // walk instead of two. Returns false for all other words, which are scanned as words then.
     template <class Number>
     bool take_plain_number(Number& value, char mark) {
         begin_word();

@@ -1,7 +1,7 @@
-// Arrays of one of VTK's XML files, and their values.
+// The arrays of one of VTK's XML files, and their values.
 //
-// Values are text, or bytes that are base64, in place or behind the tag AppendedData, there perhaps plain. Bytes come
-// behind their number; if a compressor is named, behind the number of blocks, the size of a block, that of the last one
+// Values are text, or bytes: as base64 in place, or behind the tag AppendedData, there perhaps plain. Bytes come behind
+// their number; if a compressor is named, behind the number of blocks, the size of a block, the size of the last block
 // if it is smaller, and the compressed sizes of all. Header and data may be encoded as base64 in one piece or each for
 // itself.
 #pragma once
@@ -37,14 +37,14 @@ struct Array {
 struct Piece {
     std::int64_t points = 0, cells = 0;
     std::map<std::string, Array> scalars;  // of PointData
-    std::map<std::string, Array> arrays;   // "Points", "connectivity", ...; of CellData those of is_of_cells()
+    std::map<std::string, Array> arrays;  // "Points", "connectivity", ...; of CellData those that cell_array_of() names
 };
 
-// Arrays that tell the region of a cell, the first of which counts that all pieces have: of Kerf, then what meshio
-// makes of other formats.
+// Names of arrays that tell the region of a cell: Kerf's, then those that meshio makes of other formats. The first
+// counts that all pieces have.
 inline constexpr std::array<const char*, 4> region_arrays = {"Region", "gmsh:physical", "medit:ref", "attribute"};
 
-// Arrays that tell the regions on the two sides of a triangle, -1: outside.
+// Names of arrays that tell the regions on the two sides of a triangle, -1: outside.
 inline constexpr const char *front_array = "front", *back_array = "back";
 
 struct File {
@@ -55,7 +55,7 @@ struct File {
     std::vector<Piece> pieces;
 };
 
-// Bytes of an array one after the other, from base64 or as they are.
+// Gives the bytes of an array one after the other, from base64 or as they are.
 class Bytes {
  public:
     Bytes(std::string_view text, bool is_base64, const std::string& path)
@@ -78,7 +78,7 @@ class Bytes {
     [[noreturn]] void fail_short() const {
         fail(path_, "an array ends too early. The file is truncated: save or copy it again.");
     }
-    // Four letters, the last ones of which are = where an encoding ends.
+    // Decodes four letters, the last of which are = where an encoding ends.
     void decode_group() {
         std::uint32_t value = 0;
         int letters = 0, padding = 0;
@@ -115,7 +115,7 @@ class Decoder {
  public:
     Decoder(const File& file, const std::string& path) : file_(file), path_(path) {}
 
-    /// The values of an array of a piece, which must be `count`.
+    /// Returns the values of an array of a piece, which must be `count`.
     template <class Value>
     std::vector<Value> values(const Piece& piece, const std::string& name, std::int64_t count) const {
         const auto found = piece.arrays.find(name);

@@ -1,5 +1,9 @@
-// VTU is XML around arrays: FieldData and Piece > Points, Cells, CellData > DataArray. For their values see
-// vtu_arrays.h.
+// VTU is XML around arrays: FieldData and Piece > Points, Cells, CellData > DataArray. The tags are scanned without a
+// parser of XML: first the structure of the whole file is read, with the place of each array in the text, then the
+// values of the arrays that are needed, piece by piece (io/vtu_arrays.h). Arrays of cells that are not read are passed
+// over without decoding. Regions come from an array of the cells, for tetrahedra, or from the arrays "front" and "back"
+// of triangles, which count only if all pieces have both. Numbers of regions are those of the file until all cells are
+// read, and are made consecutive in their order then.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -94,7 +98,8 @@ Array read_array(std::string_view text, const Tag& tag, std::size_t end, const s
     return array;
 }
 
-// What an array of cells is called here; empty: it is none that is read. Those of sides are written in any case.
+// Returns the name that an array of cells has here; empty for arrays that are not read. "front" and "back" may be
+// written in any case.
 std::string cell_array_of(std::string_view name, std::string_view type) {
     if (name == "Neighbour") return "Neighbour";
     if (!type.starts_with("Int") && !type.starts_with("UInt")) return {};
@@ -122,7 +127,7 @@ void read_data_array(std::string_view text, const Tag& tag, std::string_view sec
     if (section == "PointData" && is_scalar) piece.scalars.try_emplace(name, read_array(text, tag, end, path));
 }
 
-// Everything but the values.
+// Reads the structure of the file, everything but the values.
 File read_structure(std::string_view text, const std::string& path) {
     File file;
     std::string section;
@@ -152,7 +157,7 @@ struct Cells {
     std::vector<std::int64_t> corners, ends, types, neighbours, regions, front, back;
 };
 
-// What is on the sides of triangles, by the numbers of the file.
+// Regions on the sides of triangles, by the numbers of the file.
 using FileSides = std::vector<std::array<std::int64_t, 2>>;
 
 Cells read_cells(const Decoder& decoder, const Piece& piece, const std::string& region_array, const std::string& path) {
@@ -186,7 +191,7 @@ std::string region_array_of(const File& file) {
     return {};
 }
 
-// Whether triangles say what is on their sides, all of them.
+// Tells whether all pieces have the arrays of sides.
 bool has_sides(const File& file) {
     return std::all_of(file.pieces.begin(), file.pieces.end(), [](const Piece& piece) {
         return piece.cells == 0 || (piece.arrays.contains(front_array) && piece.arrays.contains(back_array));
@@ -195,7 +200,8 @@ bool has_sides(const File& file) {
 
 using RegionNames = std::map<std::int64_t, std::string>;
 
-// A zero byte behind each. Of the numbers from 0, unless an array says others.
+// Returns the names of regions, each ended by a zero byte in the file: of the numbers from 0, unless an array says
+// others.
 RegionNames region_names_of(const File& file, const Decoder& decoder) {
     RegionNames of_numbers;
     if (!file.region_names) return of_numbers;
@@ -220,7 +226,7 @@ RegionNames region_names_of(const File& file, const Decoder& decoder) {
 
 bool is_triangle(std::int64_t type) { return type == vtk_triangle || type == vtk_quadratic_triangle; }
 
-// Leaves the corners of a quadratic cell, which are its first nodes, and returns its type without the others.
+// Cuts the nodes of a quadratic cell down to its corners, which come first, and returns the type of first order.
 std::int64_t take_corners(std::int64_t type, std::vector<std::int64_t>& nodes, SoupBuilder& builder) {
     const std::size_t corners = type == vtk_quadratic_triangle ? 3 : type == vtk_quadratic_tetra ? 4 : 0;
     if (corners == 0 || nodes.size() != (corners == 3 ? 6U : 10U)) return type;
@@ -229,7 +235,7 @@ std::int64_t take_corners(std::int64_t type, std::vector<std::int64_t>& nodes, S
     return corners == 3 ? vtk_triangle : vtk_tetra;
 }
 
-// Whether the cell is one that a mesh of tetrahedra has.
+// Adds a tetrahedron or a triangle; returns false for other cells.
 template <class Fail>
 bool add_cell(const Cells& cells, std::size_t cell, std::vector<std::int64_t>& corners, SoupBuilder& builder,
               const Fail& fail_cell) {
@@ -254,7 +260,7 @@ bool add_cell(const Cells& cells, std::size_t cell, std::vector<std::int64_t>& c
     return true;
 }
 
-// `sides`: those of the triangles are added.
+// Adds the cells of a piece, and the regions beside its triangles to `sides`.
 void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& region_array, const std::string& path,
                 SoupBuilder& builder, FileSides& sides) {
     const std::int64_t first_vertex = builder.vertex_count();

@@ -15,7 +15,7 @@ namespace {
 
 namespace zip {
 
-// Of the formats of headers.
+// Sizes and magic numbers of the formats of headers.
 constexpr std::string_view file_magic("PK\3\4", 4), entry_magic("PK\1\2", 4), end_magic("PK\5\6", 4),
     end64_magic("PK\6\6", 4), locator_magic("PK\6\7", 4);
 constexpr std::size_t file_size = 30, entry_size = 46, end_size = 22, end64_size = 56, locator_size = 20;
@@ -30,14 +30,14 @@ std::uint64_t number_at(std::string_view bytes, std::size_t offset) {
     return number;
 }
 
-// A record with this magic of at least so many bytes; empty if there is none.
+// Returns the record with this magic and at least so many bytes; empty if there is none.
 std::string_view record_at(std::string_view content, std::uint64_t offset, std::string_view magic, std::size_t size) {
     if (offset > content.size() || content.size() - offset < size) return {};
     const std::string_view record = content.substr(offset);
     return record.starts_with(magic) ? record : std::string_view();
 }
 
-// The table and what follows it; none if the archive ends before.
+// Returns the table and all bytes behind it; nothing if the archive ends before.
 std::optional<std::string_view> find_table(std::string_view content) {
     const std::size_t end = content.rfind(end_magic);
     if (end == content.npos || content.size() - end < end_size) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<std::string_view> find_table(std::string_view content) {
     return content.substr(table, end - table);
 }
 
-// Of the fields behind a name, that of ZIP64 has the numbers that did not fit, in the order of the header.
+// Takes the numbers that did not fit from the field of ZIP64 behind a name, in the order of the header.
 void take_zip64(std::string_view fields, ZipEntry& entry) {
     while (fields.size() >= 4) {
         const std::uint64_t id = number_at<std::uint16_t>(fields, 0);
