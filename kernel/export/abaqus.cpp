@@ -45,7 +45,7 @@ struct Names {
 // The faces are numbered 1-2-3, 1-4-2, 2-4-3, 3-4-1 in the manual of CalculiX; here by the corner that they lack.
 constexpr std::array<std::int32_t, 4> face_opposite_to = {3, 4, 2, 1};
 
-// The face of the tetrahedron that the triangle is.
+// Returns the face of the tetrahedron that the triangle is.
 std::int32_t face_of(const Tetrahedron& tet, const Triangle& triangle) {
     const auto is_of_triangle = [&](std::int32_t v) {
         return std::find(triangle.begin(), triangle.end(), v) != triangle.end();
@@ -54,7 +54,7 @@ std::int32_t face_of(const Tetrahedron& tet, const Triangle& triangle) {
     return face_opposite_to[opposite];
 }
 
-// As exact as a field can hold it.
+// Writes the coordinate as exactly as a field can hold it.
 void write_coordinate(ExportFile& file, double x) {
     std::array<char, 32> text;
     char* const begin = text.data();
@@ -90,7 +90,7 @@ void write_elements(const PartSource& parts, ExportFile& file) {
     file.write(fmt::format("*ELSET, ELSET=EALL, GENERATE\n1,{},1\n", element));
 }
 
-// An element of a material: for_each_by_patch() takes what has such a number.
+// An element of a material, in the form that for_each_by_patch() takes.
 struct MaterialElement {
     std::int32_t patch;
     std::int64_t element;
@@ -129,7 +129,7 @@ void write_material_sets(const PartSource& parts, const std::vector<std::string>
     for_each_by_patch<MaterialElement>(materials.sizes(), visit, take);
 }
 
-// The nodes of each patch, each once, ascending in each piece of a large patch. n: of a triangle.
+// Writes the nodes of each patch, each once, ascending in each piece of a large patch. n: nodes of a triangle.
 template <std::size_t n>
 void write_node_sets(const PartSource& parts, const Names& names, ExportFile& file) {
     std::vector<bool> is_written;  // in an earlier piece of the patch
@@ -158,7 +158,7 @@ void write_node_sets(const PartSource& parts, const Names& names, ExportFile& fi
     for_each_patch_triangle<n>(parts, names.sizes, take);
 }
 
-// Sets that are named again are continued.
+// Writes the element sets of the faces of patches, piece after piece. Sets that are named again are continued.
 void write_face_sets(const PartSource& parts, const Names& names, ExportFile& file, std::vector<unsigned>& faces_of) {
     const RegionWalls& sides = parts.walls();
     const auto visit = [&](const auto& add) {

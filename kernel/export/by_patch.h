@@ -1,4 +1,4 @@
-// What lies on patches in the order of the patches, a limited number of items at a time.
+// Hands out the items on patches in the order of the patches, a limited number at a time.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace kerf {
 
-/// Calls visit(add), which calls add(item) with all items in some order, and then take(patch, items) with those of
-/// patch after patch, in that order within a patch; those of a large patch come in several calls in a row. Item has a
-/// member `patch`; `sizes`: how many items each patch has. Holds 2^20 items at most, and 32 MB, for which visit() is
-/// called again where all together are more.
+/// Calls visit(add), which calls add(item) with all items in some order, and then take(patch, items) with the items of
+/// patch after patch, in that order within a patch; the items of a large patch come in several calls in a row. Item has
+/// a member `patch`; `sizes`: number of items of each patch. Holds at most 2^20 items and 32 MB, and calls visit()
+/// again where all items together are more.
 template <class Item, class Visit, class Take>
 void for_each_by_patch(std::span<const std::int64_t> sizes, const Visit& visit, const Take& take) {
     constexpr std::int64_t items_at_once =
@@ -27,7 +27,7 @@ void for_each_by_patch(std::span<const std::int64_t> sizes, const Visit& visit, 
     };
     std::size_t last = 0;
     for (std::size_t first = 0; first < sizes.size(); first = last) {
-        // One patch, or several that are held together.
+        // One patch, or several whose items are held together.
         std::int64_t together = sizes[first];
         for (last = first + 1; last < sizes.size() && together + sizes[last] <= items_at_once; ++last)
             together += sizes[last];

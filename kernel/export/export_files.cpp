@@ -1,3 +1,7 @@
+// Formats write millions of single numbers, so a file has a buffer of 1 MB of its own, into which they are formatted in
+// place; only larger blocks go around it. The bytes are hashed on their way to the file, since the report of a run
+// lists each file with its hash. Threads share an ExportFiles but not an ExportFile: the list of files alone is under a
+// lock, and is sorted when it is asked for, so that it does not depend on who finished first.
 #include "export/export_files.h"
 
 #include <algorithm>
@@ -33,7 +37,7 @@ void ExportFile::flush() {
     used_ = 0;
 }
 
-// At least `size` bytes behind what is in the buffer.
+// Returns room for `size` bytes behind those in the buffer.
 char* ExportFile::room(std::size_t size) {
     if (buffer_.size() - used_ < size) flush();
     return buffer_.data() + used_;

@@ -1,4 +1,4 @@
-// Where an export goes, and what it has written.
+// The files of an export: where they are written, and a list of those that are.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@
 
 namespace kerf {
 
-/// What formats are asked for beside the mesh. Each looks for what concerns it.
+/// Options of single formats. Each format takes those that concern it.
 struct FormatOptions {
-    CellFieldSet fields = default_cell_fields;  ///< what vtu says of cells
+    CellFieldSet fields = default_cell_fields;  ///< fields of cells in files of vtu
     bool msh_ascii = false;                     ///< msh as text
-    std::vector<PatchType> patch_types = {};    ///< of openfoam; other patches are of the type `patch`
+    std::vector<PatchType> patch_types = {};    ///< for openfoam; other patches are of the type `patch`
     bool split_regions = false;                 ///< openfoam: one mesh for each region
 };
 
@@ -44,13 +44,13 @@ class ExportFile {
     void value(const T& value) {
         write(&value, sizeof value);
     }
-    /// Decimal; a double with as few digits as give it back exactly.
+    /// Writes a number as decimal text; a double with as few digits as give it back exactly.
     void number(std::int64_t number);
     void number(double number);
-    /// x y z with a space between.
+    /// Writes x y z as text, with a space between.
     void point(const Vec3& p);
 
-    /// The file is complete, and listed. Buffered bytes may meet a full disk only here.
+    /// Ends the file and lists it. Buffered bytes may meet a full disk only here.
     void close();
 
  private:
@@ -71,8 +71,8 @@ class ExportFile {
 /// The files of one export, below a folder. May be used by several threads.
 class ExportFiles {
  public:
-    /// `place`: the folder to which the files are moved when all are complete; `folder` itself if empty. `own`: names
-    /// of files there that an earlier export has written.
+    /// Takes the folder, and the `place` to which the files are moved when all are complete; empty: they stay in
+    /// `folder`. `own`: names of files at the place that an earlier export has written.
     explicit ExportFiles(std::string folder, std::string place = "", std::set<std::string> own = {},
                          FormatOptions options = {})
         : folder_(std::move(folder)),
@@ -83,21 +83,21 @@ class ExportFiles {
     const std::string& folder() const { return folder_; }
     const std::string& place() const { return place_; }
     const FormatOptions& options() const { return options_; }
-    /// Whether a file of this name lies at the place, or a folder, in which nothing was written by an earlier export.
+    /// Tells whether a file or folder of this name lies at the place to which no earlier export has written.
     bool is_of_others(const std::string& name) const;
-    /// A file of this name below the folder, which may have '/' in it: folders are made. What was there is replaced.
+    /// Makes a file of this name below the folder, and folders for a name with '/' in it. An older file is replaced.
     ExportFile create(const std::string& name);
-    /// Its path, with the folders made: for files that are not written from beginning to end.
+    /// Returns the path of a file and makes its folders: for files that are not written from beginning to end.
     std::string path_of(const std::string& name);
-    /// Lists such a file: without its size and hash (-1 and empty), because others may still be writing it.
+    /// Lists a file from path_of() without its size and hash (-1 and empty), because others may still be writing it.
     void add(const std::string& name);
-    /// Lists a file of which everything is known.
+    /// Lists a file with its size and hash.
     void add(RunFile file);
 
-    /// What was written, ascending by path, each file once.
+    /// Returns the files that were listed, ascending by path, each once.
     std::vector<RunFile> list() const;
 
-    /// What all parts of one export ask for the cells around them (export/ghosts.h).
+    /// Returns the finder of the cells around parts (export/ghosts.h), one for all parts of an export.
     GhostFinder& ghosts();
 
  private:
@@ -106,7 +106,7 @@ class ExportFiles {
     FormatOptions options_;
     mutable std::mutex mutex_;
     std::vector<RunFile> files_;
-    std::shared_ptr<GhostFinder> ghosts_;  // once it is asked for
+    std::shared_ptr<GhostFinder> ghosts_;  // null until ghosts() is called
 };
 
 }  // namespace kerf

@@ -16,43 +16,45 @@ struct MergeOptions {
     std::string msh_version = "4.1";  ///< of Gmsh: 4.1 or 2.2
 };
 
-/// How one format is written. Functions are null where a format has no such files. What they write depends on the parts
-/// alone. They throw Error(io) if a file cannot be written, and Error(usage), before the first byte, for a mesh that
-/// the format cannot hold.
+/// A format, as functions that write it, which are null where it has no such files. The bytes that they write depend on
+/// the parts alone. They throw Error(io) if a file cannot be written, and Error(usage), before the first byte, for a
+/// mesh that the format cannot hold.
 struct Format {
-    const char* name;                    ///< of --format
-    const char* help;                    ///< what it is and who reads it, a few words
+    const char* name;                    ///< as given to --format
+    const char* help;                    ///< a few words on its kind and its readers
     const char* ending;                  ///< of merged files, with its dot; null: there are none
-    OutputKind kind = {};                ///< of merged files, all that there are beside the named one, too
-    bool needs_face_neighbours = false;  ///< write_part() gets a part with them
-    bool asks_for_one_part = false;      ///< write_part() loads no other one, nor does write_whole() any
+    OutputKind kind = {};                ///< of merged files, with those beside the named one
+    bool needs_face_neighbours = false;  ///< write_part() gets a part with neighbours of cells
+    bool asks_for_one_part = false;      ///< write_part() loads no other part, write_whole() none
     int highest_order = 2;               ///< of the cells that it can hold
-    /// What patches with these names are called in the files; null: by their names, or by numbers.
+    /// Returns the words for patches of these names in the files; null: patches have their names there, or numbers.
     std::vector<std::string> (*patch_words)(const std::vector<std::string>& names) = nullptr;
 
-    /// The files that belong to no part, or are written by several: called once, before any part.
+    /// Writes the files that belong to no part, or are written by several: called once, before any part.
     void (*write_whole)(const PartSource& parts, ExportFiles& files) = nullptr;
-    /// The files of one part. Several parts may be written at once, by threads and processes that share a disk.
+    /// Writes the files of one part. Several parts may be written at once, by threads and processes that share a disk.
     void (*write_part)(const PartSource& parts, PartIndex index, const Part& part, ExportFiles& files) = nullptr;
-    /// All parts as one mesh, a part at a time, in the file `stem` + ending, or in several that begin with the stem.
+    /// Writes all parts as one mesh, a part at a time, in the file `stem` + ending, or in several that begin with the
+    /// stem.
     void (*write_merged)(const PartSource& parts, const MergeOptions& options, ExportFiles& files,
                          const std::string& stem) = nullptr;
 
-    /// Formats that are read in one piece are written as "mesh" and their ending.
+    /// Tells whether the format is read in one piece: it is written as "mesh" and its ending.
     bool is_merged_only() const { return !write_part && !write_whole; }
 };
 
-/// All of them, in the order of the help.
+/// Returns all formats, in the order of the help.
 std::span<const Format* const> formats();
-/// Finds one by its name. Throws Error(usage) with the names that there are.
+/// Finds a format by its name. Throws Error(usage) with the names that there are.
 const Format& find_format(std::string_view name);
-/// The formats of a list "vtu,msh", each once, in the order of formats(). Throws Error(usage), also for an empty list.
+/// Returns the formats of a list "vtu,msh", each once, in the order of formats(). Throws Error(usage), also for an
+/// empty list.
 std::vector<const Format*> parse_formats(std::string_view list);
 
-/// Throws Error(usage), with the formats that can, where the format cannot hold cells of this order.
+/// Throws Error(usage), naming formats that can, if this one cannot hold cells of this order.
 void require_order(const Format& format, int order);
 
-/// Writes all parts in the format, one after the other: what a run does with many processes at once.
+/// Writes all parts in the format, one after the other; a run does the same with many processes at once.
 void write_format(const Format& format, const PartSource& parts, ExportFiles& files);
 
 }  // namespace kerf

@@ -1,3 +1,10 @@
+// A ghost of a part is a cell of another part that shares a vertex with it. The layer of a part are its cells at
+// vertices that any other part has, with nodes numbered within the layer, and for each set of parts the nodes that
+// these share. From the layers of its neighbours a part takes the cells that have a shared node with it among their
+// corners. Layers are kept in slots, one a part, and the least recently used goes when all are larger than the limit. A
+// layer that a thread is loading is waited for, not loaded twice; the lock is open meanwhile. Neighbours come in the
+// order of the parts and cells in that of their part, so that ghosts are ascending without a sort; nodes are sorted,
+// since several parts may have one.
 #include "export/ghosts.h"
 
 #include <algorithm>
@@ -22,7 +29,7 @@ struct GhostLayer {
 
 namespace {
 
-// The parts that share a vertex with this one, ascending.
+// Returns the parts that share a vertex with this one, ascending.
 std::vector<PartIndex> neighbours_of(const MeshOutline& outline, const Part& part) {
     std::vector<NodeId> ids;
     for (const SharedGroup& group : part.shared) ids.insert(ids.end(), group.parts.begin(), group.parts.end());
@@ -35,7 +42,7 @@ std::vector<PartIndex> neighbours_of(const MeshOutline& outline, const Part& par
     return indices;
 }
 
-// The tetrahedra with a vertex that other parts have, too.
+// Returns the tetrahedra with a vertex that other parts have, too.
 std::vector<std::int32_t> tets_at_others(const Part& part) {
     std::vector<bool> is_shared(part.vertex_count(), false);
     for (const SharedGroup& group : part.shared)
@@ -86,7 +93,7 @@ CellNodes ids_of_cell(const GhostLayer& layer, const std::int32_t* corners) {
     return CellNodes(ids);
 }
 
-// Adds what the part `id` needs of another one, whose cells are numbered from `first`.
+// Adds the ghosts that the part `id` has in the layer of another one, whose cells are numbered from `first`.
 void add_ghosts(NodeId id, const GhostLayer& layer, PartIndex index, std::int64_t first, Ghosts& ghosts) {
     if (layer.tets.empty()) return;
     std::vector<bool> is_shared(layer.nodes.size(), false);
@@ -122,7 +129,7 @@ Ghosts GhostFinder::ghosts_of(const PartSource& parts, const Part& part) {
     return ghosts;
 }
 
-// Of several threads that want the same one, the first loads it and the others wait.
+// Several threads may want the same layer: the first loads it and the others wait.
 std::shared_ptr<const GhostLayer> GhostFinder::layer_of(const PartSource& parts, PartIndex index) {
     std::unique_lock lock(mutex_);
     if (slots_.empty()) slots_.resize(parts.outline().parts.size());

@@ -32,16 +32,17 @@ struct Ghosts {
 
 struct GhostLayer;
 
-/// Finds the ghosts of parts of one source, one after the other. What may be a ghost of any part, the cells at vertices
-/// that parts share, is kept of every part that was asked for, since all its neighbours ask for the same: 20 bytes a
-/// cell and 32 a node, up to a limit; what was not asked for the longest goes first.
+/// Finds the ghosts of parts of one source, one part after the other. The cells of a part at vertices that it shares,
+/// its layer, may be ghosts of any neighbour, all of which ask for them: the layer of each part that was loaded is
+/// kept, 20 bytes a cell and 32 a node, up to a limit; the layer that was not asked for the longest goes first.
 class GhostFinder {
  public:
     explicit GhostFinder(std::size_t most_bytes = std::size_t{256} << 20);
     ~GhostFinder();
 
-    /// From any thread. Throws Error(io). Cost: loads the parts that share a vertex with this one, one at a time, those
-    /// of which nothing is kept; parts in the order of the tree have most neighbours in common.
+    /// Returns the ghosts of a part. From any thread. Throws Error(io). Cost: loads the parts that share a vertex with
+    /// this one and whose layer is not kept, one at a time; parts in the order of the tree have most neighbours in
+    /// common.
     Ghosts ghosts_of(const PartSource& parts, const Part& part);
 
  private:

@@ -1,3 +1,9 @@
+// The library makes the file once: groups, attributes, and arrays that are contiguous, allocated early and never
+// filled. From then on an array is a range of bytes, whose beginning H5Dget_offset() tells, and rows are written there
+// with pwrite(): by any number of threads and processes, without the library, which is not made for several threads,
+// and without its locks. Calls of the library take turns by a mutex. Large arrays begin at pages, so that they may be
+// mapped into memory. Times are not tracked and the version of the format is fixed, so that equal content gives equal
+// bytes. The memory of the machine must be little endian, as the arrays are.
 #include "export/hdf5_file.h"
 
 #include <algorithm>
@@ -23,16 +29,16 @@ static_assert(std::endian::native == std::endian::little, "the arrays are little
 
 constexpr hsize_t page_size = 4096;  // where large arrays begin, so that they may be mapped into memory
 
-// While it lives, its thread may call the library, which is not made for several.
+// While this lives, its thread may call the library, which is not made for several threads.
 class Hdf5Turn {
  public:
     Hdf5Turn() : lock_(mutex) {
-        // At the end of the program the library would close once more what it could not close on a full disk, and
+        // At the end of the program the library would close once more all that it could not close on a full disk, and
         // crash.
         static const herr_t left_open = H5dont_atexit();
         (void)left_open;
         H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is an exception
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are exceptions here
     }
     Hdf5Turn(const Hdf5Turn&) = delete;
     Hdf5Turn& operator=(const Hdf5Turn&) = delete;
@@ -41,7 +47,7 @@ class Hdf5Turn {
  private:
     static inline std::mutex mutex;
     std::lock_guard<std::mutex> lock_;
-    H5E_auto2_t print_ = nullptr;  // what the program has chosen for errors
+    H5E_auto2_t print_ = nullptr;  // the program's own printing of errors
     void* print_data_ = nullptr;
 };
 
@@ -52,7 +58,7 @@ class Hdf5Turn {
                             action, path, error ? ": " + std::generic_category().message(error) : std::string()));
 }
 
-// Something that the library has open.
+// An object that the library has open.
 class Hdf5Id {
  public:
     Hdf5Id(hid_t id, herr_t (*close_it)(hid_t), const std::string& path) : id_(id), close_(close_it) {
@@ -107,7 +113,7 @@ class Hdf5Creation {
         make_array(array.name.c_str(), file_type(array.type), space);
     }
 
-    // Of as many bytes as the longest, UTF-8, filled up with zero bytes.
+    // Makes an array of names, each of as many bytes as the longest, in UTF-8, filled up with zero bytes.
     void make_names(const Hdf5Names& array) {
         std::size_t length = 1;
         for (const std::string& each : array.names) length = std::max(length, each.size());

@@ -17,7 +17,7 @@ struct Hdf5Array {
     std::string name;  ///< with its groups
     Hdf5Type type;
     std::int64_t rows;
-    std::int64_t columns = 0;  ///< 0: of one dimension
+    std::int64_t columns = 0;  ///< 0: the array has one dimension
 };
 
 struct Hdf5Attribute {
@@ -39,23 +39,23 @@ struct Hdf5Content {
 };
 
 /// Makes the file with its arrays contiguous, allocated and not filled. The bytes depend on the content alone, not on
-/// the time nor on the default version of the format. What was there is replaced. From any thread. Throws Error(io).
+/// the time nor on the default version of the format. An older file is replaced. From any thread. Throws Error(io).
 void make_hdf5_file(const std::string& path, const Hdf5Content& content);
 
-/// The arrays of such a file as bytes.
+/// The arrays of a file of make_hdf5_file(), as places of bytes.
 class Hdf5Bytes {
  public:
-    /// From any thread. Throws Error(io).
+    /// Opens the file and finds the places of these arrays. From any thread. Throws Error(io).
     Hdf5Bytes(const std::string& path, const std::vector<Hdf5Array>& arrays);
     Hdf5Bytes(const Hdf5Bytes&) = delete;
     Hdf5Bytes& operator=(const Hdf5Bytes&) = delete;
     ~Hdf5Bytes();
 
-    /// Where the row of the array is.
+    /// Returns the place of a row of an array, in bytes from the beginning of the file.
     std::int64_t place_of(std::string_view name, std::int64_t row) const;
-    /// Throws Error(io).
+    /// Writes bytes at a place of the file. From any thread. Throws Error(io).
     void write(const void* data, std::size_t size, std::int64_t place) const;
-    /// What was written may meet a full disk only here.
+    /// Closes the file; written bytes may meet a full disk only here. Throws Error(io).
     void close();
 
  private:

@@ -1,3 +1,9 @@
+// The ending of the output chooses the format, whose write_merged() writes one or more files into a temporary folder
+// beside the place, on the same disk. When all are complete, each is renamed to its place: the named file to where its
+// links lead, the others beside it, with the permissions of older files. Every place is checked before the first
+// rename, so that a refusal leaves all older files. Of order 2 the edges are numbered first. A run that is merged at
+// its end lies in FILE.kerf-run beside its file, from which merged_file_of() finds the way back. A solution has no mesh
+// of its own: the run of its mesh is protected like the run itself.
 #include "export/merged_file.h"
 
 #include <filesystem>
@@ -31,7 +37,7 @@ const Format& format_of(const fs::path& file) {
                                               file.string(), endings));
 }
 
-// Where a file goes: behind links, to a place that is free or has a file, and outside of the run.
+// Returns the place of a file: behind links, free or a regular file of the format, and outside of the run.
 fs::path place_for(const fs::path& file, const std::string& run, const Format& format) {
     const fs::path place = behind_links(file.string());
     if (!run.empty() && lies_inside(place.string(), run))
@@ -56,7 +62,7 @@ void move_to(const fs::path& from, const fs::path& place) {
                                                from.string(), place.string(), error.message()));
 }
 
-// Returns the format of the file.
+// Checks the request and returns the format of the file.
 const Format& check_merged_request(const MergeRequest& request) {
     const Format& format = format_of(request.output);
     if (request.msh_ascii && &format != &find_format("msh"))
@@ -92,7 +98,7 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
     const fs::path output = request.output;
     const Format& format = check_merged_request(request);
     const fs::path main_place = place_for(output, request.folder, format);
-    // On the disk where the files will lie, for as long as they are not complete.
+    // The files are written on the disk where they will lie, for as long as they are not complete.
     const TemporaryFolder beside(main_place.string(), "write beside " + main_place.string(),
                                  "Choose another place for --output.");
     ExportFiles files(beside.path(), "", {}, {.msh_ascii = request.msh_ascii});

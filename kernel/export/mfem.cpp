@@ -31,7 +31,7 @@ constexpr int mfem_triangle = 2, mfem_tetrahedron = 4;  // MFEM's numbers of geo
 // The places of MFEM's edges of a tetrahedron among its ten nodes.
 constexpr std::array<std::int8_t, 6> nodes_on_mfem_edges = {4, 6, 7, 5, 8, 9};
 
-// What the ranks of a group have in common, by the numbers of one of them.
+// The entities that the ranks of a group have in common, by the numbers of one of these ranks.
 struct MfemGroup {
     std::vector<std::int32_t> vertices;
     std::vector<UndirectedEdge> edges;

@@ -32,7 +32,7 @@ struct MergedVolume {
     Eigen::AlignedBox3d box;
 };
 
-// What the entities of the whole mesh need to be known of before they are written.
+// The boxes and counts of entities of the whole mesh, which are written before the entities.
 struct Whole {
     std::vector<Eigen::AlignedBox3d> surfaces;  // by patch
     std::vector<MergedVolume> volumes;
@@ -101,8 +101,8 @@ void write_merged_4_1(const PartSource& parts, const Tags& tags, ExportFiles& fi
     writer.file().close();
 }
 
-// Every element has its physical group, its entity and its nodes, all in 32 bits; elements of one type come together,
-// behind what they have in common.
+// Writes $Elements of MSH 2.2: every element has its physical group, its entity and its nodes, all in 32 bits; elements
+// of one type come together, behind a header for all of them.
 class Elements22 {
  public:
     Elements22(Writer& writer, std::int32_t type, std::int64_t count) : writer_(writer), type_(type) {

@@ -1,3 +1,9 @@
+// One file of MSH 4.1 a part, as Gmsh writes partitioned meshes: PartFile collects everything that the sections count,
+// and then writes the sections in the order that Gmsh reads. A piece is what the part has of one patch or one material;
+// each is an entity of the part, whose parent is the entity of the whole with the same patch or material. A node is
+// written once, with its first patch, else with its material (export/patch_pieces.h). Ghost cells and the nodes that
+// only they have belong to one volume more, and $GhostElements says which part owns each. Tags are those of the whole
+// (export/msh_tags.h), so that the files of all parts fit together.
 #include "export/msh_part.h"
 
 #include <algorithm>
@@ -36,7 +42,7 @@ class PartFile {
  private:
     bool has_ghosts() const { return !ghosts_.cells.empty(); }
 
-    // Boxes are those of this part: the whole is not known here.
+    // The boxes are those of this part: the whole is not known here.
     void write_entities(Writer& writer) const {
         writer.begin("Entities");
         writer.counts_of_entities(pieces_.on_patches.size(), materials_.size());
@@ -120,7 +126,7 @@ class PartFile {
     Entity ghost_volume_;
 };
 
-// As Gmsh calls them: a mesh in one piece has no number.
+// Returns the name that Gmsh gives the file: a mesh in one piece has no number.
 std::string file_name(std::size_t parts, PartIndex index) {
     return parts == 1 ? "mesh.msh" : fmt::format("mesh_{}.msh", index.value() + 1);
 }

@@ -1,6 +1,6 @@
-// The file of a part in the format msh. It says of which whole it is a part ($Entities: a volume for each material and
-// a surface for each patch that the part has something of), which entities the part has ($PartitionedEntities), and
-// which cells of other parts touch it ($GhostElements).
+// The file of a part in the format msh. It has the entities of the whole of which the part has something ($Entities: a
+// volume for each material and a surface for each patch), those of the part ($PartitionedEntities), and the cells of
+// other parts that touch it ($GhostElements).
 #pragma once
 
 #include "export/export_files.h"

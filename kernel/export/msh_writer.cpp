@@ -35,7 +35,7 @@ class ValueSection {
     const char* name_;
 };
 
-// Writes what a part has, at its nodes for which wanted(n) holds, and in its tetrahedra.
+// Writes the values of a part, at the nodes for which wanted(n) holds, and in its tetrahedra.
 template <class Wanted>
 void write_rows_of_part(ValueSection& section, const Part& part, std::size_t k, std::int64_t first_tet,
                         const Wanted& wanted) {

@@ -1,4 +1,4 @@
-// The sections that Gmsh's files consist of.
+// Writes the sections of Gmsh's files.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Numbers {
     }
 };
 
-/// Writes numbers one behind the other, or, as text, a row of them on a line.
+/// Writes numbers one behind the other, as bytes or, as text, a row of them on a line.
 class Writer {
  public:
     Writer(ExportFile file, const char* version, bool is_ascii) : file_(std::move(file)), is_ascii_(is_ascii) {
@@ -65,7 +65,7 @@ class Writer {
     }
     bool is_ascii() const { return is_ascii_; }
 
-    /// Entities of the whole, or of a part, none of which has a boundary of its own.
+    /// Write an entity of the whole, or of a part; none of them has a boundary of its own.
     void entity(const Entity& entity, const Eigen::AlignedBox3d& box, std::int32_t physical) {
         number(entity.tag);
         box_and_physical(box, physical);
@@ -83,7 +83,7 @@ class Writer {
         row(std::array<std::int64_t, 4>{0, 0, surfaces, volumes});
     }
 
-    /// What $Nodes and $Elements begin with.
+    /// Writes the first row of $Nodes and $Elements.
     void extent(std::int64_t blocks, std::int64_t count, const Numbers& numbers) {
         row(std::array<std::int64_t, 4>{blocks, count, tag_of(numbers.first), tag_of(numbers.last)});
     }
@@ -153,13 +153,13 @@ class Writer {
     bool is_ascii_, is_in_row_ = false;
 };
 
-/// $PhysicalNames: those of patches and materials.
+/// Writes $PhysicalNames: the names of patches and materials.
 void write_names(ExportFile& file, const Tags& tags, const MeshOutline& outline);
 
 /// Throws Error(usage) for values of a mesh whose tags have more than the 32 bits that $NodeData and $ElementData take.
 void require_tags_fit(const MeshOutline& outline);
 
-/// $NodeData and $ElementData: what a solution has found.
+/// Write $NodeData and $ElementData: the values of a solution.
 void write_part_values(const MeshOutline& outline, PartIndex index, const Part& part, Writer& writer);
 void write_merged_values(const PartSource& parts, Writer& writer);
 

@@ -55,7 +55,7 @@ void leave_out_walls(const std::vector<std::int64_t>& sizes, std::vector<Patch>&
     });
 }
 
-// As text, so that labels of any size are read.
+// Written as text, so that labels of any size are read.
 void write_zones(const std::vector<std::string>& names, const std::vector<std::int32_t>& of_tets,
                  const MeshPlace& place, ExportFiles& files) {
     const std::vector<std::string> words = word_names(names, word_rules("region"));
@@ -123,7 +123,7 @@ void require_no_more_processors(const MeshOutline& outline, const ExportFiles& f
                                                   files.place() + "/" + next));
 }
 
-// A dictionary without which no program of OpenFOAM opens the case. One of the user's stays.
+// Writes a dictionary without which no program of OpenFOAM opens the case. One of the user's stays.
 void write_dictionary(ExportFiles& files, const std::string& folder, const std::string& object,
                       std::string_view entries) {
     const std::string name = folder + "/" + object;
@@ -153,7 +153,7 @@ void write_schemes(ExportFiles& files, const std::string& folder) {
     write_dictionary(files, folder, "fvSolution", solution);
 }
 
-// All are solid until the user says which are not.
+// All regions are solid until the user says which are not.
 void write_region_properties(const RegionMeshes& meshes, ExportFiles& files) {
     std::string text = "regions\n(\n    fluid ()\n    solid\n    (\n";
     for (const RegionIndex region : ids<RegionIndex>(meshes.count()))

@@ -1,3 +1,10 @@
+// OpenFOAM numbers the faces of a mesh, not its cells: first the faces between two cells, in upper-triangular order (by
+// the smaller cell, which is the owner, then by the larger one), then the boundary, patch after patch. The first order
+// falls out of the neighbours of cells, four of which are sorted at a time; only the boundary is sorted as a whole.
+// Both sides of an interface sort its faces by ascending global vertex numbers and start each face at its smallest
+// number, so that the two processors name the same faces in the same order without a message; a face has its corners
+// seen from its own side there. Lists are binary and written an entry at a time, behind their length, which is known
+// before: of n tetrahedra with b boundary faces there are (4 n + b) / 2 faces.
 #include "export/openfoam_mesh.h"
 
 #include <algorithm>
@@ -45,7 +52,7 @@ namespace mesh_files {
 
 using Labels = std::vector<Label>;
 
-// The number of the patch that each triangle belongs to; those of processors are numbered after those of the surface.
+// Returns the patch of each triangle; patches of processors are numbered behind those of the surface.
 Labels patches_of_facets(const Part& part, const MeshOutline& outline, Label of_surface) {
     std::vector<NodeId> others = part.neighbour;
     std::sort(others.begin(), others.end());
@@ -63,12 +70,12 @@ Labels patches_of_facets(const Part& part, const MeshOutline& outline, Label of_
 
 struct PlacedFacet {
     std::int32_t patch;
-    std::array<std::int64_t, 3> ids;  // ascending; zeros on the surface, whose order stays
+    std::array<std::int64_t, 3> ids;  // ascending; zeros on the surface, where the order of facets stays
     std::int32_t facet;
     auto operator<=>(const PlacedFacet&) const = default;
 };
 
-// The boundary triangles in the order of their patches.
+// Returns the boundary triangles in the order of their patches.
 std::vector<PlacedFacet> place_facets(const Part& part, const MeshOutline& outline, Label of_surface) {
     const Labels patches = patches_of_facets(part, outline, of_surface);
     std::vector<PlacedFacet> placed(part.facets.size());
@@ -138,7 +145,7 @@ void begin_corners(ListFile& faces, std::int64_t count) {
     faces.begin(3 * count);
 }
 
-// Faces between cells, upper-triangular.
+// Writes the faces between cells, in upper-triangular order.
 void write_inner_faces(const TetMesh& mesh, ListFile& faces, ListFile& owner, ListFile& neighbour) {
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const std::array<std::int32_t, 4>& across = mesh.neighbours[t];

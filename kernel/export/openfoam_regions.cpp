@@ -1,3 +1,9 @@
+// The mesh of a region in a processor is cut out of the part: its cells, their vertices, and as boundary all triangles
+// that have one of these cells behind them. Walls to another region come from two sources: between parts they are
+// facets of the part, within a part they are faces between cells, which are found by the neighbours. Both get the patch
+// REGION_to_OTHER, of the type mappedWall, which samples OTHER_to_REGION there. Its place is that of the other region
+// among the neighbours of the region, in the whole mesh, so that all processors agree on patches of which they have no
+// face. "Whole" is the part with all regions, "local" are numbers within the region.
 #include "export/openfoam_regions.h"
 
 #include <algorithm>
@@ -11,7 +17,8 @@ namespace kerf::openfoam {
 namespace {
 namespace regions {
 
-// Files and folders that lie where those of regions do, and the name that stands for a mesh without regions.
+// Words of regions must not be the names of files and folders that lie where theirs do, nor that of a mesh without
+// regions.
 WordRules rules() {
     WordRules rules = word_rules("region");
     for (const char* taken :
@@ -35,7 +42,7 @@ Patch mapped_patch(const std::string& word, const std::string& other_region, con
     return patch;
 }
 
-// Cells of one region, and what they are called among themselves.
+// The cells of one region with numbers of their own.
 class Extract {
  public:
     Extract(const Part& whole, RegionIndex region, Part& piece) : whole_(whole), piece_(piece) {
@@ -65,7 +72,7 @@ class Extract {
         }
     }
     bool has(std::int32_t tet) const { return local_tet_[tet] >= 0; }
-    // A triangle with this cell behind it, both numbered as in the whole.
+    // Adds a triangle with this cell behind it, both numbered as in the whole.
     void add(const Triangle& corners, std::int32_t tet, std::int32_t patch, NodeId neighbour) {
         piece_.facets.push_back(local(corners));
         piece_.patch.push_back(patch);
@@ -109,7 +116,7 @@ RegionMeshes::RegionMeshes(const PartSource& parts, std::span<const PatchType> t
     }
 }
 
-// Behind those of the surface.
+// Returns the place of the patch towards another region: behind the patches of the surface.
 std::int32_t RegionMeshes::wall_patch(RegionIndex region, RegionIndex other) const {
     return static_cast<std::int32_t>(walls_.outer_patches(region).size()) +
            regions::position_in(walls_.neighbours(region), other);

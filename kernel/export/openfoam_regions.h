@@ -9,23 +9,24 @@
 
 namespace kerf::openfoam {
 
-/// What the meshes of regions are called, and which patches they have: the same in all processors.
+/// The names of the meshes of regions and their patches, which are the same in all processors.
 ///
 /// A mesh has the patches of the surface that its region has outer triangles of, and behind them one for each region
 /// beside it, ascending: the patch A_to_B of A and B_to_A of B are mapped to each other, as splitMeshRegions writes
 /// them.
 class RegionMeshes {
  public:
-    /// `parts` must outlive this. Throws Error(io).
+    /// Takes the parts, which must outlive this. Throws Error(io).
     RegionMeshes(const PartSource& parts, std::span<const PatchType> types);
 
     std::int32_t count() const { return std::ssize(words_); }
     const std::string& word(RegionIndex region) const { return words_[region]; }
     const std::string& name(RegionIndex region) const { return outline_.region_names[region.value()]; }
-    /// Without faces.
+    /// Returns the patches of a region's mesh, without faces.
     std::vector<Patch> patches(RegionIndex region) const;
-    /// The cells of a region in a part, whose mesh has neighbours; those of the result have, too. There may be none.
-    /// Vertices and cells keep their order, patches are those of patches(). O(#T + #V).
+    /// Returns the cells of a region in a part as a part of their own; there may be none. The mesh of the part must
+    /// have neighbours, and so has that of the result. Vertices and cells keep their order; Part::patch is a place in
+    /// patches(). O(#T + #V).
     Part part_of(const Part& part, RegionIndex region) const;
 
  private:

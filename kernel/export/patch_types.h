@@ -1,4 +1,4 @@
-// The types of patches where a format has such: OpenFOAM's boundaries.
+// The types of patches for formats that have them: OpenFOAM's boundaries.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@ struct PatchType {
     std::string patch, type;
 };
 
-/// Reads texts NAME=TYPE, of which the last = counts. Throws Error(usage) for another form, and for a type that is none
-/// of those of OpenFOAM that need no entries of their own.
+/// Reads texts NAME=TYPE, split at the last =. Throws Error(usage) for another form, and for a type that is none of
+/// those of OpenFOAM that need no entries of their own.
 std::vector<PatchType> parse_patch_types(std::span<const std::string> texts);
 
 /// Throws Error(usage), with the names that there are, for a patch that the mesh does not have.
 void require_patches(std::span<const PatchType> types, std::span<const std::string> patch_names);
 
-/// What --split-regions asks for. Throws Error(usage) if there are less than two regions.
+/// Checks a request for --split-regions. Throws Error(usage) if there are less than two regions.
 void require_regions(std::size_t count);
 
-/// The type of the patch: the last one given, else `patch`.
+/// Returns the type of a patch: the last one given, else `patch`.
 std::string type_of_patch(std::span<const PatchType> types, const std::string& patch);
 
 }  // namespace kerf

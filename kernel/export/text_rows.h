@@ -1,4 +1,4 @@
-// Rows of numbers, of which text formats consist.
+// Writes rows of numbers for text formats.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace kerf {
 
-/// Numbers on one line, a separator between two.
+/// A row of numbers on one line, with a separator between two.
 class TextRow {
  public:
     explicit TextRow(ExportFile& file, std::string_view separator = " ") : file_(file), separator_(separator) {}
@@ -22,7 +22,7 @@ class TextRow {
         is_first_ = false;
         return *this;
     }
-    /// The nodes of a cell, counted from `first`.
+    /// Adds the nodes of a cell, counted from `first`.
     TextRow& add(const CellNodes& nodes, std::int64_t first) {
         for (const std::int64_t node : nodes) add(node + first);
         return *this;

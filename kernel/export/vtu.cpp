@@ -85,7 +85,7 @@ GridArray connectivity(const PartSource& parts) {
     });
 }
 
-// Of tetrahedra, then of the triangles on patches, which have those of the tetrahedron behind them.
+// Writes the values of tetrahedra, then of the triangles on patches, which have those of the tetrahedron behind them.
 template <class T>
 void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file) {
     const auto write_row = [&](const PartValues& values, std::int32_t tet) {

@@ -1,3 +1,9 @@
+// A merged file wants nodes and triangles in one order over all parts, of which only one is in memory at a time. Nodes
+// are handed out in pieces of 2^21 global numbers: the rows of a piece lie in an array, and each part that has some of
+// its numbers is loaded and fills them in. Which part has numbers in which piece is known after the first round, in
+// which all are loaded. Parts are visited backwards, so that where several have a node, the row of the first part
+// stays. Triangles are sorted by patches in batches (export/by_patch.h). So memory does not grow with the mesh, for
+// more reads of its parts.
 #include "export/whole_mesh.h"
 
 #include <algorithm>
@@ -21,15 +27,15 @@ std::array<std::int64_t, n> global_nodes(const Part& part, const std::array<std:
 
 constexpr std::int64_t rows_at_once = std::int64_t{1} << 21;  // 48 MB of points
 
-// The pieces of the numbers, of `rows_at_once` each, that the part has some of.
+// Tells for each piece of `rows_at_once` numbers whether the part has some of them.
 std::vector<bool> pieces_of(const Part& part, std::int64_t count) {
     std::vector<bool> pieces(count / rows_at_once + 1);
     for (std::int64_t n = 0; n < part.node_count(); ++n) pieces[part.node_id(n) / rows_at_once] = true;
     return pieces;
 }
 
-// Rows of the nodes of the whole mesh in the order of their global numbers, a piece at a time; row(part, n) has those
-// of a part. Values at walls differ on their sides: those of the first part count.
+// Hands out rows of the nodes of the whole mesh in the order of their global numbers, a piece at a time; row(part, n)
+// has the row of a node of a part. Values at walls differ on their sides: those of the first part count.
 template <class Row, class RowOf>
 void for_each_row(const PartSource& parts, PartContent content, const RowOf& row,
                   const std::function<void(std::int64_t first, std::span<const Row> rows)>& take) {
@@ -77,7 +83,7 @@ CellNodes nodes_of_facet(const Part& part, std::int64_t f) {
                              : CellNodes(global_nodes(part, part.nodes_of_facet(f)));
 }
 
-// Edges are known of cells.
+// Nodes on edges are known only with the cells.
 PartContent patch_content(const MeshOutline& outline) {
     return outline.order == 1 ? PartContent::surface : PartContent::cells;
 }

@@ -47,7 +47,7 @@ std::string to_word(std::string_view name, const WordRules& rules) {
     return word.substr(0, rules.most_characters);
 }
 
-// The words that are given away, as the format tells them apart.
+// The words that are taken, in the form in which the format tells them apart.
 class TakenWords {
  public:
     explicit TakenWords(const WordRules& rules) : rules_(rules) {
