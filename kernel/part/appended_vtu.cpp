@@ -8,7 +8,7 @@ namespace kerf {
 
 namespace {
 
-// Calls take(section, arrays) with what stands in one element, in the order of the arrays.
+// Calls take(section, arrays) with the arrays of each element of the XML, in their order.
 template <class Take>
 void for_each_section(std::span<const VtuArrayHead> arrays, const Take& take) {
     for (std::size_t begin = 0, end = 0; begin < arrays.size(); begin = end) {

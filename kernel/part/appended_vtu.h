@@ -16,7 +16,7 @@ namespace kerf {
 
 static_assert(std::endian::native == std::endian::little, "Grids have values as they lie in memory.");
 
-/// What VTK calls a type of numbers.
+/// VTK's name of a type of numbers.
 template <class T>
 inline constexpr const char* vtk_type = nullptr;
 template <>
@@ -34,7 +34,7 @@ inline constexpr const char* vtk_type<float> = "Float32";
 template <>
 inline constexpr const char* vtk_type<double> = "Float64";
 
-/// What the XML says of an array.
+/// The head of an array, as the XML says it.
 struct VtuArrayHead {
     const char* section;  ///< the element of the XML that it stands in: FieldData, PointData, CellData, Points, Cells
     const char* type;
@@ -47,7 +47,7 @@ template <class File>
 struct VtuArray : VtuArrayHead {
     std::function<void(File&)> write_values;
 
-    /// Tuples of numbers of the type T.
+    /// Returns an array of tuples of numbers of the type T.
     template <class T>
     static VtuArray of(const char* section, std::string name, std::int64_t components, std::int64_t tuples,
                        std::function<void(File&)> write_values) {
@@ -56,21 +56,22 @@ struct VtuArray : VtuArrayHead {
     }
 };
 
-/// The first line of the XML's element VTKFile and the one before it. `type`: UnstructuredGrid or PUnstructuredGrid.
+/// Returns the first line of the XML and the beginning of its element VTKFile. `type`: UnstructuredGrid or
+/// PUnstructuredGrid.
 std::string vtu_file_begin(std::string_view type);
-/// The raw bytes follow this line without a gap; offsets count from here.
+/// The line before the raw bytes, which follow it without a gap; offsets count from here.
 inline constexpr std::string_view vtu_data_begin = "<AppendedData encoding=\"raw\">\n_";
 inline constexpr std::string_view vtu_file_end = "\n</AppendedData>\n</VTKFile>\n";
 
-/// The file until its raw bytes begin. `arrays`: in the order of the file, field data first; `fields`: field data that
-/// stands in the XML itself.
+/// Returns the file until its raw bytes begin. `arrays`: in the order of the file, field data first; `fields`: field
+/// data that stands in the XML itself.
 std::string vtu_head(std::span<const VtuArrayHead> arrays, std::int64_t points, std::int64_t cells,
                      std::string_view fields);
 
-/// A field of one number, which stands in the XML. `type`: that of VTK.
+/// Returns a field of one number, which stands in the XML. `type`: that of VTK.
 std::string number_field(std::string_view type, std::string_view name, std::int64_t number);
 
-/// The PVTU that joins files with these arrays; `pieces` are paths relative to the PVTU's folder.
+/// Returns the PVTU that joins files with these arrays; `pieces` are paths relative to the PVTU's folder.
 std::string pvtu_text(std::span<const VtuArrayHead> arrays, std::span<const std::string> pieces);
 
 template <class File>
@@ -79,7 +80,7 @@ struct VtuGrid {
     std::string fields = {};                  ///< field data that stands in the XML itself
     std::vector<VtuArray<File>> arrays = {};  ///< in the order of the file, field data first
 
-    /// Adds an array behind the others of its section, of which there is one.
+    /// Adds an array behind the others of its section, of which there must be one already.
     void add(VtuArray<File> array) {
         const auto last = std::find_if(arrays.rbegin(), arrays.rend(), [&](const VtuArrayHead& other) {
             return std::string_view(other.section) == array.section;
@@ -99,8 +100,8 @@ struct VtuGrid {
     }
 };
 
-/// Field data of strings as bytes, each one with a zero byte behind it: VTK has a type for strings with the same bytes,
-/// but meshio opens no file with an array of it. The names must outlive the array.
+/// Returns field data of strings as bytes, each string with a zero byte behind it: VTK has a type for strings with the
+/// same bytes, but meshio opens no file with an array of it. The names must outlive the array.
 template <class File>
 VtuArray<File> names_array(const char* array, std::span<const std::string> names) {
     std::int64_t bytes = 0;

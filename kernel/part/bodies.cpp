@@ -1,3 +1,8 @@
+// A piece is a connected component of one part, a body one of the whole mesh. The pieces of a part follow from its
+// surface: where that is connected, as most are, the cells are one piece and are not read; where it has several
+// components, these may be several pieces or the voids of one, and the cells decide. Pieces of different parts are
+// joined by the vertices that they have on interfaces and walls, which have equal global numbers and lie beside each
+// other after a sort. A body is numbered by the smallest facet of the input on its pieces, which no cut changes.
 #include "part/bodies.h"
 
 #include <algorithm>
@@ -10,7 +15,7 @@ namespace kerf {
 
 namespace {
 
-// The vertices 0, 1, ..., `count` - 1 by what hangs together through cells: the pieces of a part.
+// Returns the pieces of a part: its vertices 0, 1, ..., `count` - 1 by the cells that connect them.
 template <class Cell>
 Components pieces_of(std::size_t count, const std::vector<Cell>& cells) {
     UnionFind sets(count);
@@ -24,7 +29,7 @@ std::int32_t piece_at(const Components& pieces, std::int32_t vertex) { return pi
 // The pieces of all parts, which interfaces join to bodies.
 class AllPieces {
  public:
-    /// The pieces of the next part, and how many tetrahedra each has.
+    /// Adds the pieces of the next part, and how many tetrahedra each has.
     void add(const Part& part, const Components& pieces, const std::vector<std::int64_t>& tets) {
         const std::int32_t first = std::ssize(tets_);
         tets_.insert(tets_.end(), tets.begin(), tets.end());
@@ -45,7 +50,7 @@ class AllPieces {
         }
     }
 
-    /// The body of each piece, and the tetrahedra of each body.
+    /// Returns the body of each piece, and the number of tetrahedra of each body.
     std::pair<std::vector<std::int32_t>, std::vector<std::int64_t>> bodies() {
         UnionFind sets(tets_.size());
         std::sort(held_.begin(), held_.end());

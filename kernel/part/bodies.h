@@ -1,4 +1,4 @@
-// The bodies of a mesh, which know nothing of parts.
+// The bodies of a mesh, which do not depend on how it is cut into parts.
 #pragma once
 
 #include <cstdint>
@@ -8,25 +8,25 @@
 
 namespace kerf {
 
-/// What hangs together through tetrahedra, in all parts: a connected component of the input, a solid of a CAD file.
-/// Numbered from 0 in the order of their first facets in the input, so that bodies are the same for any number of
-/// parts and any cuts.
+/// Bodies are the pieces of the whole mesh that hang together through tetrahedra: a connected component of the input, a
+/// solid of a CAD file. They are numbered from 0 in the order of their first facets in the input, and so are the same
+/// for any number of parts and any cuts.
 class Bodies {
  public:
-    /// Reads the surfaces of all parts, and the cells of those whose surface is in several pieces. Memory: the largest
-    /// of them, and 16 bytes for each vertex that a part has on an interface. Throws Error(io).
+    /// Reads the surfaces of all parts, and the cells of parts whose surface is in several pieces. Memory: the largest
+    /// of these parts, and 16 bytes for each vertex that a part has on an interface. Throws Error(io).
     explicit Bodies(const PartSource& parts);
 
     std::int32_t count() const { return std::ssize(sizes_); }
-    /// Tetrahedra of each body.
+    /// Returns the number of tetrahedra of each body.
     const std::vector<std::int64_t>& sizes() const { return sizes_; }
-    /// Triangles of each patch that bound a body: a wall between two regions lies inside of one.
+    /// Returns the number of triangles on each patch that bound a body: walls between two regions lie inside of one.
     const std::vector<std::int64_t>& boundary_sizes() const { return boundary_sizes_; }
-    /// The body of each tetrahedron of a part, with PartContent::cells or all. O(#T).
+    /// Returns the body of each tetrahedron of a part, which is loaded with PartContent::cells or all. O(#T).
     std::vector<std::int32_t> of_tets(PartIndex index, const Part& part) const;
 
  private:
-    Array<PartIndex, std::vector<std::int32_t>> of_pieces_;  // the bodies of what hangs together in the part
+    Array<PartIndex, std::vector<std::int32_t>> of_pieces_;  // the bodies of the pieces that hang together in the part
     std::vector<std::int64_t> sizes_, boundary_sizes_;
 };
 

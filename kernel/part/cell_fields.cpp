@@ -17,7 +17,7 @@ constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 using TakeColumn = std::function<void(std::size_t column, std::int64_t first, std::span<const float> values)>;
 
-// The columns of a few cells, the first of which has the number `first`.
+// Columns of a few cells, the first of which has the number `first`.
 void measure_fields(const std::vector<Vec3>& points, CellFieldSet fields, std::int64_t first,
                     std::span<const Tetrahedron> cells, const TakeColumn& take) {
     std::array<float, cells_at_once> values;

@@ -1,4 +1,4 @@
-// The qualities that cells of part files have.
+// Measures of quality of cells in part files.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace kerf {
 
 /// A quality that cells of part files may have.
 struct CellField {
-    const char* name;   ///< of --fields
-    const char* array;  ///< in the file
+    const char* name;   ///< as given to --fields
+    const char* array;  ///< name of the array in the file
     double TetQuality::*measure;
 };
 inline constexpr std::array<CellField, 5> cell_fields = {
@@ -24,12 +24,12 @@ inline constexpr std::array<CellField, 5> cell_fields = {
      {"radius-edge", "RadiusEdgeRatio", &TetQuality::radius_edge},
      {"aspect", "AspectRatio", &TetQuality::aspect},
      {"shape", "Shape", &TetQuality::shape}}};
-/// Some of them, by their places.
+/// A set of them, a bit for each place in cell_fields.
 using CellFieldSet = std::bitset<cell_fields.size()>;
-/// The smallest dihedral angle.
+/// The set with the smallest dihedral angle alone.
 inline constexpr CellFieldSet default_cell_fields = 1;
 
-/// Of names with commas between, `all` or `none`; of an empty text default_cell_fields. Throws Error(usage).
+/// Parses names with commas between, `all` or `none`; an empty text is default_cell_fields. Throws Error(usage).
 CellFieldSet parse_cell_fields(std::string_view list);
 
 /// Calls take(column, first cell, values), some cells at a time, with a column for each of the fields. The cells are

@@ -7,13 +7,14 @@
 
 namespace kerf {
 
-/// Where a run folder has those of the whole mesh, beside its stored parts, which know none (part/part_store.h).
+/// Returns the path of the file in a run folder that has the curved nodes of the whole mesh, beside its stored parts,
+/// which hold none (part/part_store.h).
 std::string curved_nodes_file(const std::string& folder);
 
-/// 32 bytes a node. Throws Error(io).
+/// Writes the nodes, 32 bytes each. Throws Error(io).
 void write_curved_nodes(const std::string& path, const CurvedNodes& nodes);
 
-/// Throws Error(io) for a file that cannot be read or is damaged. Numbers ascend when it returns.
+/// Reads the nodes; their numbers ascend. Throws Error(io) for a file that cannot be read or is damaged.
 CurvedNodes read_curved_nodes(const std::string& path);
 
 }  // namespace kerf

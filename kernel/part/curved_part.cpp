@@ -1,3 +1,12 @@
+// A node of an edge on the boundary is wanted at its place on the surface; a cell with such a node may fold. A cell is
+// good if the Bezier coefficients of its Jacobian determinant prove it valid (Johnen, Remacle and Geuzaine 2013,
+// johnen2013; mesh/curved_tet.h) and its scaled Jacobian is not below a bound, so that rounding cannot undo the proof.
+// Two means follow each other. Nodes of inner edges of bad cells move by pattern search: six steps along the axes,
+// halved a few times, kept if the least coefficient over all cells at the edge grows. That affects cells around, which
+// are looked at in the next of a few sweeps. For cells that are still bad, one edge after the other is straightened,
+// each time the edge whose straightening leaves the largest Jacobian; as straight cells are valid, this ends. Edges are
+// visited ascending and only values of the part decide, so that the result is a function of the arguments; an edge that
+// one part straightens is told to all by the caller.
 #include "part/curved_part.h"
 
 #include <algorithm>
@@ -10,10 +19,10 @@ namespace kerf {
 
 namespace {
 
-constexpr int most_sweeps = 4;           // over the nodes inside of cells that are not valid
+constexpr int most_sweeps = 4;           // over the inner edges of cells that are not valid
 constexpr int most_shrinks = 6;          // of the steps of a node
 constexpr double first_step = 0.5;       // of how far the curved nodes around are from their middles
-constexpr double enough_jacobian = 0.1;  // of the straight one: a node need not be moved for more
+constexpr double enough_jacobian = 0.1;  // share of the straight one: a node need not be moved for more
 
 class PartCurving {
  public:
@@ -85,7 +94,7 @@ class PartCurving {
         return invalid;
     }
 
-    // All cells that have one of these edges, ascending.
+    // Returns all cells that have one of these edges, ascending.
     std::vector<std::int32_t> cells_with(const std::set<std::int32_t>& edges) const {
         std::vector<std::int32_t> cells;
         if (edges.empty()) return cells;
@@ -110,8 +119,8 @@ class PartCurving {
         return 0.5 * (mesh_.vertices[ends[0]] + mesh_.vertices[ends[1]]);
     }
 
-    // The least of the Jacobians of cells, by their coefficients, as a share of that of the straight cell; what is
-    // enough counts as that.
+    // Returns the least Jacobian of cells, by their coefficients, as a share of that of the straight cell; at most
+    // enough_jacobian.
     double least_jacobian(const std::vector<std::int32_t>& cells) const {
         double least = enough_jacobian;
         for (const std::int32_t t : cells) {
@@ -121,7 +130,7 @@ class PartCurving {
         return least;
     }
 
-    // Every edge inside of these cells once, ascending: its node by steps along the axes, shorter and shorter.
+    // Moves the node of every edge inside of these cells once, ascending: by steps along the axes, shorter and shorter.
     void move_inner_nodes(const std::vector<std::int32_t>& invalid) {
         std::map<std::int32_t, std::vector<std::int32_t>> cells_at;
         for (const std::int32_t e : edges_of(invalid))
@@ -168,7 +177,7 @@ class PartCurving {
         return largest;
     }
 
-    // Of the curved edges of a cell that whose straightening leaves most.
+    // Straightens the curved edge of a cell whose straightening leaves the largest Jacobian, and returns it.
     std::int32_t straighten_one_of(std::int32_t t) {
         const TetNodes nodes = nodes_of(t);
         const std::array<std::int32_t, 6> numbers = edges_of(t);
@@ -212,7 +221,7 @@ class PartCurving {
     const std::vector<char>& inside_;
     std::vector<char> has_curved_;        // of vertices: an end of a curved edge, now or before
     std::map<std::int32_t, Vec3> nodes_;  // of curved edges
-    std::vector<std::int32_t> cells_;     // that were to have some
+    std::vector<std::int32_t> cells_;     // cells with a curved edge at the beginning
     std::vector<std::int32_t> straightened_;
 };
 

@@ -50,7 +50,7 @@ void find_edges(PartArraysFile& file, Part& part) {
 
 namespace {
 
-// The values of an array over the points of the file at some of them, ascending.
+// Returns the values of an array over the points of the file, at some of these points, ascending.
 template <class T>
 std::vector<T> values_at(PartArraysFile& file, const char* array, const std::vector<std::int32_t>& points) {
     std::vector<T> values;

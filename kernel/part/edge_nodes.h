@@ -14,7 +14,7 @@ namespace kerf {
 struct EdgeNodes {
     EdgeTable edges;
     std::vector<Vec3> points;             ///< #E
-    std::vector<std::int64_t> global_id;  ///< #E; after those of all vertices, the same in every part (EdgeNumbers)
+    std::vector<std::int64_t> global_id;  ///< #E; behind those of all vertices, the same in every part (EdgeNumbers)
 };
 
 /// The nodes of a whole mesh that lie elsewhere than in the middle of their edges.

@@ -6,7 +6,7 @@ namespace kerf {
 
 namespace {
 
-// The first part of the group that is there. `ids`: of those that are, ascending.
+// Returns the first part of the group that is there. `ids`: the parts that are there, ascending.
 NodeId owner_among(const std::vector<NodeId>& ids, const std::vector<NodeId>& group) {
     return *std::find_if(group.begin(), group.end(),
                          [&](NodeId id) { return std::binary_search(ids.begin(), ids.end(), id); });

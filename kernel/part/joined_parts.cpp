@@ -1,3 +1,10 @@
+// A piece is a run of leaves in the order of the tree, all below one node, whose number it takes: so the pieces are
+// leaves of a smaller tree, and "the order of the tree" and "the first part owns" hold for them unchanged. Triangles
+// between two leaves of a piece are dropped; a vertex or an edge that several leaves hold is kept once, found by its
+// global number among those that any leaf shares. Groups of shared vertices are groups of holders, with leaves replaced
+// by pieces and merged where two become equal; groups that have one piece left are inside and vanish. Vertices of the
+// remaining facets are numbered first, because a part has its boundary first. The counts of an outline need every part
+// once: a shared vertex counts in the first leaf of the piece that has it.
 #include "part/joined_parts.h"
 
 #include <algorithm>
@@ -26,7 +33,7 @@ void divide(const std::vector<NodeId>& leaves, PieceOfTree node, std::int32_t pi
     divide(leaves, {2 * node.id + 1, node.first + on_left, node.last}, pieces - left, divided);
 }
 
-// The vertices of a piece: of those that several of its parts have, the first stands for all.
+// The vertices of a piece. Of a vertex that several of its parts have, the first stands for all.
 class PieceVertices {
  public:
     PieceVertices(const std::vector<Part>& parts) : parts_(parts) {
@@ -40,7 +47,7 @@ class PieceVertices {
         for (const Part& part : parts) mark_shared(part);
     }
 
-    /// The number of vertex v of part p in the piece, which it gets when it is first asked for.
+    /// Returns the number of vertex v of part p in the piece, which it gets when it is first asked for.
     std::int32_t operator()(std::size_t p, std::int32_t v, Part& piece) {
         const std::int32_t i = v;
         std::int32_t& place = place_[p][i];
@@ -74,7 +81,7 @@ class PieceVertices {
     std::vector<Shared> shared_;  // ascending
 };
 
-// The triangles of the part that bound the piece, too.
+// Returns the triangles of the part that bound the piece, too.
 std::vector<std::size_t> facets_of_piece(const Part& part, const std::vector<NodeId>& piece_of_neighbour,
                                          NodeId piece) {
     std::vector<std::size_t> facets;
@@ -83,8 +90,8 @@ std::vector<std::size_t> facets_of_piece(const Part& part, const std::vector<Nod
     return facets;
 }
 
-// Gives the piece, whose tetrahedra are there, the nodes on its edges: those of its parts, which are the same where
-// several have an edge. Returns for each part which edge of the piece each of its edges is.
+// Gives the piece, whose tetrahedra are there, the nodes on its edges, as its parts have them; nodes of an edge of
+// several parts are the same. Returns for each part the numbers of its edges in the piece.
 template <class VertexInPiece>
 std::vector<std::vector<std::int32_t>> join_edge_nodes(const std::vector<Part>& parts, const VertexInPiece& vertex,
                                                        Part& piece) {
@@ -106,8 +113,8 @@ std::vector<std::vector<std::int32_t>> join_edge_nodes(const std::vector<Part>& 
     return edges_of_parts;
 }
 
-// The k-th values of the parts: of cells one part behind the other, of points at node(p, n). A node that several parts
-// have gets those of the first one: at walls between materials, stresses differ.
+// Returns the k-th values of the parts: at cells one part behind the other, at points in the order of node(p, n). A
+// node that several parts have gets the values of the first one: at walls between materials, stresses differ.
 template <class NodeInPiece>
 PartValues join_values(const std::vector<Part>& parts, std::size_t k, const NodeInPiece& node) {
     PartValues joined = parts.front().values[k];
@@ -205,7 +212,7 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
     }
 }
 
-// -1 where there is no leaf.
+// Returns the piece of each leaf, -1 where there is no leaf.
 std::vector<NodeId> JoinedParts::pieces_of(const std::vector<NodeId>& leaves) const {
     std::vector<NodeId> pieces;
     pieces.reserve(leaves.size());
@@ -217,7 +224,8 @@ std::vector<NodeId> JoinedParts::pieces_of(const std::vector<NodeId>& leaves) co
     return pieces;
 }
 
-// What a piece shares with others, by all that have it: ascending by id(item), each once.
+// Returns the groups that a piece shares with others, by the pieces that hold them: items ascending by id(item), each
+// once.
 template <class Group, class Item, class InPiece, class IdOf>
 std::vector<Group> JoinedParts::join_groups(const std::vector<Part>& parts, std::vector<Group> Part::*groups,
                                             std::vector<Item> Group::*items, const InPiece& in_piece,
@@ -293,7 +301,7 @@ Part JoinedParts::load(PartIndex index) const {
     return piece;
 }
 
-// Of the pieces that the leaves, in the order of the tree, lie in; each once.
+// Returns the pieces that the leaves lie in, in the order of the tree, each once.
 std::vector<PartIndex> JoinedParts::indices_of(const std::vector<NodeId>& leaves) const {
     std::vector<PartIndex> indices;
     for (const NodeId holder : pieces_of(leaves)) indices.push_back(outline_.index_of(holder));

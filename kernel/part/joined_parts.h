@@ -1,4 +1,4 @@
-// Parts joined into fewer pieces, for who has fewer processes.
+// Parts joined into fewer pieces, for programs with fewer processes.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@
 
 namespace kerf {
 
-/// Leaves [first, last) of the tree, in its order, that make one piece, and the node that they lie below.
+/// A piece: the leaves [first, last) of the tree, in its order, and the node below which all of them lie.
 struct PieceOfTree {
     NodeId id = 1;
     std::int32_t first = 0, last = 0;
 };
 
-/// Divides the leaves, in the order of the tree, into so many pieces, 1 to the number of leaves: from the root down,
-/// each node's pieces are shared among its children in proportion to their leaves.
+/// Divides the leaves, which are in the order of the tree, into so many pieces, 1 to the number of leaves: from the
+/// root down, each node's pieces are shared among its children in proportion to their leaves.
 std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::int32_t pieces);
 
-/// The pieces as parts of a mesh: the interfaces inside of a piece are gone, global numbers are as they were. A piece
-/// is joined anew whenever it is loaded; memory: its parts. `parts` must outlive this.
+/// The pieces as parts of a mesh. Interfaces inside of a piece are gone, global numbers are as they were. A piece is
+/// joined anew whenever it is loaded; memory: its parts. `parts` must outlive this.
 class JoinedParts : public PartSource {
  public:
-    /// Tetrahedra, nodes and triangles of a piece have numbers of 32 bits.
+    /// The most tetrahedra, nodes or triangles of a piece, which have numbers of 32 bits.
     static constexpr std::int64_t most_of_piece = std::numeric_limits<std::int32_t>::max();
 
     /// Loads every part once. Throws Error(usage) for less than one piece or more than there are parts, and for a piece
@@ -33,7 +33,7 @@ class JoinedParts : public PartSource {
 
     const MeshOutline& outline() const override { return outline_; }
     Part load(PartIndex index) const override;
-    /// Those of the parts: what lies inside of a piece has no triangles there.
+    /// Returns the walls of the parts: only boundary triangles ask for them, and those inside of a piece are gone.
     const RegionWalls& walls() const override { return parts_.walls(); }
 
  private:

@@ -1,5 +1,7 @@
-// Files of surfaces have the same arrays one after the other, so that each array of the whole is a copy of theirs, but
-// for the numbers of vertices, which go on from file to file.
+// Files of surfaces have the same arrays one after the other, so each array of the whole is a copy of theirs, file by
+// file, in blocks of 256 KB; a file is opened once for each array, and memory does not depend on the surfaces. Only the
+// numbers of vertices change: they go on from file to file, and the offsets and types of cells are computed. Names of
+// patches and regions are those of the whole, since a part may have only the names that it uses.
 #include "part/joined_surfaces.h"
 
 #include <algorithm>
@@ -56,7 +58,7 @@ class JoinedSurfaces {
         }
     }
 
-    /// With one array behind the other as the files have them.
+    /// Returns the grid; each array has those of the files one behind the other.
     Grid grid(std::span<const std::string> patch_names, std::span<const std::string> region_names) const {
         Grid grid{points_, cells_, number_field(vtk_type<std::int64_t>, "BoundaryVertexCount", points_)};
         grid.arrays = {names_array<CheckedFile>("PatchNames", patch_names),

@@ -1,3 +1,7 @@
+// "The order of the tree" is the order of its leaves from left to right, and the order of parts everywhere. Node n has
+// the children 2 n and 2 n + 1, so the bits of a number behind the first are the way from the root, 0 to the left.
+// Shifted to the top of 32 bits, these ways compare leaves of any depth, which is all that find() needs. Sums over the
+// parts before one are made anew at each call, O(K).
 #include "part/part.h"
 
 #include <algorithm>
@@ -48,7 +52,8 @@ std::vector<NodeId> owners_of_vertices(const Part& part) {
 
 namespace {
 
-// Ascending in the order of the tree among nodes of which none lies below another: the way from the root, a bit a step.
+// Returns a number that ascends in the order of the tree among nodes of which none lies below another: the way from the
+// root, a bit a step.
 std::uint32_t way_from_root(NodeId id) {
     const auto bits = static_cast<std::uint32_t>(id);
     return id > 0 ? bits << std::countl_zero(bits) : 0;

@@ -1,4 +1,4 @@
-// The arrays of a part file.
+// Reads the arrays of a part file.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace kerf {
 
-/// They are opened one at a time and taken from front to back, so that what nobody asks for costs no memory. What does
-/// not fit the header is fail()ed.
+/// The arrays of a part file are opened one at a time and read from front to back, so that arrays that nobody asks for
+/// cost no memory. An array that does not fit the header is fail()ed.
 class PartArraysFile {
  public:
     explicit PartArraysFile(const std::string& path)
@@ -28,12 +28,12 @@ class PartArraysFile {
     }
 
     const VtuHeader& header() const { return header_; }
-    /// Nodes of a tetrahedron and of a triangle.
+    /// The number of nodes of a tetrahedron and of a triangle.
     std::int64_t nodes_of_tet() const { return header_.order == 2 ? 10 : 4; }
     std::int64_t nodes_of_facet() const { return header_.order == 2 ? 6 : 3; }
     [[noreturn]] void fail(const std::string& what) const { fail_damaged_vtu(path_, what); }
 
-    /// Stands before the first value of an array from now on. Returns its bytes.
+    /// Opens an array, so that its first value is read next. Returns the number of its bytes.
     std::uint64_t open(const char* name) {
         const VtuHeader::Array* array = header_.find(name);
         if (!array) fail(fmt::format("it has no array {}", name));
@@ -47,7 +47,7 @@ class PartArraysFile {
         values_ = static_cast<std::int64_t>(position + sizeof size);
         return size;
     }
-    /// The same for an array that must have `count` values.
+    /// Opens an array that must have `count` values.
     template <class T>
     void open(const char* name, std::int64_t count) {
         const std::uint64_t size = open(name);
@@ -61,7 +61,7 @@ class PartArraysFile {
         read(static_cast<void*>(values.data()), values.size() * sizeof(T));
         return values;
     }
-    /// Stands behind the first `count` values.
+    /// Goes on behind the first `count` values.
     template <class T>
     void skip(std::int64_t count) {
         file_.seek(values_ + count * static_cast<std::int64_t>(sizeof(T)));
@@ -101,7 +101,7 @@ class PartArraysFile {
     CheckedFile file_;
     VtuHeader header_;
     std::uint64_t size_ = 0;
-    std::int64_t values_ = 0;  // where those of the array begin that is open
+    std::int64_t values_ = 0;  // place of the first value of the open array
     const char* name_ = "";
 };
 

@@ -1,4 +1,4 @@
-// From the numbers of parts to their places in the order of the tree.
+// Finds the places of parts in the order of the tree by their numbers.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace kerf {
 class PartIndices {
  public:
     PartIndices() = default;
-    /// `ids`: of the parts, in the order of the tree. O(n log n).
+    /// Takes the numbers of the parts, in the order of the tree. O(n log n).
     explicit PartIndices(const std::vector<NodeId>& ids) {
         for (const NodeId id : ids) places_.push_back({id, PartIndex(places_.size())});
         std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
     }
 
-    /// Of one of these parts. O(log n).
+    /// Returns the place of one of these parts. O(log n).
     PartIndex of(NodeId id) const {
         const auto found = std::lower_bound(places_.begin(), places_.end(), id,
                                             [](const Place& place, NodeId wanted) { return place.id < wanted; });

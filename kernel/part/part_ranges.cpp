@@ -1,3 +1,7 @@
+// The checks here are those that let readers index by the numbers of a file without a check of their own. Global
+// numbers are dense: vertices on the boundary of any part come first, then the interior vertices part after part, one
+// run each, then the nodes on edges. So interior numbers need a single comparison each, and only those of the boundary
+// are sorted to find one that is there twice. Whether the mesh obeys its laws is verify_mesh()'s question.
 #include "part/part_ranges.h"
 
 #include <algorithm>
@@ -30,7 +34,7 @@ void require_neighbours(const Part& part, const MeshOutline& outline, const std:
             fail(path, fmt::format("a triangle lies between it and part {}, which is no other part of the run", id));
 }
 
-// Of the boundary those that come first, each once; of the inside one after the other.
+// Requires numbers of the boundary from those that come first, each once, and of the inside one after the other.
 void require_numbers(const Part& part, const PartStanding& standing, const std::string& path) {
     const std::int64_t boundary = part.mesh.boundary_vertex_count;
     std::vector<std::int64_t> ids(part.global_id.begin(), part.global_id.begin() + boundary);

@@ -1,4 +1,4 @@
-// What the numbers of a part file may be: a file may be whole and still name what is not there.
+// The ranges of the numbers in a part file: a file may be complete and still name a vertex or part that is not there.
 #pragma once
 
 #include <string>
@@ -7,28 +7,29 @@
 
 namespace kerf {
 
-/// Throws Error(verification), naming the file and the number, unless points are finite, every triangle on a patch of
-/// the user's has one with a name, neighbours are leaves or none, and global numbers are none below zero. O(size).
+/// Throws Error(verification), naming the file and the number, unless points are finite, every triangle is on a patch
+/// with a name or on an interface, neighbours are leaves or none, and no global number is below zero. O(size).
 void require_ranges(const Part& part, const std::string& path);
 
 /// Throws Error(verification) unless the names that the part has are those of the outline. O(names of the part).
 void require_names(const Part& part, const MeshOutline& outline, const std::string& path);
 
-/// Where a part of a run stands in the whole.
+/// The place of a part of a run in the whole.
 struct PartStanding {
     const MeshOutline& outline;
     PartIndex index;
-    std::int64_t boundary_vertices = 0;  ///< distinct ones of all parts: their numbers come first
-    std::int64_t first_interior_id = 0;  ///< of this part
+    std::int64_t boundary_vertices = 0;  ///< distinct boundary vertices of all parts, which are numbered first
+    std::int64_t first_interior_id = 0;  ///< first number of an interior vertex of this part
 };
 
-/// The same, and that it is this part of the whole, with as many vertices and tetrahedra as the outline has of what was
-/// loaded (`content`), that neighbours are other parts, that names are those of the outline, that no two vertices have
-/// one number, and that vertices of the boundary and of the inside have those that are for them. O(n log n) in the
+/// Throws as require_ranges(), and unless it is this part of the whole, with as many vertices and tetrahedra as the
+/// outline says of the loaded `content`, neighbours are other parts, names are those of the outline, no two vertices
+/// have one number, and vertices of the boundary and of the inside have numbers from their ranges. O(n log n) in the
 /// boundary.
 void require_ranges(const Part& part, PartContent content, const PartStanding& standing, const std::string& path);
 
-/// Of order 2, a part of that: the nodes on its edges have numbers behind those of all vertices, each once.
+/// Throws Error(verification) unless the nodes on edges have numbers behind those of all vertices, each once. The check
+/// of a part in its place includes this one.
 void require_edge_numbers(const Part& part, const MeshOutline& outline, const std::string& path);
 
 }  // namespace kerf

@@ -1,4 +1,10 @@
-// A fixed head with the sizes, the boundary as one block of bytes, the points, the tetrahedra.
+// A file has a fixed head with the sizes, the boundary as one block of bytes (facets, patches, neighbours, global
+// numbers of boundary vertices, names, regions, shared vertices and edges), then the points, then the tetrahedra, each
+// as they lie in memory. So the surface is read from the front of a file, cells by one jump, and a part can be handed
+// out in pieces. Interior vertices have no numbers in it: they follow each other, and the first one is known when all
+// parts are counted. A worker can write its part without knowing the others. The sizes in the head are compared with
+// that of the file before memory is taken; every vertex number is in range when a part is handed out, and StoredParts
+// compares the hash of whole parts with that of the bytes that were written, too.
 #include "part/part_store.h"
 
 #include <array>
@@ -25,7 +31,7 @@ struct Head {
     std::uint64_t boundary_bytes = 0, vertices = 0, tets = 0;
 };
 
-// All of a part that grows with its boundary.
+// The content of a part that grows with its boundary.
 struct Boundary {
     Part& part;
     std::vector<std::int64_t> ids;
@@ -44,7 +50,7 @@ struct Boundary {
                                            path));
 }
 
-// But for the corners of its tetrahedra.
+// Tells whether sizes and numbers fit together, but for the corners of tetrahedra.
 bool is_consistent(const Part& part, std::size_t ids, std::uint64_t vertices, std::uint64_t tets) {
     const std::size_t facets = part.facets.size();
     const std::size_t boundary = part.mesh.boundary_vertex_count;
@@ -74,7 +80,7 @@ void read_all(CheckedFile& file, const std::string& path, std::vector<T>& values
     if (file.read_into(static_cast<void*>(values.data()), count * sizeof(T)) != count * sizeof(T)) fail_damaged(path);
 }
 
-// All that comes before the points.
+// Reads the head and the boundary, all that comes before the points.
 Head read_beginning(CheckedFile& file, const std::string& path, Boundary& boundary) {
     Head head;
     if (file.read_into(&head, sizeof head) != sizeof head || head.kind != magic) fail_damaged(path);
@@ -89,7 +95,7 @@ Head read_beginning(CheckedFile& file, const std::string& path, Boundary& bounda
     return head;
 }
 
-// Calls take(first, piece) with all that follow.
+// Calls take(first, piece) with all values that follow, in pieces.
 template <class T, class Take>
 void read_pieces(CheckedFile& file, const std::string& path, std::uint64_t count, const Take& take) {
     constexpr std::uint64_t at_once = (std::uint64_t{2} << 20) / sizeof(T);

@@ -1,4 +1,5 @@
-// How parts travel from the worker that has made them to the writers of all formats: compact files of this program.
+// The store in which parts travel from the worker that has made them to the writers of all formats: compact files of
+// this program.
 #pragma once
 
 #include <functional>
@@ -11,18 +12,18 @@
 
 namespace kerf {
 
-/// Writes a part but for the global numbers of its interior vertices, which depend on the other parts, and for nodes on
-/// edges (part/curved_nodes_file.h): 24 bytes a vertex and 16 a tetrahedron. Returns the hash of the bytes, which
-/// depend on the part alone. A `durable` file outlives a power cut after the return. Throws Error(io).
+/// Writes a part without the global numbers of its interior vertices, which depend on the other parts, and without
+/// nodes on edges (part/curved_nodes_file.h): 24 bytes a vertex and 16 a tetrahedron. Returns the hash of the bytes,
+/// which depend on the part alone. A `durable` file outlives a power cut after the return. Throws Error(io).
 FileHash write_stored_part(const std::string& path, const Part& part, bool durable = true);
 
-/// What is asked for of the part, its interior vertices numbered from `first_interior_id` on. Throws Error(io) if the
-/// file cannot be read, is no such file, or not whole; its numbers are in range when it returns. `hash`, unless null,
-/// receives that of the file of which PartContent::all was read.
+/// Reads this content of a part, whose interior vertices are numbered from `first_interior_id` on. Throws Error(io) if
+/// the file cannot be read, is no such file, or not whole; its numbers are in range when it returns. `hash`, unless
+/// null, receives the hash of the file if PartContent::all is read.
 Part read_stored_part(const std::string& path, std::int64_t first_interior_id, PartContent content = PartContent::all,
                       FileHash* hash = nullptr);
 
-/// Takes a part a piece at a time: for what is to be made of it without the whole part beside it. Every call has the
+/// Takes a part a piece at a time, for results that are made without the whole part beside them. Every call has the
 /// part with its global numbers, but without points and cells: these come in order, behind each other.
 struct PartPieces {
     std::function<void(const Part& part)> boundary;  ///< first, once
@@ -30,7 +31,7 @@ struct PartPieces {
     std::function<void(const Part& part, std::size_t first, std::span<const Tetrahedron> tets)> cells;
 };
 
-/// Stored parts of one mesh, of which the outline is known.
+/// The stored parts of one mesh, of which the outline is known.
 class StoredParts : public PartSource {
  public:
     struct Place {
@@ -44,12 +45,12 @@ class StoredParts : public PartSource {
     const MeshOutline& outline() const override { return outline_; }
     /// Throws Error(io) naming the way out if the file is not as it was written.
     Part load(PartIndex index) const override;
-    /// Only the whole part is compared with what was written.
+    /// Loads this content; only the whole part is compared with the hash of its file.
     Part load_only(PartIndex index, PartContent content) const override;
-    /// The part as load() has it, in pieces of at most 2 MB. Throws as load(), also after the last piece if only then
-    /// the file turns out not to be as it was written; numbers are in range before.
+    /// Hands out the part as load() has it, in pieces of at most 2 MB. Throws as load(), also after the last piece if
+    /// only then the file turns out not to be as it was written; numbers are in range before.
     void load_in_pieces(PartIndex index, const PartPieces& take) const;
-    /// Takes the file of a part that is not needed any more from the disk. Throws Error(io).
+    /// Removes the file of a part that is not needed any more from the disk. Throws Error(io).
     void remove(PartIndex index) const;
 
  private:

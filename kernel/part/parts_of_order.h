@@ -9,9 +9,9 @@
 
 namespace kerf {
 
-/// The parts, which must outlive it, with cells of this order: 2 with nodes in the middle of edges, which have the
-/// numbers that `number` gives (number_edges() or what does it together), 1 without nodes on edges and values at them.
-/// Null where they have this order, and for 0. Throws what `number` throws.
+/// Returns the parts, which must outlive the result, with cells of this order: 2 with nodes in the middle of edges,
+/// which have the numbers that `number` gives (number_edges(), or a function that ranks call together), 1 without nodes
+/// on edges and values at them. Null where the parts have this order, and for order 0. Throws the errors of `number`.
 std::unique_ptr<PartSource> parts_of_order(const PartSource& parts, int order,
                                            const std::function<EdgeNumbers()>& number);
 

@@ -12,7 +12,7 @@ struct RunNames {
     std::vector<std::string> patches;  ///< empty: the report is of an older version, and each file of a part has all
     std::vector<std::string> regions;  ///< empty if there is one region
 
-    /// Of a report, whose exceptions pass.
+    /// Reads the names from a report; exceptions of the JSON pass.
     static RunNames of_report(const nlohmann::json& report);
 };
 

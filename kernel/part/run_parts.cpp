@@ -1,3 +1,11 @@
+// A finished run is read from its report and its files: the outline from the report, the counts of triangles, and the
+// vertices and edges that parts share, from the surfaces of all parts, which are read once by the constructor. Then any
+// part can be loaded alone. Interior vertices have no numbers in stored parts; the first number of each part is the
+// count of interior vertices before it, behind the boundary vertices of the whole. A run of order 2 may have stored
+// parts, which hold no nodes on edges: their numbers follow from counts in the report and the shared edges, their
+// points are middles of edges but for those in the file of curved nodes. A solution has files of its own with its
+// parts, but surfaces are those of the run. Each file is verified against the list of the report before it is read, and
+// each number against the outline.
 #include "part/run_parts.h"
 
 #include <algorithm>
@@ -24,7 +32,7 @@ namespace kerf {
 
 namespace {
 
-// In the order of the tree, with numbers that can be.
+// Requires parts in the order of the tree, with numbers that can be.
 void require_parts(const std::string& folder, const MeshOutline& outline) {
     if (outline.parts.empty()) fail_damaged_report(folder, "it names no parts");
     if (outline.order != 1 && outline.order != 2) fail_damaged_report(folder, "its order is neither 1 nor 2");
@@ -50,7 +58,7 @@ void require_parts(const std::string& folder, const MeshOutline& outline) {
         fail_damaged_report(folder, fmt::format("it has {} vertices, and its parts {}", outline.vertices, held));
 }
 
-// What the report says of the whole; triangles are not counted in it.
+// Returns the outline that the report tells; it does not count triangles.
 MeshOutline outline_of(const std::string& folder, const nlohmann::json& report) {
     if (is_of_solution(report))
         throw Error(ErrorCode::usage,
@@ -76,7 +84,7 @@ MeshOutline outline_of(const std::string& folder, const nlohmann::json& report) 
     return outline;
 }
 
-// The numbers of nodes on edges follow from what was told of these.
+// Requires that a part has the edges that were told of it: the numbers of nodes on edges follow from them.
 void require_edges(const EdgeTable& edges, const PartExtent& told, const Part& part) {
     const auto has_edge = [&](const UndirectedEdge& edge) { return edges.contains(undirected(edge[0], edge[1])); };
     const auto has_edges = [&](const SharedEdgeGroup& group) {
@@ -131,7 +139,7 @@ RunParts::RunParts(std::string folder, std::string solution, const nlohmann::jso
     if (outline_.order == 2) number_edges();
 }
 
-// Of a part it has to be known how many edges it has, and which of them it shares.
+// Numbers the edges from the count of edges of each part, and from those that it shares.
 void RunParts::number_edges() {
     if (is_stored(PartIndex())) curved_nodes_ = read_curved_nodes(files_.verified(curved_nodes_name));
     std::vector<EdgeNumbers::OfPart> told;

@@ -15,16 +15,16 @@
 
 namespace kerf {
 
-/// The parts in a run folder, with values if there is a solution, whose order they have then. Memory: the vertices on
-/// interfaces, of a run of order 2 without VTU files the nodes that are not in the middle of their edges, and the parts
-/// that are loaded.
+/// The parts in a run folder; with a solution they have its values and its order. Memory: the vertices on interfaces,
+/// of a run of order 2 without VTU files the nodes that are not in the middle of their edges, and the parts that are
+/// loaded.
 class RunParts : public PartSource {
  public:
-    /// Reads report.json and the surfaces of the parts. Throws Error(io) for what is no finished run, or one with parts
-    /// that were not meshed, naming it and the way out. Each file is compared with its hash before it is read, and its
-    /// numbers with each other: what the run has not left throws Error(verification), from here or from a load.
-    /// `solution`: the folder of one on this run (part/solution_parts.h), whose values parts have that are loaded with
-    /// everything.
+    /// Reads report.json and the surfaces of the parts. Throws Error(io) for a folder that is no finished run, or one
+    /// with parts that were not meshed, naming it and the way out. Each file is compared with its hash before it is
+    /// read, and its numbers with each other: a file that the run has not left like this throws Error(verification),
+    /// from here or from a load. `solution`: the folder of a solution on this run (part/solution_parts.h), whose values
+    /// the parts have that are loaded with everything.
     explicit RunParts(std::string folder, std::string solution = "");
 
     const MeshOutline& outline() const override { return outline_; }
@@ -34,9 +34,9 @@ class RunParts : public PartSource {
  private:
     RunParts(std::string folder, std::string solution, const nlohmann::json& report);
     void number_edges();
-    /// The files of a solution hold its parts, too, of the order that it was found with.
+    /// Returns the files with the parts: a solution holds its parts, too, of the order that it was found with.
     const ListedFiles& files_of_parts() const { return solution_files_ ? *solution_files_ : files_; }
-    /// Verified, as all that is read.
+    /// Returns the path of a verified file, as all that are read.
     std::string part_file(PartIndex index) const;
     std::string surface_file(PartIndex index) const;
     Part surface(PartIndex index, PartContent content = PartContent::all) const;
@@ -50,21 +50,22 @@ class RunParts : public PartSource {
     Array<PartIndex, std::int64_t> first_interior_ids_;
     SharedVertices shared_;
     SharedEdges shared_edges_;
-    EdgeNumbers edge_numbers_;  // of order 2
-    CurvedNodes curved_nodes_;  // likewise, of stored parts
+    EdgeNumbers edge_numbers_;  // of a run of order 2
+    CurvedNodes curved_nodes_;  // of a run of order 2 with stored parts
 };
 
-/// Where a finished run has a part: FOLDER/parts/part_0008.vtu, or part_0008.part of a run without that format.
+/// Returns the path of a part of a finished run: FOLDER/parts/part_0008.vtu, or part_0008.part of a run without that
+/// format.
 std::string path_of_part(const std::string& folder, NodeId id);
-/// The same as a path in the folder.
+/// Returns the same file as a path in the folder.
 std::string path_of_part_in(const std::string& folder, NodeId id);
 
-/// What is asked for of the part in that file, with the tetrahedra behind its facets, but without its shared vertices.
-/// `first_interior_id`: global number of the first interior vertex, which a VTU file says itself, and so it does for
-/// the nodes on edges, which stored parts do not have. Throws Error(io).
+/// Reads this content of a part of a run, with the tetrahedra behind its facets, but without its shared vertices.
+/// `first_interior_id`: global number of the first interior vertex of a stored part; VTU files hold all numbers, also
+/// those of nodes on edges, which stored parts do not have. Throws Error(io).
 Part load_part(const std::string& folder, NodeId id, std::int64_t first_interior_id,
                PartContent content = PartContent::all);
-/// The same of a file at this path.
+/// Reads a part as load_part(), from the file at this path.
 Part load_part_file(const std::string& path, std::int64_t first_interior_id, PartContent content = PartContent::all);
 
 }  // namespace kerf

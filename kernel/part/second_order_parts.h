@@ -8,14 +8,15 @@
 namespace kerf {
 
 /// Adds the nodes on the edges of a part of order 1: their numbers, and points in the middle of straight edges, or as
-/// `curved` has them. Values of points get those of these nodes: the means of the two ends.
+/// `curved` has them. Values at points are extended to these nodes, as the means of the two ends.
 void add_edge_nodes(const EdgeNumbers& numbers, const CurvedNodes& curved, Part& part);
 
-/// The parts of another source, of order 1, as parts of order 2: in the middle of each edge there is a node, or where
-/// the edge is curved. Values of points get those of these nodes: the means of the two ends.
+/// The parts of another source, of order 1, as parts of order 2: each edge has a node in its middle or, if it is
+/// curved, elsewhere. Values at points are extended to these nodes, as the means of the two ends.
 class SecondOrderParts : public PartSource {
  public:
-    /// `parts` must outlive this. `curved`: nodes that are not in the middle of their edges, by global number.
+    /// Takes the parts, which must outlive this, and the nodes that are not in the middle of their edges, by global
+    /// number.
     SecondOrderParts(const PartSource& parts, EdgeNumbers numbers, CurvedNodes curved = {});
 
     const MeshOutline& outline() const override { return outline_; }

@@ -1,3 +1,9 @@
+// Each part lists its interface edges, an entry for each part beyond a triangle at the edge, sorted by edge. One
+// neighbour at an edge means that the two alone hold it there, and both know that without a message. With two or more,
+// or at a contact, where nobody is seen beyond a triangle, the part tells all holders that it knows; a part's holders
+// are those that it meets and those that others have told. The holders of an edge are sorted by their places in the
+// tree, and edges with equal holders make a group, so that all parts of a group list its edges in the same order: by
+// global numbers.
 #include "part/shared_edges.h"
 
 #include <algorithm>
@@ -10,11 +16,11 @@ namespace {
 
 constexpr NodeId any_part = -1;
 
-// An edge of an interface with the part on the other side of one of its two triangles, or one of a contact.
+// An edge of an interface with the part on the other side of one of its two triangles, or an edge of a contact.
 struct InterfaceEdge {
     std::array<std::int64_t, 2> edge;  // global numbers
-    NodeId neighbour;                  // any_part: any that may be there
-    UndirectedEdge corners;            // of the part, as the global numbers
+    NodeId neighbour;                  // any_part: at a contact, where any part may be
+    UndirectedEdge corners;            // vertices of the part, in the order of the global numbers
 
     auto key() const { return std::tie(edge, neighbour); }
 };
@@ -28,7 +34,7 @@ InterfaceEdge interface_edge(const Part& part, std::int32_t a, std::int32_t b, N
     return {{id_a, id_b}, neighbour, {a, b}};
 }
 
-// Ascending by edge, then neighbour; each pair once.
+// Returns the edges of interfaces and contacts, ascending by edge, then neighbour; each pair once.
 std::vector<InterfaceEdge> interface_edges(const Part& part) {
     std::vector<InterfaceEdge> edges;
     for (std::size_t f = 0; f < part.facets.size(); ++f)

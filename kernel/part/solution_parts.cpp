@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Null if there is none. Throws Error(verification) for one that is not as it was written.
+// Returns the report, null if there is none. Throws Error(verification) for a report that is not as it was written.
 Json report_of(const fs::path& folder) {
     std::error_code ignored;
     if (!fs::exists(folder / "report.json", ignored)) return nullptr;

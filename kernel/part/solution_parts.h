@@ -1,4 +1,4 @@
-// The parts of a finished run with what kerf solve has found on them.
+// The parts of a finished run with the values of a solution of kerf solve.
 #pragma once
 
 #include <memory>
@@ -9,24 +9,25 @@
 
 namespace kerf {
 
-/// Whether a report is that of kerf solve.
+/// Tells whether a report is that of kerf solve.
 template <class Json>
 bool is_of_solution(const Json& report) {
     return report.contains("solve") || report.contains("steps");
 }
 
-/// The folder of the solution under a path: itself, or that of kerf solve on a surface, whose last step counts. Nothing
-/// if there is none. Throws Error(io) for a report that is damaged, and Error(verification) for one that is not as it
-/// was written.
+/// Returns the folder of the solution under a path: the path itself, the folder of its last step if it is of kerf solve
+/// on a surface, or PATH/solution if PATH has no report; nothing if there is no solution. Throws Error(io) for a report
+/// that is damaged, and Error(verification) for one that is not as it was written.
 std::optional<std::string> find_solution_folder(const std::string& path);
 
-/// The run that a solution stands on. Throws Error(io) if it is not where it was, or is another one now.
+/// Returns the run that a solution stands on. Throws Error(io) if it is not where it was, or is another one now.
 std::string mesh_of_solution(const std::string& solution);
 
-/// The run that is meant where only a run can be: itself, or that of a solution, as mesh_of_solution() throws for.
+/// Returns the run for a path where only a run can be meant: the path itself, or the run of a solution there. Throws as
+/// mesh_of_solution().
 std::string mesh_in(const std::string& folder);
 
-/// The parts of a finished run, or of the run of a solution, with Part::values. Throws Error(io).
+/// Returns the parts of a finished run, or of the run of a solution, with Part::values. Throws Error(io).
 std::unique_ptr<PartSource> open_parts(const std::string& folder);
 
 }  // namespace kerf

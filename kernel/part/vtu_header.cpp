@@ -1,3 +1,8 @@
+// Only files of this program are read here, so their XML is searched for attributes, not parsed: every element is on
+// one line with its attributes in double quotes (part/appended_vtu.h). An array is any element with format="appended",
+// and its place is its offset behind the line that ends the header. VertexCount stands only in files of order 2, whose
+// points are more than their vertices; its presence tells the order. Counts are limited to 2^56, so that no sum or
+// product of two sizes overflows before it is compared with the size of the file.
 #include "part/vtu_header.h"
 
 #include <algorithm>
@@ -13,12 +18,12 @@ namespace kerf {
 
 namespace {
 
-// Reads our own XML: elements on one line, attributes in double quotes.
+// Reads Kerf's own XML: elements on one line, attributes in double quotes.
 class HeaderParser {
  public:
     HeaderParser(std::string_view xml, const std::string& path) : xml_(xml), path_(path) {}
 
-    // `data_position`: of the first array in the file.
+    // Parses the header. `data_position`: place of the first array in the file.
     VtuHeader parse(std::int64_t data_position) const {
         VtuHeader header;
         const std::string_view piece = element_at(find("<Piece "));

@@ -1,5 +1,8 @@
 // The header names each array and its place, where the array's size comes first. Every array is checked against both
-// and against the numbers of cells and vertices. The cells are T tetrahedra, then F triangles.
+// and against the numbers of cells and vertices, before its values are used as indices. The cells are T tetrahedra,
+// then F triangles, and so are all arrays over cells. Arrays are read in the order that the content asks for, with a
+// jump to each, so that a surface costs no memory for tetrahedra. An array that older versions do not write is optional
+// here.
 #include "part/vtu_reader.h"
 
 #include <fmt/format.h>
@@ -47,7 +50,7 @@ void check_offsets(PartArraysFile& file, std::int64_t tet_count) {
     });
 }
 
-// The corners of the next cells of the array that is open, which have so many `nodes`; every corner must be one of the
+// Takes the corners of the next cells of the open array, which have so many `nodes`; every corner must be one of the
 // first `vertex_count` vertices.
 template <class Cell, std::size_t nodes>
 std::vector<Cell> take_corners(PartArraysFile& file, std::int64_t count, std::int64_t vertex_count) {
@@ -62,13 +65,13 @@ std::vector<Cell> take_corners(PartArraysFile& file, std::int64_t count, std::in
     return cells;
 }
 
-// Calls visit(value) with those of an array over all cells.
+// Calls visit(value) with the values of an array over all cells.
 template <class Visit>
 void visit_tags(PartArraysFile& file, const char* name, Visit visit) {
     file.visit_integers<std::int8_t, std::int16_t, std::int32_t>(name, file.header().cell_count, visit);
 }
 
-// The values of the facets in an array over all cells; every tetrahedron must have -1.
+// Returns the values of the facets in an array over all cells; every tetrahedron must have -1.
 std::vector<std::int32_t> facet_values(PartArraysFile& file, const char* name, std::int64_t tet_count) {
     std::vector<std::int32_t> values;
     std::int64_t cell = 0;
@@ -79,7 +82,7 @@ std::vector<std::int32_t> facet_values(PartArraysFile& file, const char* name, s
     return values;
 }
 
-// Those of the input, which have an array of their own unless the file is a surface or of an older version.
+// Reads the facets of the input, which have an array of their own unless the file is a surface or of an older version.
 std::vector<std::int32_t> read_input_facets(PartArraysFile& file, std::int64_t tet_count) {
     const VtuHeader::Array* array = file.header().find("Facet");
     if (array && array->tuples == file.header().cell_count) return facet_values(file, "Facet", tet_count);
@@ -111,7 +114,7 @@ std::vector<std::string> read_names(PartArraysFile& file, const char* array) {
     return names;
 }
 
-// Files with all names have no numbers of these.
+// Reads a table of names; files with all names have no numbers of these.
 NameTable read_name_table(PartArraysFile& file, const char* array, const char* numbers_array) {
     std::vector<std::string> names = read_names(file, array);
     if (!file.header().find(numbers_array)) return names;
@@ -121,7 +124,7 @@ NameTable read_name_table(PartArraysFile& file, const char* array, const char* n
     return {numbers, std::move(names)};
 }
 
-// The names of regions, and the runs of cells in them; a surface is one run. None where there is one region.
+// Reads the names of regions, and the runs of cells in them; a surface is one run. There are none for one region.
 void read_regions(PartArraysFile& file, std::int64_t tet_count, Part& part) {
     if (!file.header().find("Region")) return;
     part.region_names = read_name_table(file, "RegionNames", "RegionNumbers");
@@ -136,7 +139,7 @@ void read_regions(PartArraysFile& file, std::int64_t tet_count, Part& part) {
     });
 }
 
-// Where other parts may touch this one without a triangle in common.
+// Reads the vertices and edges at which other parts may touch this one without a triangle in common.
 void read_contacts(PartArraysFile& file, Part& part) {
     if (!file.header().find("ContactVertices")) return;
     const std::uint64_t vertices = file.open("ContactVertices");
@@ -150,7 +153,7 @@ void read_contacts(PartArraysFile& file, Part& part) {
         file.fail("a contact names no vertex of the boundary");
 }
 
-// Those of the vertices, then those of nodes on edges.
+// Reads the points of the vertices, then those of nodes on edges.
 void read_points(PartArraysFile& file, Part& part) {
     const auto& [points, vertices] = std::pair(file.header().point_count, file.header().vertex_count);
     file.open<Vec3>("Points", points);
@@ -166,7 +169,7 @@ void read_global_ids(PartArraysFile& file, Part& part) {
     part.edge_nodes.global_id = file.take<std::int64_t>(points - vertices);
 }
 
-// Tetrahedra and triangles.
+// Reads the corners of tetrahedra and triangles.
 void read_connectivity(PartArraysFile& file, std::int64_t tets, Part& part) {
     const VtuHeader& header = file.header();
     const std::int64_t facets = header.cell_count - tets;
@@ -241,7 +244,7 @@ PartCellCounts read_cell_counts(const std::string& path) {
 
 namespace {
 
-// Of the values of an array.
+// Reads bytes of the values of an array.
 std::string read_bytes(CheckedFile& file, const VtuHeader::Array& array, std::int64_t first, std::size_t count,
                        const std::string& path) {
     constexpr std::int64_t size_of_array = sizeof(std::uint64_t);
@@ -272,7 +275,8 @@ std::vector<float> read_cell_values(const std::string& path, const std::string& 
 
 namespace {
 
-// The arrays that are neither of every part file nor qualities of cells: those of points, then those of cells.
+// Finds the arrays of values: all of floating point that are no qualities of cells, those of points, then those of
+// cells.
 struct ValueArrays {
     std::vector<const VtuHeader::Array*> of_points, of_cells;
 };

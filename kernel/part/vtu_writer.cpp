@@ -1,5 +1,9 @@
-// The cells are the tetrahedra, then the boundary triangles. A grid without tetrahedra is a part's surface. Of the
-// quality measures all but one wait as a whole until they are written.
+// The grid of a part is a table of arrays (part/appended_vtu.h), each with a function that streams its values, so that
+// no array of a mesh is copied; sizes are known before, and the XML is written first. The cells are the tetrahedra,
+// then the boundary triangles; a grid without tetrahedra is a part's surface. All measures of quality of a cell are
+// computed together when the first array of them is written; all but that one wait as a whole until it is their turn,
+// one float a cell each. The order of the arrays is a part of the format: readers know the values of a solution by the
+// arrays that they follow.
 #include "part/vtu_writer.h"
 
 #include <limits>
@@ -47,7 +51,7 @@ class GridMaker {
                       part.facet.size() == part.facets.size());
     }
 
-    /// With the qualities of cells and with values.
+    /// Makes the grid with the qualities of cells and with values.
     Grid part_grid(const VtuLayout& layout, std::span<const PartValues> values) {
         require_sizes(part_.tet_at_facet.size() == part_.facets.size());
         add_names("PatchNames", "PatchNumbers", part_.patch_names);
@@ -92,7 +96,7 @@ class GridMaker {
             VtuArray<CheckedFile>::of<T>(section, std::move(name), components, tuples, std::move(write_values)));
     }
 
-    // Numbers of the type T as they lie in memory.
+    // Adds numbers of the type T as they lie in memory.
     template <class T, class Item>
     void add_array(const char* section, std::string name, std::int64_t components, std::span<const Item> items) {
         add<T>(section, std::move(name), components, items.size_bytes() / (components * sizeof(T)),
@@ -126,7 +130,7 @@ class GridMaker {
                              std::span(edge_nodes_.points));
     }
 
-    // Numbers of the vertices, then those of the nodes on edges.
+    // Adds the numbers of the vertices, then those of the nodes on edges.
     template <class T, class Item>
     void add_of_nodes(const char* section, std::string name, std::int64_t components, std::span<const Item> of_vertices,
                       std::span<const Item> of_edges) {
@@ -136,7 +140,7 @@ class GridMaker {
         });
     }
 
-    // An array with one value a cell: of_tet(t) for the tetrahedra, then of_facet(f).
+    // Adds an array with one value a cell: of_tet(t) for the tetrahedra, then of_facet(f).
     template <class T, class OfTet, class OfFacet>
     void add_of_cells(const char* section, std::string name, OfTet of_tet, OfFacet of_facet) {
         add<T>(section, std::move(name), 1, grid_.cells,
@@ -153,7 +157,7 @@ class GridMaker {
             [tag, of_facets](std::int64_t f) { return of_facets ? (*of_facets)[f] : tag; });
     }
 
-    // The triangles have those of the tetrahedra behind them.
+    // Triangles have the values of the tetrahedra behind them.
     void add_regions(int bytes) {
         const auto of_tet = [&part = part_](std::int64_t t) {
             return part.region_of(static_cast<std::int32_t>(t)).value();
@@ -163,7 +167,7 @@ class GridMaker {
         });
     }
 
-    // Integers of so many bytes.
+    // Adds integers of so many bytes.
     template <class OfTet, class OfFacet>
     void add_integers(int bytes, const char* name, OfTet of_tet, OfFacet of_facet) {
         if (bytes == 1) return add_of_cells<std::int8_t>("CellData", name, of_tet, of_facet);
@@ -226,7 +230,7 @@ class GridMaker {
         };
     }
 
-    // Those of tetrahedra are followed by those behind the boundary triangles.
+    // Adds values; those of tetrahedra are followed by those behind the boundary triangles.
     template <class T>
     void add_values(const PartValues& values, const std::vector<T>& numbers) {
         const std::int64_t width = values.components;

@@ -8,8 +8,8 @@
 
 namespace kerf {
 
-/// The parts of another source, which must outlive it. Before each one that is loaded `is_cancelled` is asked, unless
-/// it is empty: true ends that with Error(cancelled).
+/// The parts of another source, which must outlive it, with a question before each load: unless `is_cancelled` is
+/// empty, it is called, and true ends the load with Error(cancelled).
 class WatchedParts : public PartSource {
  public:
     WatchedParts(const PartSource& parts, const std::function<bool()>& is_cancelled)
