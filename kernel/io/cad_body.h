@@ -48,7 +48,7 @@ struct CadOptions {
 struct CadBody {
     Soup soup;              ///< closed and free of intersections; patches are faces, named `<path of the solid>/face n`
     std::string format;     ///< "STEP", "IGES" or "BREP"
-    std::string file_unit;  ///< "inch"; empty if the file has none
+    std::string file_unit;  ///< "inch"; "mm" if a STEP or IGES file names none; empty for BREP, which has none
     std::string unit;       ///< of the soup; empty if the file has none
     std::int32_t solids = 0;
     std::int32_t faces = 0;

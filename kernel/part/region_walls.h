@@ -30,8 +30,7 @@ class RegionWalls {
     const std::vector<std::int32_t>& outer_patches(RegionIndex region) const { return outer_patches_[region]; }
 
  private:
-    std::unordered_map<std::int32_t, std::pair<RegionIndex, RegionIndex>>
-        sides_at_;  // by facet of the input; the first is smaller
+    std::unordered_map<std::int32_t, std::pair<RegionIndex, RegionIndex>> sides_at_;  // by facet; smaller one first
     Array<RegionIndex, std::vector<RegionIndex>> neighbours_;
     Array<RegionIndex, std::vector<std::int32_t>> outer_patches_;
 };
