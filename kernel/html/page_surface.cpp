@@ -1,4 +1,9 @@
-// Cells are numbered along Morton's curve: eight that are joined follow each other, so that what is sorted stays so.
+// Vertices are clustered on a grid (Rossignac and Borrel 1993, rossignac1993). A cell is known by its code along
+// Morton's curve, and eight that are joined have codes that follow each other: joining is a shift by three bits, and
+// sorted cells stay sorted. A corner of a triangle is a place in the sorted cells of its part; after a join it is
+// looked up again, triangles with two equal corners go, and of equal ones all but one. Each cell sums up its vertices
+// over all parts, so that both sides of an interface get the same places. Parts are coarsened as soon as the limit is
+// passed, while others are still to come: the result depends on their order, and memory on the limit.
 #include "html/page_surface.h"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace kerf {
 /// A boundary triangle of a part in a page.
 struct PageTriangle {
     NodeId neighbour = -1;      ///< part on the other side, -1 on the outer surface
-    std::int32_t patch = -1;    ///< of the user's surface, -1 on interfaces
+    std::int32_t patch = -1;    ///< patch of the user's surface, -1 on interfaces
     Triangle corners{0, 0, 0};  ///< numbers of PagePart::cells
 
     auto operator<=>(const PageTriangle&) const = default;
@@ -24,7 +24,7 @@ struct PageTriangle {
 struct PagePart {
     NodeId id = 1;
     RegionIndex region;
-    std::vector<std::uint64_t> cells;     ///< #V; those that its vertices lie in, ascending
+    std::vector<std::uint64_t> cells;     ///< #V; cells that hold vertices of the part, ascending
     std::vector<PageTriangle> triangles;  ///< #F; ascending, each once, seen from outside
 };
 
@@ -37,8 +37,7 @@ class PageSurface {
  public:
     using GridPoint = std::array<std::int64_t, 3>;
 
-    /// `box` has all vertices of all parts, `limit` > 0 is the most triangles that are kept but for what cannot be
-    /// coarser.
+    /// Takes a box with all vertices of all parts, and the most triangles that are kept, `limit` > 0.
     PageSurface(const Box& box, std::int64_t limit);
 
     /// Takes the boundary of a part. O(#F log #F + cells of all parts before).
@@ -47,15 +46,15 @@ class PageSurface {
     const std::vector<PagePart>& parts() const { return parts_; }
     std::int64_t triangles() const { return triangles_; }
     std::int64_t triangles_of_run() const { return triangles_of_run_; }
-    /// How often cells were joined: 0 if each vertex has its own place.
+    /// Returns the number of times that cells were joined: 0 if each vertex has its own place.
     int joins() const { return joins_; }
-    /// Where the vertices of a cell of parts() are, in steps from low(). O(log cells).
+    /// Returns the middle of the vertices of a cell of parts(), in steps from low(). O(log cells).
     GridPoint place_of(std::uint64_t cell) const;
     const Vec3& low() const { return low_; }
     double step() const { return step_; }
 
  private:
-    // The vertices of a cell, added up.
+    // The sum of the vertices of a cell, for their middle.
     struct Cell {
         std::uint64_t code = 0;
         GridPoint sum{0, 0, 0};

@@ -1,5 +1,7 @@
 // The page is assets/report/page.html with its style, its scripts, and two blocks of data: JSON, and the triangles
-// (html/packed_surface.h), compressed and as base64. No other file or address is named in it.
+// (html/packed_surface.h), compressed and as base64. No other file or address is named in it. A page is sent to others,
+// so paths lose their folders, and of the report only the members stay that the scripts read. The surfaces are read
+// twice: for the box of the grid, and for the triangles, so that one part at a time is in memory.
 #include "html/report_page.h"
 
 #include <algorithm>
@@ -37,7 +39,7 @@ PageJson chosen(const PageJson& from, const std::array<const char*, count>& name
     return to;
 }
 
-// Folders are nobody's business.
+// Returns the name of a file without its folders, which a page for others does not tell.
 std::string file_name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
 void cut_folders(PageJson& report) {
@@ -48,7 +50,7 @@ void cut_folders(PageJson& report) {
     for (PageJson& file : options.at("with")) file = file_name_of(file);
 }
 
-// What the page has no use for would be most of a large run's report.
+// Returns the report without what the page does not use, which would be most of a large run's.
 PageJson shortened(PageJson report) {
     constexpr std::array of_node = {"id", "leaves", "faces", "volume", "cut"};
     constexpr std::array of_part = {
@@ -69,7 +71,7 @@ std::string title_of(const PageJson& report) {
     return fmt::format("{} and {} more", first, others.size());
 }
 
-// Of a part.
+// Returns the verified surface of a part.
 Part verified_surface(const PageJson& of_report, const ListedFiles& files) {
     const std::string path = files.verified("parts/" + part_surface_file_name(of_report.at("id")));
     Part surface = read_part(path, PartContent::surface);
@@ -102,7 +104,7 @@ ReadSurface read_surfaces(const PageJson& report, const ListedFiles& files, std:
     return read;
 }
 
-// Triangles are sorted by what they have in common: [neighbour, patch, how many] for each run of them.
+// Returns the runs of triangles, which are sorted so, with the same neighbour and patch: [neighbour, patch, how many].
 PageJson groups_of(const PagePart& part) {
     PageJson groups = PageJson::array();
     for (const PageTriangle& t : part.triangles) {
@@ -134,7 +136,7 @@ PageJson json_of(const ReadSurface& read) {
             {"parts", parts}};
 }
 
-// Text that ends no script and begins no comment of HTML.
+// Returns JSON as text that ends no script and begins no comment of HTML.
 std::string as_script(const PageJson& json) {
     std::string text;
     for (const char c : json_text(json)) text += c == '<' ? std::string("\\u003c") : std::string(1, c);
@@ -149,7 +151,7 @@ std::string as_text(std::string_view name) {
 
 using Blanks = std::vector<std::pair<std::string_view, std::string>>;
 
-// The page with each {{name}} filled in. What fills one is not looked at again.
+// Returns the page with each {{name}} filled in. Filled-in texts are not searched for names again.
 std::string filled(std::string_view page, const Blanks& blanks) {
     std::string text;
     while (!page.empty()) {
