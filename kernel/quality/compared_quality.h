@@ -16,27 +16,28 @@ struct ComparedQuality {
     std::optional<MeshQuality> other;
 };
 
-/// Measures the folder of a run or a file (MeasurableMesh), and with the same length scale another one, unless its
-/// path is empty. Throws Error(io) or Error(input).
+/// Measures a mesh, the folder of a run or a file (MeasurableMesh), and with the same length scale another one, unless
+/// its path is empty. Throws Error(io) or Error(input).
 ComparedQuality compare_quality(const std::string& mesh, const std::string& other = "");
 
-/// What the worst cells and boundary triangles must keep.
+/// Limits that the worst cells and boundary triangles must keep.
 struct QualityGate {
     std::vector<QualityLimit> below, above;
 
-    /// `fail_below`, `fail_above`: lists as parse_limits() takes them. Throws Error(usage).
+    /// Parses the limits of --fail-below and --fail-above, lists as parse_limits() takes them. Throws Error(usage).
     static QualityGate parse(std::string_view fail_below, std::string_view fail_above);
-    /// A sentence for every limit that the mesh misses.
+    /// Returns a sentence for every limit that the mesh misses.
     std::vector<std::string> missed_by(const MeshQuality& quality) const;
 };
 
-/// The quality of the mesh (quality_json.h) with "compared_with", if there is another one, and "missed_limits".
+/// Returns the quality of the mesh as JSON (quality_json.h), with "compared_with", if there is another one, and
+/// "missed_limits".
 std::string to_json(const ComparedQuality& quality, const std::vector<std::string>& missed);
 
-/// The tables of quality_text.h.
+/// Returns the tables of quality_text.h.
 std::string to_text(const ComparedQuality& quality, QualityDetail detail);
 
-/// The sheet of quality_sheet.h (SVG).
+/// Returns the sheet of quality_sheet.h (SVG).
 std::string to_picture(const ComparedQuality& quality);
 
 }  // namespace kerf

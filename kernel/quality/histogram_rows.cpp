@@ -9,7 +9,7 @@ namespace kerf {
 
 namespace {
 
-// 1, 2, 2.5 or 5 times a power of ten.
+// Tells whether a width is 1, 2, 2.5 or 5 times a power of ten.
 bool is_round(double width) {
     const double decades = std::log10(width), leading = std::pow(10, decades - std::floor(decades + 1e-9));
     constexpr std::array<double, 4> round = {1, 2, 2.5, 5};

@@ -1,3 +1,9 @@
+// Distributions are counts in fixed fine bins (mesh/quality.h), so a mesh is measured part by part and the counts are
+// added; only their range depends on the length scale, which is the diagonal of the whole mesh, or the larger one of
+// two that are compared. A run is read a part at a time: the first pass over its surfaces finds the diagonal, the
+// second one measures. A part lies in one region, so its cells are counted for that as a whole. Cells of a file are
+// sorted by region first, because a distribution takes 92 kB and a file may have many regions: each is counted, reduced
+// to percentiles, and forgotten.
 #include "quality/measured_mesh.h"
 
 #include <algorithm>
@@ -51,7 +57,7 @@ void add_curved(const Part& part, CurvedCells& curved) {
     }
 }
 
-// What is added up of the cells of a region.
+// The sums over the cells of a region.
 struct RegionSum {
     double volume = 0;
     QualityDistributions cells;
@@ -135,9 +141,9 @@ void MeasurableMesh::measure_run(double length_scale, MeshQuality& quality) cons
         quality.regions.push_back(region_quality(outline.region_names[r], sums[r]));
 }
 
-// One region after the other, since a file may have as many as cells.
+// Measures one region after the other, since a file may have as many regions as cells.
 std::vector<RegionQuality> MeasurableMesh::regions_of_file(double length_scale) const {
-    std::vector<std::size_t> end(file_.region_names.size() + 1, 0);  // of the cells of each region, in the end
+    std::vector<std::size_t> end(file_.region_names.size() + 1, 0);  // of the cells of each region, when sorted
     for (const std::int32_t region : file_.region_of_tet) ++end[region + 1];
     std::partial_sum(end.begin(), end.end(), end.begin());
     std::vector<Tetrahedron> sorted(file_.region_of_tet.size());

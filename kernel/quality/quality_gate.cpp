@@ -1,3 +1,9 @@
+// One list has all measures that options can name, of cells, of cells that the surface does not force, and of boundary
+// triangles; with a mesh each comes with its distribution. A measure says itself which of its ends is bad, so that
+// --fail-below and --fail-above can refuse the wrong one. A limit is compared with the exact least or largest value,
+// which a distribution keeps beside its bins, and missed only beyond it; a mesh without such cells misses none. The
+// region of the worst cell is found by that value, since the extremes of regions are percentiles 0 and 1 of the same
+// numbers.
 #include "quality/quality_gate.h"
 
 #include <algorithm>
@@ -23,7 +29,7 @@ namespace {
 struct Named {
     std::string name;
     const Measure* measure;
-    const Distribution* distribution;  // nullptr: none is asked about
+    const Distribution* distribution;  // nullptr: only the measure is asked for
 };
 
 std::vector<Named> all_measures(const MeshQuality* quality) {
@@ -65,7 +71,7 @@ QualityLimit parse_limit(std::string_view text, BadEnd end) {
     return limit;
 }
 
-// Where the worst cell is, if there are several regions: " It is in the region 'bone'."
+// Returns a sentence with the region of the worst cell, if there are several: " It is in the region 'bone'."
 std::string region_of_worst(const MeshQuality& quality, const Measure& measure, double worst) {
     const auto found = std::find_if(quality_measures.begin(), quality_measures.end(),
                                     [&](const Measure& each) { return &each == &measure; });

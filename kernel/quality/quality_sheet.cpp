@@ -30,12 +30,12 @@ struct Curve {
     std::string name;
     const char* colour;
     const Distribution* distribution;
-    bool is_dashed = false;  // where it accumulates
+    bool is_dashed = false;  // in the accumulated plot
 };
 
 struct Panel {
     Measure measure;
-    const char* counted;        // what the distribution is of
+    const char* counted;        // things that the distribution counts
     std::vector<Curve> curves;  // one or more, none of which is empty
 };
 
@@ -44,7 +44,7 @@ struct LegendEntry {
     std::string text;
 };
 
-// The end of a long path, without a character that is cut in two.
+// Returns the end of a long path, without a character that is cut in two.
 std::string shortened(const std::string& name) {
     constexpr std::size_t most = 90;
     if (name.size() <= most) return name;
@@ -103,7 +103,7 @@ class Drawing {
     std::string body_;
 };
 
-// The step 1, 2 or 5 times a power of ten that divides a length into `most` pieces or less.
+// Returns the step 1, 2 or 5 times a power of ten that divides a length into `most` pieces or less.
 double round_step(double length, int most) {
     const double least = length / most, power = std::pow(10, std::floor(std::log10(least)));
     for (const double factor : {1.0, 2.0, 5.0})
@@ -119,7 +119,7 @@ std::vector<double> linear_ticks(double low, double high, int most) {
     return ticks;
 }
 
-// Powers of ten and, over short ranges, round numbers between them.
+// Returns powers of ten and, over short ranges, round numbers between them.
 std::vector<double> logarithmic_ticks(double low, double high) {
     static const std::vector<double> fine = {1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8}, middle = {1, 1.5, 2, 3, 4, 5, 7},
                                      coarse = {1, 2, 5}, powers = {1};
@@ -136,7 +136,7 @@ std::vector<double> logarithmic_ticks(double low, double high) {
     return ticks;
 }
 
-// From values to pixels.
+// Maps values to pixels.
 class Axis {
  public:
     Axis(Distribution::Scale scale, double low, double high, double left, double width)
@@ -156,7 +156,7 @@ class Axis {
     double low_, high_, left_, width_;
 };
 
-// One curve in percent: of each interval, and accumulated at each edge.
+// A curve in percent: of each interval, and accumulated at each edge.
 struct Percentages {
     std::vector<double> edges, in_interval, accumulated;
 };
@@ -180,14 +180,14 @@ std::string unit_text(const Measure& measure) {
     return unit == "deg" ? "\u00b0" : unit == "length^3" ? "length\u00b3" : std::string(unit);
 }
 
-// How wide the steps are: in the unit, or by which part the next edge is larger.
+// Returns the width of the steps: in the unit, or by which part the next edge is larger.
 std::string interval_text(const Panel& panel, const std::vector<double>& edges) {
     const bool is_linear = panel.curves.front().distribution->scale() == Distribution::Scale::linear;
     if (is_linear) return fmt::format("intervals of {:.4g}{}", edges[1] - edges[0], unit_text(panel.measure));
     return fmt::format("intervals of {:.2g} %", 100 * (edges[1] / edges[0] - 1));
 }
 
-// Title, and the worst and the middle cell of each curve.
+// Draws the title, and the worst and the middle cell of each curve.
 void draw_head(Drawing& drawing, const Panel& panel, const std::vector<double>& edges, const Frame& frame) {
     const std::string unit = unit_text(panel.measure);
     std::string title = panel.measure.title;
@@ -206,7 +206,7 @@ void draw_head(Drawing& drawing, const Panel& panel, const std::vector<double>& 
     drawing.text(frame.left, frame.top - 8, numbers, "font-size='11' fill='#777777'");
 }
 
-// Lines across the frame at round percentages, with numbers at their left.
+// Draws lines across the frame at round percentages, with numbers at their left.
 void draw_percent_axis(Drawing& drawing, const Frame& frame, double highest, int most, const std::string& name) {
     for (const double tick : linear_ticks(0, highest, most)) {
         const double y = frame.bottom() - frame.height * tick / highest;

@@ -1,3 +1,9 @@
+// All tables are functions of counts: percentiles and histograms of distributions that were added up over the parts.
+// Rows of percentiles have a title of 48 characters and a column of 11 for each of quality_fractions, so that tables of
+// cells, angles and regions stand below each other. In brief, only the tables of all cells, of forced angles if there
+// are any, and of regions are written, the regions cut to the ten with the worst cells; the row "all" still tells the
+// whole. A comparison shows both meshes in the same intervals, which asks for one length scale: distributions of
+// lengths and volumes have different bins otherwise.
 #include "quality/quality_text.h"
 
 #include <algorithm>
@@ -69,7 +75,8 @@ std::string region_row(const std::string& name, std::int64_t tets, double volume
     return percentile_row(fmt::format("{:<22}{:>12}{:>12}", name, grouped(tets), four_digits(volume)), percentiles);
 }
 
-// The smallest dihedral angles of each region; in brief, of those with the worst cells, the worst first.
+// Returns the smallest dihedral angles of each region; in brief of the ten regions with the worst cells, the worst
+// first.
 std::string region_table(const MeshQuality& quality, QualityDetail detail, const std::string& of = "") {
     if (quality.regions.empty()) return "";
     constexpr std::size_t most = 10;
@@ -99,7 +106,7 @@ std::string interval_text(double low, double high) {
     return fmt::format("{:>9} - {:<9}", four_digits(low), four_digits(high));
 }
 
-// As many lines as half of the intervals: the second half stands beside the first.
+// Returns a histogram in two columns: the second half of the intervals stands beside the first.
 std::string histogram_text(const Measure& measure, const Distribution& distribution) {
     const Distribution* all[] = {&distribution};
     const HistogramRows rows = choose_rows(all, {});
