@@ -1,5 +1,9 @@
 // The ladder of body_mesher.cpp for several regions at once: a face between two of them has the same chords for both,
-// and vertices that are moved for the volumes are moved for both.
+// and vertices that are moved for the volumes are moved for both. Facets have the regions on their sides, front and
+// back; a region is closed if each edge is as often in its facets in one direction as in the other, a facet with the
+// region in front counting the other way. Trouble, a text, is a reason to try other chords and the message when tries
+// run out. Vertices of facets that cross after balancing are fixed on their faces, and the others balanced again, a few
+// times.
 #include "cad/assembly_mesher.h"
 
 #include <algorithm>
@@ -71,7 +75,7 @@ class AssemblyMesher {
         return names_of(patches, assembly_.patches);
     }
 
-    // The solids at a facet: "'a' and 'b'".
+    // Returns the solids at facets: "'a' and 'b'".
     std::string solids_at(const Tessellation& mesh, std::initializer_list<std::int32_t> facets) const {
         std::set<std::int32_t> regions;
         for (const std::int32_t f : facets) regions.insert({mesh.sides[f].front, mesh.sides[f].back});
@@ -103,7 +107,7 @@ class AssemblyMesher {
         return opening_of(mesh);
     }
 
-    // Every region must have an edge in both directions equally often.
+    // Returns the trouble of a region that is open: one that has an edge more often in one direction than in the other.
     std::string opening_of(const Tessellation& mesh) const {
         std::string found;
         EdgeCorners(mesh.facets).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
@@ -147,7 +151,7 @@ class AssemblyMesher {
                            faces_text({mesh.patch[f], mesh.patch[g]}), way_out);
     }
 
-    // The largest of all regions, as a share of its volume.
+    // Returns the largest error of the volume of a region, as a share of that.
     double volume_error(const Tessellation& mesh) const {
         const std::vector<double> volumes = region_volumes(mesh, assembly_.volumes.size());
         double largest = 0;
@@ -156,7 +160,7 @@ class AssemblyMesher {
         return largest;
     }
 
-    // As in body_mesher.cpp, for the worst region.
+    // Returns the roughness of body_mesher.cpp, for the worst region.
     double roughness(const Tessellation& mesh) const {
         const std::vector<double> between = volumes_between(mesh, assembly_.volumes.size());
         double largest = 0;
@@ -169,8 +173,8 @@ class AssemblyMesher {
         return roughness(mesh) <= 1 && (on_faces_ || volume_error(mesh) <= CadOptions::volume_tolerance);
     }
 
-    // Facets that cross then have their vertices back on the faces: where a curved face touches another in a line or a
-    // point, little is between them.
+    // Balances the volumes. Where facets cross then, their vertices go back on the faces and stay there: where a curved
+    // face touches another in a line or a point, little is between them.
     bool balance(Tessellation& mesh) const {
         if (on_faces_ || roughness(mesh) > 1) return false;
         std::vector<char> is_fixed(mesh.vertices.size());
@@ -188,7 +192,7 @@ class AssemblyMesher {
         return false;
     }
 
-    // A smaller deflection for the volumes; false if that cannot be bettered.
+    // Makes the deflection smaller for the volumes; false if they cannot be bettered.
     bool tighten(const Tessellation& mesh) {
         const double rough = roughness(mesh), wanted = rough > 1 ? std::min(0.8 / rough, 0.6) : 0.3;
         const double factor = std::max({wanted, 0.05, static_cast<double>(mesh.facets.size()) / most_assembly_facets,
@@ -219,7 +223,7 @@ class AssemblyMesher {
     const Assembly& assembly_;
     const std::string& path_;
     bool by_volume_, on_faces_;
-    double smallest_ = 0;  // diagonal
+    double smallest_ = 0;  // smallest diagonal of the solids
     TessellationSettings settings_ = {};
     std::string trouble_;
 };

@@ -2,8 +2,10 @@
 // deflection, then a smaller angle. A face that is closed in itself may get no triangles; then such faces are divided.
 //
 // Chords are as fine as the volume between them and the faces asks for, and vertices are moved off the faces until the
-// facets hold what the solid holds (volume_balance.h): for the same volume, chords would have to be ten times as fine.
-// Where that fails, the deflection gets smaller by what is missing, since the error is proportional to it.
+// facets hold the volume of the solid (volume_balance.h): for the same volume, chords would have to be ten times as
+// fine. Where that fails, the deflection gets smaller by the missing share, since the error is proportional to it.
+// "Roughness" is the volume between facets and faces over the most that can be balanced; only above 1 chords must get
+// finer for it.
 #include "cad/body_mesher.h"
 
 #include <algorithm>
@@ -27,7 +29,7 @@ namespace {
 constexpr double coarsest_deflection = 1e-3;  // of the diagonal
 constexpr double finest_deflection = 1e-6;
 constexpr double coarsest_angle = 0.35;  // radians between chords: 18 a turn
-// Bounds of what is done for the volume. The time that a face takes grows with the square of its facets.
+// Bounds of the effort for the volume. The time that a face takes grows with the square of its facets.
 constexpr double most_facets_by_volume = 320000;
 constexpr double most_facets_of_face_by_volume = 80000;
 constexpr double most_between = 0.01;  // of the volume, between facets and faces: so few chords can be balanced
@@ -116,13 +118,13 @@ class BodyMesher {
                            names_of({mesh.patch[f], mesh.patch[g]}, model_.patches));
     }
 
-    // Signed: positive if the facets hold too much.
+    // Returns the signed error of the volume, as a share of it: positive if the facets hold too much.
     double volume_error(const Tessellation& mesh) const {
         return exact_volume_ > 0 ? (std::abs(mesh.volume) - exact_volume_) / exact_volume_ : 0;
     }
 
-    // How many times rougher the chords are than what can be balanced: volumes that they miss inside and outside may
-    // cancel, as in thin tubes. What stays on the faces has fillets that chords must not leave out.
+    // Returns how many times rougher the chords are than can be balanced: volumes that they miss inside and outside may
+    // cancel, as in thin tubes. Bodies whose vertices stay on the faces have fillets that chords must not leave out.
     double roughness(const Tessellation& mesh) const {
         const double most = on_faces_ ? most_between_on_faces : most_between;
         return exact_volume_ > 0 ? volume_between(mesh) / (most * exact_volume_) : 0;
@@ -142,10 +144,10 @@ class BodyMesher {
         return true;
     }
 
-    // A smaller deflection for the volume; false if that cannot be bettered.
+    // Makes the deflection smaller for the volume; false if that cannot be bettered.
     bool tighten(const Tessellation& mesh) {
         const double error = volume_error(mesh);
-        // As long as the angle decides, facets and error stay what they are.
+        // As long as the angle decides, facets and error stay as they are.
         const auto facets = static_cast<double>(mesh.facets.size());
         const bool has_effect = facets > 1.3 * std::exchange(last_facets_, facets);
         if (has_effect && is_not_of_chords(error)) return false;
@@ -166,8 +168,8 @@ class BodyMesher {
         return *std::max_element(counts.begin(), counts.end());
     }
 
-    // The error is proportional to the deflection once the angle counts no more. What would remain without any chords,
-    // twice in a row, is due to faces that do not meet exactly.
+    // Tells whether the error is due to faces that do not meet exactly: it is proportional to the deflection once the
+    // angle counts no more, so that an error that would remain without any chords, twice in a row, is not of chords.
     bool is_not_of_chords(double error) {
         const double deflection = settings_.deflection;
         if (last_deflection_ > 0) {

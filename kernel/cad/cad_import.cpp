@@ -1,7 +1,9 @@
-// Bodies first: the solids of the file, or its loose faces sewn, or all solids united. Each body is then tessellated
-// for itself (body_mesher.h), once more without moved vertices where bodies meet that way which are apart. Bodies that
-// do touch are mostly found before all of this, by coarse facets: they become regions that share walls (imprint.h), and
-// all bodies are tessellated at once (assembly_mesher.h).
+// Bodies come first: the solids of the file, or its loose faces sewn, or all solids united. Bodies that touch are
+// mostly found before the work, by coarse facets (contact.h): they become regions that share walls (imprint.h), and all
+// bodies are tessellated at once (assembly_mesher.h). Otherwise each body is tessellated by itself (body_mesher.h).
+// Vertices that are moved off the faces for the volume may make bodies meet that are only close: so if facets of two
+// bodies meet, all are tessellated once more without moved vertices, and only if facets meet then, the bodies touch. At
+// last solids that lie inside of others are cut out of them.
 #include "cad/cad_import.h"
 
 #include <algorithm>
@@ -150,13 +152,13 @@ void append(Soup& soup, const Tessellation& mesh) {
         soup.model_edges.push_back({{e.vertices[0] + shift, e.vertices[1] + shift}, e.sharp});
 }
 
-// All bodies as facets, in their order.
+// The facets of all bodies, in the order of the bodies.
 struct Bodies {
     Soup soup;
     std::vector<std::int32_t> first_facet;  // of each
     double volume = 0, exact_volume = 0;
-    std::vector<std::array<double, 2>> volumes;  // of each: of the facets, and exact; empty if they are regions
-    std::vector<Body> shapes;                    // whose faces have these facets
+    std::vector<std::array<double, 2>> volumes;  // of each body: of its facets, and exact; empty if they are regions
+    std::vector<Body> shapes;                    // the shapes whose faces have these facets
 };
 
 Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::string& path, bool may_balance) {
@@ -204,7 +206,7 @@ Bodies to_bodies(const Assembly& assembly, cad::MeshedAssembly meshed, Model& mo
     return all;
 }
 
-// Bodies that touch, as regions that share walls.
+// Makes bodies that touch regions that share walls, and tessellates them at once.
 Bodies tessellate_touching(Model& model, const cad::Contact& contact, const CadOptions& options,
                            const std::string& path) {
     for (bool is_divided = false;; is_divided = true) {
@@ -217,7 +219,7 @@ Bodies tessellate_touching(Model& model, const cad::Contact& contact, const CadO
     }
 }
 
-// Solids whose facets meet, the first of them; nothing if none do.
+// Returns the first two solids whose facets meet; nothing if none do.
 std::optional<cad::Contact> contact_of(const Bodies& all) {
     if (all.first_facet.size() < 2) return {};
     const auto pairs = find_self_intersections(all.soup.vertices, all.soup.facets, 1);
@@ -230,7 +232,7 @@ std::optional<cad::Contact> contact_of(const Bodies& all) {
     return cad::Contact{{body_of(f), body_of(g)}, all.soup.vertices[all.soup.facets[f][0]]};
 }
 
-// A solid inside of another one, which it does not touch, is cut out of it: both are regions.
+// Cuts a solid that lies inside of another one, which it does not touch, out of it: both are regions.
 void take_nested(Bodies& all, Model& model) {
     if (all.volumes.size() < 2) return;
     std::vector<std::int32_t> body_of_facet(all.soup.facets.size());
@@ -274,7 +276,7 @@ Bodies tessellate_all(Model& model, const CadOptions& options, const std::string
     return all;
 }
 
-// Patches without facets are left out, and those of one name are one.
+// Gives the soup its patches. Patches without facets are left out, and those of one name are one.
 void set_patches(Soup& soup, const std::vector<cad::Patch>& patches) {
     std::vector<std::int32_t> number(patches.size(), -1);
     for (const std::int32_t p : soup.patch) number[p] = 0;
@@ -312,7 +314,7 @@ std::string description(const CadBody& body) {
                        100 * (body.volume - body.exact_volume) / body.exact_volume);
 }
 
-// What a file becomes, and the shapes of which it is made.
+// The result for a file, and the shapes of which it is made.
 struct ImportedModel {
     CadBody body;
     std::vector<Body> shapes;

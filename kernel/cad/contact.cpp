@@ -1,3 +1,10 @@
+// Whether curved solids touch is decided by OpenCASCADE's classifier of points, which is exact but slow; coarse facets
+// only say where to ask. All bodies are tessellated with chords of 1e-3 of their diagonals, pairs of facets of
+// different bodies that meet are found, and for a few pairs of each two faces some ten points are classified: corners,
+// which lie on the true faces of their own body, and points in which edges pass planes or edges of the other facet. A
+// point that both bodies hold is a contact. The chords of a convex and a concave face may meet where the faces do not:
+// then all points fail and nothing is found, which is right. A contact that is missed here is found by the fine facets
+// later.
 #include "cad/contact.h"
 
 #include <algorithm>
@@ -22,8 +29,8 @@ namespace {
 
 constexpr double deflection = 1e-3;  // of the diagonal
 constexpr double angle = 0.35;
-constexpr std::size_t most_pairs = 20000;  // of facets that meet
-constexpr int most_pairs_of_faces = 4;     // of facets that are looked at
+constexpr std::size_t most_pairs = 20000;  // pairs of facets that meet
+constexpr int most_pairs_of_faces = 4;     // of facets that are compared for each pair of faces
 constexpr int most_comparisons = 400;      // pairs of facets, each some ten points
 
 using Corners = std::array<Vec3, 3>;
@@ -51,7 +58,7 @@ struct CoarseFacets {
     }
 };
 
-// Whether bodies hold points.
+// Tells whether bodies hold points.
 class PointsInBodies {
  public:
     explicit PointsInBodies(const std::vector<Body>& bodies) : bodies_(bodies), classifiers_(bodies.size()) {}
@@ -68,8 +75,8 @@ class PointsInBodies {
     std::vector<std::unique_ptr<BRepClass3d_SolidClassifier>> classifiers_;
 };
 
-// Where edges of one triangle go through the other one's plane, or pass edges of it: what two that meet have in common,
-// and points that they have not.
+// Returns points where two triangles that meet may have something in common: where edges of one go through the plane of
+// the other, or pass edges of it. Some of them are in neither.
 std::vector<Vec3> meeting_points(const Corners& one, const Corners& other) {
     std::vector<Vec3> points;
     const auto add_edges_through_plane = [&](const Corners& edges, const Corners& plane) {

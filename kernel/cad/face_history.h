@@ -1,4 +1,4 @@
-// Patches of faces that an algorithm of OpenCASCADE has changed.
+// Follows the patches of faces through algorithms of OpenCASCADE that change the faces.
 #pragma once
 
 #include <TopAbs.hxx>
@@ -10,8 +10,9 @@
 
 namespace kerf::cad {
 
-/// Binds what became of the faces of a body to their patches. `images(face)`: what stands in the place of the face, may
-/// be null. In the order of the faces, never in that of the map, which is one of addresses; the first patch stays.
+/// Binds the images of the faces of a body to their patches. `images(face)`: the shapes in the place of the face, which
+/// may be null. Goes in the order of the faces, never in that of the map, which is one of addresses; the first patch
+/// stays.
 template <class Images>
 void follow_faces(const Body& old, const Images& images, TopTools_DataMapOfShapeInteger& patch_of) {
     TopTools_IndexedMapOfShape faces;
@@ -26,7 +27,7 @@ void follow_faces(const Body& old, const Images& images, TopTools_DataMapOfShape
     }
 }
 
-/// Whether every face of the shape has a patch.
+/// Tells whether every face of the shape has a patch.
 inline bool knows_all_faces(const TopoDS_Shape& shape, const TopTools_DataMapOfShapeInteger& patch_of) {
     for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
         if (!patch_of.IsBound(faces.Current())) return false;

@@ -1,3 +1,8 @@
+// Each step is an algorithm of OpenCASCADE on the shape of a body, followed by follow_faces() (face_history.h), which
+// gives the new faces the patches of the old ones; a result in which a face has lost its patch is refused, and the body
+// stays as it was. Sewing tries tolerances from small to large, because a large one may sew faces that belong apart,
+// and takes the first that leaves no free edge: an edge of one face only that is neither degenerate, nor a seam, nor
+// internal.
 #include "cad/healing.h"
 
 #include <algorithm>
@@ -33,7 +38,7 @@ namespace kerf::cad {
 
 namespace {
 
-// The shells as solids that are turned outwards.
+// Returns the shells as solids that are turned outwards.
 TopoDS_Compound solids_of_shells(const TopoDS_Shape& sewn) {
     TopoDS_Compound solids;
     BRep_Builder builder;

@@ -1,3 +1,10 @@
+// OpenCASCADE's general fuse splits all solids at each other, so that a face in which two touch exists once. Every body
+// must come out of it whole: its solids are followed through the history, none may be of two bodies, and their volumes
+// must add up to that of the body. A face is met once for each solid that has it: first with a body behind it, a second
+// time, turned over, with the other in front, which makes it a wall; a face with one body on both sides is left out. A
+// solid may come out inside out; it is known by a negative volume, and its faces are turned. At last the two bodies
+// that were known to touch must have a vertex in common, else the tolerance was too small. A tolerance of 1e-6 is tried
+// first, that of the model alone second and 1e-5 last; the reason for a failure is that of the second.
 #include "cad/imprint.h"
 
 #include <algorithm>
@@ -28,7 +35,8 @@ namespace kerf::cad {
 
 namespace {
 
-// Of the smallest diagonal, as tolerances: what programs round leaves gaps where none is meant.
+// Tolerances as shares of the smallest diagonal, in the order in which they are tried; 0 is that of the model alone.
+// Programs round, which leaves gaps where none is meant.
 constexpr std::array<double, 3> shares = {1e-6, 0, 1e-5};
 constexpr double integration_precision = 1e-6;  // as body_mesher.cpp has it
 constexpr double least_volume = 1e-12;          // of the box around a body
@@ -52,14 +60,14 @@ TopTools_IndexedMapOfShape sub_shapes(const TopoDS_Shape& shape, TopAbs_ShapeEnu
     return found;
 }
 
-// What stands in the place of a shape.
+// Returns the shapes in the place of a shape.
 TopTools_ListOfShape images_of(BOPAlgo_Builder& builder, const TopoDS_Shape& shape) {
     TopTools_ListOfShape images = builder.Modified(shape);
     if (images.IsEmpty() && !builder.IsDeleted(shape)) images.Append(shape);
     return images;
 }
 
-// One general fuse and what becomes of the bodies in it.
+// One general fuse, and the bodies in its result.
 class GeneralFuse {
  public:
     GeneralFuse(const std::vector<Body>& bodies, const std::vector<Patch>& patches, double tolerance)
@@ -74,7 +82,7 @@ class GeneralFuse {
         assembly_.tolerance = tolerance;
     }
 
-    // False: see `failure`.
+    // Returns false with the reason in `failure`.
     bool run(const Contact& contact) {
         builder_.Perform();
         failure.bodies = contact.bodies;
@@ -100,7 +108,7 @@ class GeneralFuse {
         return false;
     }
 
-    // A solid of the result that two bodies have become is what they overlap in.
+    // Takes the solids of each body. A solid of the result that two bodies have become is their overlap.
     bool take_solids() {
         TopTools_DataMapOfShapeInteger body_of;
         solids_.resize(bodies_.size());
@@ -136,7 +144,7 @@ class GeneralFuse {
         return true;
     }
 
-    // A face that has another body on its other side is met a second time, turned over.
+    // Takes the faces of all solids. A face with a body on its other side, too, is met a second time, turned over.
     bool take_faces() {
         TopTools_IndexedMapOfShape faces;
         std::vector<FacetSides> sides;
@@ -161,7 +169,7 @@ class GeneralFuse {
         return bind_faces(faces, sides);
     }
 
-    // Faces of the assembly with their patches: one for each face of the file and what is on its sides.
+    // Takes the faces with their patches: one for each face of the file and the regions on its sides.
     bool bind_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<FacetSides>& sides) {
         TopTools_DataMapOfShapeInteger patch_of;
         for (const Body& body : bodies_)
@@ -204,7 +212,7 @@ class GeneralFuse {
     const std::vector<Body>& bodies_;
     const std::vector<Patch>& patches_;
     BOPAlgo_Builder builder_;
-    std::vector<std::vector<Piece>> solids_;  // of each body
+    std::vector<std::vector<Piece>> solids_;  // by body
     Assembly assembly_;
 };
 
@@ -245,7 +253,7 @@ Imprint::Imprint(const std::vector<Body>& bodies, const std::vector<Patch>& patc
                 return;
             }
             if (share == 0) failure_ = fuse.failure;
-        } catch (const Standard_Failure&) {  // as if it said so
+        } catch (const Standard_Failure&) {  // the same as an error of its own
         }
 }
 

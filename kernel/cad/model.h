@@ -1,4 +1,4 @@
-// What a CAD file says, as OpenCASCADE's shapes with names and colours.
+// The content of a CAD file, as OpenCASCADE's shapes with names and colours.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace kerf::cad {
 
-using Colour = std::array<std::uint8_t, 4>;  // sRGB and 255, or zeros: none
+using Colour = std::array<std::uint8_t, 4>;  // sRGB and 255; zeros: no colour
 
 /// A face of the file. Pieces of it, if it is cut, stay one patch.
 struct Patch {
@@ -28,22 +28,22 @@ struct Body {
     std::string name;  ///< path along the assembly; unique
     TopoDS_Shape shape;
     TopTools_DataMapOfShapeInteger patch_of;  ///< face -> index into Model::patches
-    std::string own_name = {};                ///< without the path, as the file has it; empty: none
+    std::string own_name = {};                ///< name in the file without the path; empty if it has none
 };
 
 struct Model {
     CadFormat format = CadFormat::none;
-    std::string unit;  ///< of the file; empty: none. Shapes are in millimetres if there is one
+    std::string unit;  ///< of the file; empty for BREP, which has none. Shapes are in millimetres if there is one
     std::vector<Body> bodies;
     std::vector<Patch> patches;
-    Body loose;  ///< faces that belong to no solid, in a compound; null: none
+    Body loose;  ///< faces that belong to no solid, in a compound; null if there are none
     std::vector<std::string> notes;
 };
 
 /// Reads the content of a file. Throws Error(input) for content that is damaged, cut off or without any face.
 Model read_model(std::string_view content, const std::string& path);
 
-/// The names of the patches of these faces, the first few of them.
+/// Returns the names of the patches of these faces, the first few of them.
 std::string names_of(const std::vector<std::int32_t>& patches, const std::vector<Patch>& all);
 
 }  // namespace kerf::cad

@@ -63,7 +63,7 @@ class FileInMemory {
     int descriptor_;
 };
 
-// At most so many bytes, but whole characters of UTF-8.
+// Returns at most so many bytes of a text, but whole characters of UTF-8.
 std::string shortened(std::string text, std::size_t longest) {
     if (text.size() <= longest) return text;
     std::size_t end = longest;
@@ -72,7 +72,7 @@ std::string shortened(std::string text, std::size_t longest) {
     return text;
 }
 
-// Names that programs write where the user gave none.
+// Tells names that programs write where the user gave none.
 bool is_filler(const std::string& name) {
     static const std::set<std::string> fillers = {"",
                                                   "SOLID",
@@ -120,13 +120,13 @@ Colour colour_of(const Quantity_Color& linear) {
     return colour;
 }
 
-// Solids and loose faces, in the order of the file.
+// Collects solids and loose faces, in the order of the file.
 class ModelBuilder {
  public:
     explicit ModelBuilder(Model& model) : model_(model) {}
 
-    // The solids in a shape, which is placed by `place`. `colour_of_face` and `name_of_solid` are asked for the shape
-    // as it is without the place.
+    // Adds the solids in a shape, which is placed by `place`. `colour` and `solid_name` are asked for the shape as it
+    // is without the place.
     template <class ColourOf, class NameOf>
     void add(const TopoDS_Shape& shape, const TopLoc_Location& place, const std::string& path, const ColourOf& colour,
              const NameOf& solid_name) {
@@ -291,7 +291,7 @@ std::string_view last_line(std::string_view content) {
     return content.substr(content.rfind('\n') + 1);  // npos + 1 is 0
 }
 
-// OpenCASCADE takes what there is of a file that is cut off, and says nothing.
+// Tells a file that is cut off: OpenCASCADE takes the part of it that is there, and says nothing.
 bool is_cut_off(std::string_view content, CadFormat format) {
     constexpr std::size_t section_column = 72;
     if (format == CadFormat::step) return content.find("END-ISO-10303-21") == content.npos;

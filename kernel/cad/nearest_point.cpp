@@ -1,3 +1,8 @@
+// The function that is minimised is f(x) = |s(x) - p|^2 / 2 over a box of parameters x, s the surface or curve. Its
+// Hessian is the metric, s_i . s_j, plus off . s_ij with off = s(x) - p; the second term makes it indefinite far from
+// the minimum, and then the metric alone is used, which always goes down (Gauss and Newton's step). A parameter at a
+// bound whose gradient points outwards is held for the step. Steps are halved until the value falls. The start decides
+// which minimum is found: callers take it from the nearest facet. Formulas of elementary surfaces need no start.
 #include "cad/nearest_point.h"
 
 #include <algorithm>
@@ -18,12 +23,12 @@ namespace {
 
 constexpr int most_newton_steps = 30;
 constexpr int most_halvings = 12;
-constexpr double newton_precision = 1e-14;  // of a step, of the size of what it is added to
+constexpr double newton_precision = 1e-14;  // of a step, as a share of the range of parameters
 
 Vec3 vector_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 Vec3 vector_of(const gp_Vec& v) { return {v.X(), v.Y(), v.Z()}; }
 
-// By a surface's own parameters, which are those of its nearest point.
+// Returns the nearest point of a surface that has a formula for the parameters of a point.
 template <class Elementary>
 Vec3 nearest_on(const Elementary& surface, const Vec3& p) {
     double u = 0, v = 0;
@@ -31,8 +36,8 @@ Vec3 nearest_on(const Elementary& surface, const Vec3& p) {
     return vector_of(ElSLib::Value(u, v, surface));
 }
 
-// Newton's steps for the squared distance to p, half of it, over a box of parameters. `evaluate(x)` returns value,
-// gradient and Hessian; steps go down, and what they would cross of the box they stop at.
+// Minimises half the squared distance to p over a box of parameters by Newton's steps. `evaluate(x)` returns value,
+// gradient and Hessian; steps must go down, and end at the bounds of the box that they would cross.
 template <int n, class Evaluate>
 Eigen::Matrix<double, n, 1> minimise(Eigen::Matrix<double, n, 1> x, const Eigen::Matrix<double, n, 1>& low,
                                      const Eigen::Matrix<double, n, 1>& high, const Evaluate& evaluate) {
@@ -51,7 +56,8 @@ Eigen::Matrix<double, n, 1> minimise(Eigen::Matrix<double, n, 1> x, const Eigen:
             gradient[i] = 0;
         }
         if (Eigen::LLT<decltype(hessian)>(hessian).info() != Eigen::Success) {
-            // Away from the bottom of the valley: the part without curvature, damped where parameters are degenerate.
+            // Away from the bottom of the valley the Hessian is replaced by its part without curvature, damped where
+            // parameters are degenerate.
             hessian = now.metric;
             hessian.diagonal().array() += 1e-9 * now.metric.trace() + std::numeric_limits<double>::min();
         }
@@ -78,7 +84,7 @@ struct SquaredDistance {
     Eigen::Matrix<double, n, n> hessian, metric;
 };
 
-// Parameters may be endless.
+// Bounds a parameter, which may be endless.
 double bounded(double t) { return std::clamp(t, -1e100, 1e100); }
 
 }  // namespace

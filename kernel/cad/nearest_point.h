@@ -1,4 +1,4 @@
-// The point of a curved face or curve that is nearest to another point, from a start that is near.
+// Finds the point of a curved face or curve that is nearest to another point, from a start that is near.
 #pragma once
 
 #include <BRepAdaptor_Curve.hxx>
@@ -10,13 +10,14 @@
 
 namespace kerf::cad {
 
-/// The surface of a face. Planes, cylinders, cones, spheres and tori have formulas; of others a point is found by
-/// Newton's iteration within the parameters of the face. The surface is not trimmed: points beside the face may have
-/// theirs there, too.
+/// The surface of a face. Planes, cylinders, cones, spheres and tori have formulas; on other surfaces a point is found
+/// by Newton's iteration within the parameters of the face. The surface is not trimmed: the nearest point may lie
+/// beside the face.
 class NearestOnFace {
  public:
     explicit NearestOnFace(const TopoDS_Face& face) : surface_(face) {}
-    /// Millimetres. `u`, `v`: parameters of a point of the face that is near. Deterministic.
+    /// Returns the nearest point, in millimetres. `u`, `v`: parameters of a point of the face that is near.
+    /// Deterministic.
     Vec3 find(const Vec3& p, double u, double v) const;
 
  private:
@@ -31,7 +32,7 @@ class NearestOnEdge {
     double first() const { return curve_.FirstParameter(); }
     double last() const { return curve_.LastParameter(); }
     Vec3 at(double t) const;
-    /// `t`: parameter of a point of the edge that is near.
+    /// Returns the nearest point, in millimetres. `t`: parameter of a point of the edge that is near.
     Vec3 find(const Vec3& p, double t) const;
 
  private:

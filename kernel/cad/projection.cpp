@@ -1,3 +1,9 @@
+// A place of points is a set of patches, as faces or as the curve between them. For each set that occurs a target is
+// made once: the facets of its faces in a tree, with the parameters of the face at their corners, or its curves as
+// straight pieces. A point goes to the nearest facet of the target; barycentric weights there give the parameters from
+// which the exact nearest point is found (nearest_point.h). So the face is chosen by facets, and the point by the face.
+// Curves are edges of the model between different patches, and creases inside of one. Middles of edges are projected
+// last, from the middle of the ends that have been moved already.
 #include "cad/projection.h"
 
 #include <algorithm>
@@ -24,9 +30,9 @@ namespace kerf::cad {
 
 namespace {
 
-constexpr int pieces_of_curve = 64;  // straight, to find where on the curve to start
+constexpr int pieces_of_curve = 64;  // straight pieces, to find the start on the curve
 
-// Some faces with the facets that they have.
+// Some faces with their facets, in a tree.
 class FaceGroup {
  public:
     explicit FaceGroup(const std::vector<TopoDS_Face>& faces) {
@@ -129,7 +135,7 @@ class CurveGroup {
     std::vector<Curve> curves_;
 };
 
-// All faces and curves by the names of patches.
+// All faces and curves, by the names of patches.
 class Projector {
  public:
     Projector(const std::vector<Body>& shapes, const std::vector<Patch>& patches, const CadPoints& points) {
@@ -193,7 +199,7 @@ class Projector {
         return {CurveGroup(shared), faces_of(place.patches)};
     }
 
-    // A patch that the model does not know stands for all faces.
+    // Returns the faces of patches. A patch that the model does not know stands for all faces.
     std::shared_ptr<const FaceGroup> faces_of(const std::vector<std::int32_t>& patches) {
         std::vector<TopoDS_Face> faces;
         bool is_known = !patches.empty();

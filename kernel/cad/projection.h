@@ -1,4 +1,4 @@
-// Points onto the faces and curves of a model.
+// Puts points on the faces and curves of a model.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,10 @@
 namespace kerf::cad {
 
 /// Puts points on shapes that have been tessellated: on the nearest of the faces of their patches, or of the curves
-/// that faces of all of their patches share; on the nearest face of theirs if there is no such curve. Where to start on
-/// a face or curve is told by its facets. `patches`: those of `shapes`; `millimetres`: of the unit of the points.
-/// Deterministic. O(log #F) a point: about a microsecond on analytic faces, 10 on free-form ones.
+/// that faces of all of their patches share; on the nearest face of theirs if there is no such curve. The facets of a
+/// face, and straight pieces of a curve, tell where to start on it. `patches`: the patches of `shapes`; `millimetres`:
+/// length of the unit of the points. Deterministic. O(log #F) a point: about a microsecond on analytic faces, 10 on
+/// free-form ones.
 ProjectedPoints project_points(const std::vector<Body>& shapes, const std::vector<Patch>& patches,
                                const CadPoints& points, double millimetres);
 

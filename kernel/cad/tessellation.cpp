@@ -1,11 +1,11 @@
-// BRepMesh cuts every edge of the model once and then fills each face by itself, with nodes of its own. What is node k
-// of an edge in one face is node k of the same edge in the other: that joins the faces, where comparing coordinates
-// would leave cracks of 1e-14. An edge that a face has on both sides (the seam of a cylinder) is visited twice by the
+// BRepMesh cuts every edge of the model once and then fills each face by itself, with nodes of its own. Node k of an
+// edge in one face is node k of the same edge in the other: that joins the faces, where comparing coordinates would
+// leave cracks of 1e-14. An edge that a face has on both sides (the seam of a cylinder) is visited twice by the
 // explorer, forward and reversed, and has a list of nodes for each side. All nodes of a degenerate edge (the tip of a
 // cone) are its vertex.
 //
-// Triangles with a repeated vertex are left out then, and so are pairs of opposite triangles on the same vertices,
-// which slivers of faces collapse into.
+// Triangles with a repeated vertex are left out then, and so are pairs of opposite triangles on the same vertices, into
+// which slivers of faces collapse; between regions one of such a pair stays, if it still separates two.
 #include "cad/tessellation.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ Vec3 to_vec3(const gp_Vec& p) { return {p.X(), p.Y(), p.Z()}; }
 
 TopoDS_Edge forward(const TopoDS_Edge& edge) { return TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)); }
 
-// The surface of a face and where facets are in it.
+// The surface of a face, for the heights over its facets.
 class FaceHeights {
  public:
     FaceHeights(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangles)
@@ -81,8 +81,8 @@ class FaceHeights {
  private:
     static constexpr double least_height = 1e-6;  // of a facet over its longest edge, below which its normal is noise
 
-    // Over the point p of a facet: where the face has `uv`, which is p but for what parameters are stretched, corrected
-    // by a step of Newton's.
+    // Returns the height of the face over the point p of a facet. The face at `uv` is over p but for the stretch of the
+    // parameters, which a step of Newton's corrects.
     double height_at(const gp_XY& uv, const Vec3& p, const Vec3& normal) const {
         gp_Pnt point;
         gp_Vec along_u, along_v;
@@ -155,7 +155,7 @@ class Welder {
         }
     }
 
-    // Where a vertex of another body lies in the face, the node at that place is it.
+    // Gives the node at the place of a vertex of another body that lies in the face the number of that vertex.
     template <class Point>
     void number_inner_vertices(const TopoDS_Face& face, const Poly_Triangulation& triangles, const Point& point) {
         for (TopExp_Explorer inner(face, TopAbs_VERTEX, TopAbs_EDGE); inner.More(); inner.Next()) {
@@ -248,8 +248,8 @@ class Welder {
         keep_facets(drop);
     }
 
-    // Gives a facet what lies behind its twin, where one region has collapsed between them. False if nothing separates
-    // two regions any more.
+    // Gives a facet the region behind its twin, where one region has collapsed between them. Returns false if nothing
+    // separates two regions any more.
     static bool join(FacetSides& sides, const FacetSides& twin) {
         if (sides.front == twin.front)
             sides.front = twin.back;
@@ -258,7 +258,7 @@ class Welder {
         return sides.front != sides.back;
     }
 
-    // Those that bound patches, and creases inside of one.
+    // Adds the edges that bound patches, and creases inside of one.
     void add_edges() {
         for (int i = 1; i <= faces_of_edge_.Extent(); ++i) {
             const std::vector<std::int32_t>& nodes = nodes_of_edge_[static_cast<std::size_t>(i)];
@@ -332,7 +332,7 @@ Tessellation tessellate(const Body& body, const TessellationSettings& settings, 
     return mesh;
 }
 
-// Of the tetrahedra between the facets and a vertex, so that a body far from the origin loses no digits.
+// Sums up the tetrahedra between the facets and a vertex, so that a body far from the origin loses no digits.
 double enclosed_volume(const Tessellation& mesh) {
     if (mesh.vertices.empty()) return 0;
     const Vec3& apex = mesh.vertices.front();

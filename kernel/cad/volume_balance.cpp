@@ -18,7 +18,7 @@ FacetsOfFaces faces_of(const Tessellation& mesh) {
     return {mesh.facets, mesh.patch, mesh.plane, mesh.rise, mesh.sides};
 }
 
-// Moves `mesh` by a multiple of `moves` from `start` such that it holds `volume`. False if it does not.
+// Moves `mesh` by a multiple of `moves` from `start` such that it holds `volume`. Returns false if it does not.
 bool move_to_volume(Tessellation& mesh, const std::vector<Vec3>& start, const std::vector<Vec3>& moves, double volume) {
     const auto volume_at = [&](double scale) {
         for (std::size_t v = 0; v < moves.size(); ++v) mesh.vertices[v] = start[v] + scale * moves[v];
