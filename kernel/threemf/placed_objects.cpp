@@ -10,12 +10,12 @@ namespace {
 constexpr std::uint64_t most_objects = std::uint64_t{1} << 32;
 constexpr std::string_view blanks = " \t\r\n";
 
-// The elements of a text, one after the other.
+// Walks over the elements of a text.
 class XmlTags {
  public:
     explicit XmlTags(std::string_view text) : text_(text) {}
 
-    // Moves to the next one: what is between its brackets, without a comment or a declaration. False at the end.
+    // Moves to the next element, the text between its brackets, past comments. Returns false at the end.
     bool next() {
         for (;;) {
             const std::size_t begin = text_.find('<');
@@ -29,13 +29,13 @@ class XmlTags {
             return true;
         }
     }
-    // Without a prefix of a namespace.
+    // Returns the name of the element without the prefix of a namespace.
     std::string_view name() const {
         const std::string_view name = tag_.substr(0, tag_.find_first_of(" \t\r\n/", 1));
         const std::size_t colon = name.find(':');
         return colon == name.npos || name.starts_with('/') ? name : name.substr(colon + 1);
     }
-    // Empty if it has none of this name.
+    // Returns the value of an attribute, empty if there is none of this name.
     std::string_view attribute(std::string_view name) const {
         for (std::size_t at = tag_.find(name); at != tag_.npos; at = tag_.find(name, at + 1)) {
             if (at == 0 || blanks.find(tag_[at - 1]) == blanks.npos) continue;

@@ -1,5 +1,8 @@
 // Build items place objects; an object has a mesh of its own, or is made of components, which place other objects. So
-// the way down from an item to a mesh gives its place by the product of all transformations, and its name.
+// the way down from an item to a mesh gives its place, by the product of all transformations, and its name. A
+// transformation that mirrors would turn facets inside out, so these are turned then. Objects are counted from the text
+// before lib3mf reads it (threemf/placed_objects.h), since it follows components without a limit; the limits are
+// checked again on the way down, for objects, levels and facets.
 #include "threemf/threemf_import.h"
 
 #include <map>
@@ -19,12 +22,12 @@ namespace kerf {
 
 namespace {
 
-// Components may repeat objects of components: a few lines of a file are as many facets as one likes.
+// Limits: components may repeat objects of components, so that a few lines of a file stand for any number of facets.
 constexpr std::int64_t most_placed_facets = 100'000'000;
 constexpr std::uint64_t most_placed_objects = 100'000;
 constexpr int most_levels = 100;
 
-/// What lib3mf has given away.
+/// An object of lib3mf, which is released with this.
 class Handle {
  public:
     Handle() = default;
@@ -41,7 +44,7 @@ class Handle {
     NMR::PLib3MFBase* pointer_ = nullptr;
 };
 
-// Of columns: the rows of the matrix, each with its share of the shift behind it.
+// Returns a transformation; lib3mf has the rows of its matrix, each with the row's share of the shift behind it.
 Eigen::Affine3d placement_of(const NMR::MODELTRANSFORM& transform) {
     Eigen::Affine3d placement = Eigen::Affine3d::Identity();
     for (int row = 0; row < 3; ++row)
@@ -80,7 +83,7 @@ class ThreemfReader {
 
  private:
     [[noreturn]] void refuse(const std::string& what) const { throw Error(ErrorCode::input, path_ + ": " + what); }
-    // Of all calls of lib3mf: 0 is success.
+    // Checks the status of a call of lib3mf: 0 is success.
     void require(int status) const {
         if (status != 0) refuse("lib3mf cannot read this 3MF file. Export it again, or as STL, OBJ or PLY.");
     }
@@ -226,7 +229,7 @@ class ThreemfReader {
         }
         const int placed = ++placed_[name];
         builder_.set_patch(placed == 1 ? name : fmt::format("{} {}", name, placed));
-        const bool mirrors = placement.linear().determinant() < 0;  // what was outside would be inside
+        const bool mirrors = placement.linear().determinant() < 0;  // turns facets inside out
         for (const NMR::MODELMESHTRIANGLE& facet : facets) {
             const std::array<std::int64_t, 3> corners = {first + facet.m_nIndices[0],
                                                          first + facet.m_nIndices[mirrors ? 2 : 1],
@@ -247,11 +250,11 @@ class ThreemfReader {
     SoupBuilder builder_;
     Handle model_;
     FileUnit unit_ = {};
-    double scale_ = 1;  // from the unit of the file to the one that is wanted
+    double scale_ = 1;  // from the unit of the file to the wanted one
     std::int32_t items_ = 0, supports_ = 0;
     std::uint64_t placed_objects_ = 0;
     std::int64_t placed_facets_ = 0;
-    std::map<std::string, int> placed_;  // how often each name was
+    std::map<std::string, int> placed_;  // number of placements by name
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// 3MF files to triangle soups, by lib3mf.
+// Reads 3MF files as triangle soups, by lib3mf.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace kerf {
 
-/// The objects that a 3MF file has to be built, where it places them, in `options.unit`. An object is a patch, named as
-/// in the file, "object 5" where it has no name, behind the names of the objects of components that it is part of:
-/// "table/leg". Where an object is placed several times, the others are "table/leg 2", "table/leg 3", ... Objects that
-/// touch or overlap are not united. Those that only support what is printed are passed over; CadBody::soup.notes says
-/// so. `options.solid` takes one build item. CadBody::solids counts build items, CadBody::faces patches.
+/// Returns the objects that a 3MF file has to be built, where it places them, in `options.unit`. An object is a patch,
+/// named as in the file, "object 5" where it has no name, behind the names of the objects of components that it is part
+/// of: "table/leg". Where an object is placed several times, the others are "table/leg 2", "table/leg 3", ... Objects
+/// that touch or overlap are not united. Objects that only support others in the print are passed over;
+/// CadBody::soup.notes says so. `options.solid` takes one build item. CadBody::solids counts build items,
+/// CadBody::faces patches.
 ///
 /// lib3mf keeps coordinates and transformations in single precision; they are applied in double precision.
 ///
