@@ -33,7 +33,7 @@ struct Body {
 
 struct Model {
     CadFormat format = CadFormat::none;
-    std::string unit;  ///< of the file; empty for BREP, which has none. Shapes are in millimetres if there is one
+    std::string unit;  ///< unit of the file, and shapes are in millimetres; empty for BREP, which has none
     std::vector<Body> bodies;
     std::vector<Patch> patches;
     Body loose;  ///< faces that belong to no solid, in a compound; null if there are none

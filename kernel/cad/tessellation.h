@@ -26,7 +26,7 @@ struct Tessellation {
     /// Patches of faces in which a vertex of another region lies that none of their facets has.
     std::vector<std::int32_t> pierced_patches;
     std::vector<std::int32_t> open_patches;  ///< patches with an edge that is not used once each way, ascending
-    double volume = 0;                       ///< inside; right if the facets are closed
+    double volume = 0;                       ///< volume inside; right if the facets are closed
 };
 
 /// Returns the triangles of all faces, as BRepMesh makes them, which are closed if the model is and no face fails.

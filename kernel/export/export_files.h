@@ -22,7 +22,7 @@ namespace kerf {
 struct FormatOptions {
     CellFieldSet fields = default_cell_fields;  ///< fields of cells in files of vtu
     bool msh_ascii = false;                     ///< msh as text
-    std::vector<PatchType> patch_types = {};    ///< for openfoam; other patches are of the type `patch`
+    std::vector<PatchType> patch_types = {};    ///< types in openfoam; other patches are of the type `patch`
     bool split_regions = false;                 ///< openfoam: one mesh for each region
 };
 

@@ -13,20 +13,20 @@
 namespace kerf {
 
 struct MergeOptions {
-    std::string msh_version = "4.1";  ///< of Gmsh: 4.1 or 2.2
+    std::string msh_version = "4.1";  ///< version of Gmsh's format: 4.1 or 2.2
 };
 
 /// A format, as functions that write it, which are null where it has no such files. The bytes that they write depend on
 /// the parts alone. They throw Error(io) if a file cannot be written, and Error(usage), before the first byte, for a
 /// mesh that the format cannot hold.
 struct Format {
-    const char* name;                    ///< as given to --format
+    const char* name;                    ///< word for --format
     const char* help;                    ///< a few words on its kind and its readers
-    const char* ending;                  ///< of merged files, with its dot; null: there are none
-    OutputKind kind = {};                ///< of merged files, with those beside the named one
+    const char* ending;                  ///< ending of merged files, with its dot; null: there are none
+    OutputKind kind = {};                ///< kind of merged files, the named one and those beside it
     bool needs_face_neighbours = false;  ///< write_part() gets a part with neighbours of cells
     bool asks_for_one_part = false;      ///< write_part() loads no other part, write_whole() none
-    int highest_order = 2;               ///< of the cells that it can hold
+    int highest_order = 2;               ///< highest order of cells that it can hold
     /// Returns the words for patches of these names in the files; null: patches have their names there, or numbers.
     std::vector<std::string> (*patch_words)(const std::vector<std::string>& names) = nullptr;
 

@@ -14,7 +14,7 @@ enum class Hdf5Type { byte, int32, int64, real };
 constexpr std::int64_t size_of(Hdf5Type type) { return type == Hdf5Type::byte ? 1 : type == Hdf5Type::int32 ? 4 : 8; }
 
 struct Hdf5Array {
-    std::string name;  ///< with its groups
+    std::string name;  ///< name with its groups
     Hdf5Type type;
     std::int64_t rows;
     std::int64_t columns = 0;  ///< 0: the array has one dimension

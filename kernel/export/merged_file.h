@@ -10,18 +10,18 @@
 namespace kerf {
 
 struct MergeRequest {
-    std::string folder;  ///< of the run; empty: the parts are of no run
+    std::string folder;  ///< folder of the run; empty: the parts are of no run
     std::string output;  ///< file, whose ending chooses the format
     MergeOptions options;
     bool msh_ascii = false;                   ///< Gmsh's files as text
     std::function<bool()> is_cancelled = {};  ///< asked before parts are read: true ends it with Error(cancelled)
-    int order = 0;                            ///< of the cells: 1 or 2; 0: that of the run
+    int order = 0;                            ///< order of the cells: 1 or 2; 0: that of the run
 };
 
 /// The mesh that merge_run() has written.
 struct MergedFile {
     std::int64_t vertices = 0, tets = 0;
-    std::int64_t bytes = 0;  ///< of all files of the mesh
+    std::int64_t bytes = 0;  ///< bytes of all files of the mesh
     std::int64_t nodes = 0;  ///< vertices, and of order 2 the nodes on edges
 };
 

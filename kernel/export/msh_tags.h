@@ -76,7 +76,7 @@ std::vector<std::string> readable_names(const std::vector<std::string>& names);
 /// The piece of a material in a part.
 struct MaterialPiece {
     std::int32_t material = 0;
-    std::vector<std::int32_t> tets;    ///< of the part, ascending
+    std::vector<std::int32_t> tets;    ///< tetrahedra of the part, ascending
     std::vector<std::int32_t> inside;  ///< nodes on no patch
     Eigen::AlignedBox3d box;
 };

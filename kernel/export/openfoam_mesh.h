@@ -18,8 +18,8 @@ using Label = std::int32_t;
 /// The place of the files of a mesh.
 struct MeshPlace {
     std::int32_t processor;
-    std::string location;  ///< as headers name it
-    std::string folder;    ///< of the case, with a slash at its end
+    std::string location;  ///< location as headers name it
+    std::string folder;    ///< folder in the case, with a slash at its end
 };
 
 /// Returns the place constant/polyMesh, of a region constant/REGION/polyMesh, in the folder of its processor where

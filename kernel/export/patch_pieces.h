@@ -14,10 +14,10 @@ namespace kerf {
 /// both of its sides, though only one part lists its triangles.
 struct PatchPiece {
     std::int32_t patch = -1;
-    std::vector<std::int32_t> facets;  ///< of the part, ascending
+    std::vector<std::int32_t> facets;  ///< numbers of facets of the part, ascending
     std::vector<std::int32_t> places;  ///< numbers of `facets` among all facets that the part lists, from 0
     std::vector<std::int32_t> nodes;   ///< nodes on this patch and on none before it
-    Eigen::AlignedBox3d box;           ///< of the triangles' nodes
+    Eigen::AlignedBox3d box;           ///< box of the triangles' nodes
 };
 
 /// The pieces of all patches in a part. Every node is listed once: on its first patch, or else inside.

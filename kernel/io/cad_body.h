@@ -28,7 +28,7 @@ struct CadOptions {
     std::int32_t solid = 0;            ///< number of the only solid, from 1 in the order of the file; 0: all
     bool unite = false;                ///< solids that touch or overlap become one
     bool no_imprint = false;           ///< solids that touch are refused, and do not become regions that share walls
-    LengthUnit unit = LengthUnit::mm;  ///< of the result; a file that names no unit (BREP) keeps its numbers
+    LengthUnit unit = LengthUnit::mm;  ///< unit of the result; a file without one (BREP) keeps its numbers
     double deflection = 0;             ///< largest distance of a chord from its curve as a share of the diagonal of
                                        ///< the solid; 0: such that the volume is right to `volume_tolerance`,
                                        ///< for which vertices leave the curved faces a little
@@ -36,7 +36,7 @@ struct CadOptions {
     bool on_faces = false;             ///< all vertices stay on the faces, and the volume is right to 0.001 only: for
                                        ///< meshes whose nodes on edges are put on the faces, too
 
-    static constexpr double volume_tolerance = 1e-4;  ///< of |volume of facets - volume of solid| / volume of solid
+    static constexpr double volume_tolerance = 1e-4;  ///< most |volume of facets - volume of solid| / volume of solid
 
     /// Returns the options as arguments of kerf-cad.
     std::vector<std::string> arguments() const;
@@ -49,12 +49,12 @@ struct CadBody {
     Soup soup;              ///< closed and free of intersections; patches are faces, named `<path of the solid>/face n`
     std::string format;     ///< "STEP", "IGES" or "BREP"
     std::string file_unit;  ///< "inch"; "mm" if a STEP or IGES file names none; empty for BREP, which has none
-    std::string unit;       ///< of the soup; empty if the file has none
+    std::string unit;       ///< unit of the soup; empty if `file_unit` is
     std::int32_t solids = 0;
     std::int32_t faces = 0;
-    double exact_volume = 0;  ///< of the solids with their curved faces, by OpenCASCADE
-    double volume = 0;        ///< inside of the facets
-    FileHash file_hash = {};  ///< of the bytes that were read
+    double exact_volume = 0;  ///< volume of the solids with their curved faces, by OpenCASCADE
+    double volume = 0;        ///< volume inside of the facets
+    FileHash file_hash = {};  ///< hash of the bytes that were read
 
     template <class Archive>
     void archive(Archive& a) {
@@ -84,7 +84,7 @@ struct CadAnswer {
     CadBody body;
     std::string defect = {};  ///< kind of a SolidDefect; empty: another error, or none
     std::vector<ErrorElements> elements = {};
-    ProjectedPoints projected = {};  ///< where points were to be put on the faces: `body` has no soup then
+    ProjectedPoints projected = {};  ///< points that were put on the faces; `body` has no soup then
 
     template <class Archive>
     void archive(Archive& a) {

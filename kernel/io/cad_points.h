@@ -29,7 +29,7 @@ struct CadPlace {
 /// Points that are to be put on the model, and pairs of them whose middles are to be put there after them. In units of
 /// CadBody::soup.
 struct CadPoints {
-    std::vector<std::string> patch_names;           ///< of the soup; a name that the soup has not stands for all faces
+    std::vector<std::string> patch_names;           ///< patches of the soup; an unknown name stands for all faces
     std::vector<CadPlace> places;                   ///< few, each of many points
     std::vector<Vec3> points;                       ///< #P
     std::vector<std::int32_t> place;                ///< #P; number in `places`, -1: the point stays

@@ -37,7 +37,7 @@ class CheckedFile {
     }
 
     void write(const void* data, std::size_t size) {
-        // No data may be a null pointer, which fwrite must not get.
+        // Without data the pointer may be null, which fwrite must not get.
         check(size == 0 || std::fwrite(data, 1, size, file_.get()) == size, "write");
         if (hasher_) hasher_->add_bytes(data, size);
     }
@@ -51,7 +51,7 @@ class CheckedFile {
     }
     /// Reads at most `size` bytes; returns how many there were.
     std::size_t read_into(void* data, std::size_t size) {
-        // No room may be a null pointer, which fread must not get.
+        // Without room the pointer may be null, which fread must not get.
         const std::size_t got = size == 0 ? 0 : std::fread(data, 1, size, file_.get());
         check(!std::ferror(file_.get()), "read");
         if (hasher_ && got > 0) hasher_->add_bytes(data, got);

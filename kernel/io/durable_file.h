@@ -13,7 +13,7 @@ void write_durable_file(const std::string& path, std::span<const char> bytes);
 /// Waits until the disk has the entries of the folder. Throws Error(io).
 void sync_folder(const std::string& path);
 
-/// Waits until the disk has all that was written to the file system of the folder. Throws Error(io).
+/// Waits until the disk has all data that were written to the file system of the folder. Throws Error(io).
 void sync_file_system(const std::string& folder);
 
 }  // namespace kerf

@@ -48,8 +48,8 @@ class Elements {
         }
         if (is_taken() && !repeats_last()) add_element();
     }
-    /// Ends the elements: notes those that were ignored, and gives the builder what only all of them tell, names and
-    /// sides.
+    /// Ends the elements: notes those that were ignored, and gives the builder the names of volumes and the sides of
+    /// surfaces, which only all elements tell.
     void finish() const;
 
  private:
@@ -74,7 +74,7 @@ class Elements {
     std::pair<std::int64_t, std::int64_t> patch_ = {-1, -1}, last_patch_ = {-1, -1};  // group, entity
     std::int32_t volume_ = -1;                          // number of the volume of patch_; -1: not known yet
     std::vector<SurfaceRun> surfaces_;                  // runs of faces by their surface
-    std::vector<std::int64_t> corners_, last_corners_;  // of this face, of the last one
+    std::vector<std::int64_t> corners_, last_corners_;  // corners of this element, and of the last one
     std::array<std::int64_t, static_cast<std::size_t>(Shape::unknown)> counts_{};
 };
 

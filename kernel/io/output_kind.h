@@ -7,7 +7,7 @@
 namespace kerf {
 
 struct OutputKind {
-    const char* name;  ///< as in "is no trace of Kerf"
+    const char* name;  ///< word for messages, as in "is no trace of Kerf"
     /// Tells by the first 1,024 bytes of a file, or all of a shorter one, whether it is of the kind.
     bool (*is)(std::string_view beginning);
 };

@@ -18,7 +18,7 @@ using VolumeKey = std::pair<std::int64_t, std::int64_t>;
 /// The regions that the volumes of a file are: volumes of one name are one region.
 struct VolumeRegions {
     std::vector<std::int32_t> region_of_volume;  ///< one per volume
-    std::vector<std::string> names;              ///< of the regions, each once, in the order of the keys
+    std::vector<std::string> names;              ///< names of the regions, each once, in the order of the keys
 };
 
 /// Makes regions of volumes by their names, in the order of the keys. `number_of_volume`: from 0 on, without gaps;

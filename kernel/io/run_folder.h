@@ -86,7 +86,7 @@ class RunFolder {
     std::string journal_file(int leaf) const;  ///< exists when the part is finished
     std::string begun_file(int leaf) const;    ///< exists once a worker has begun the part, for watchers of the run
 
-    /// Number of journal entries.
+    /// Returns the number of journal entries.
     std::size_t finished_parts() const;
 
     /// Removes parts and journal entries of other leaves, and all surfaces, that an interrupted run has left; also the

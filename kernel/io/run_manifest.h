@@ -17,7 +17,7 @@ std::string hash_text(const FileHash& hash);
 struct RunFile {
     std::string path;  ///< relative to the folder
     std::int64_t bytes = 0;
-    std::string hash;  ///< of the bytes, as hash_text() writes it
+    std::string hash;  ///< hash of the bytes, as hash_text() writes it
 
     template <class Archive>
     void archive(Archive& a) {

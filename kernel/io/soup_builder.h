@@ -23,7 +23,7 @@ namespace kerf {
 class SoupBuilder {
  public:
     enum class Wanted { surface, tets, tets_and_scalars };
-    /// Takes the path of the file, for messages, and what is wanted of it. A reader that meets tetrahedra adds them in
+    /// Takes the path of the file, for messages, and the wanted content. A reader that meets tetrahedra adds them in
     /// any case.
     explicit SoupBuilder(const std::string& path, Wanted wanted = Wanted::surface)
         : path_(path), wanted_(wanted), tets_(path, soup_, !wants_scalars()) {}
@@ -219,7 +219,7 @@ class SoupBuilder {
         soup_.patch.push_back(patch_);
         if (has_fans_) soup_.polygon.push_back(polygon_count_);
     }
-    // From the first fan on, facets and polygons have different numbers.
+    // Gives polygons numbers of their own from the first fan on, from where facets and polygons have different numbers.
     void number_polygons() {
         if (has_fans_) return;
         has_fans_ = true;
@@ -236,10 +236,10 @@ class SoupBuilder {
     std::int32_t polygon_count_ = 0;
     std::int64_t facets_without_area_ = 0, edges_outside_ = 0, cells_by_corners_ = 0, other_cells_ = 0;
     bool has_fans_ = false;
-    std::int32_t patch_ = -1;  // of the current name, -1 as long as no facet has used it
+    std::int32_t patch_ = -1;  // patch of the current name, -1 as long as no facet has used it
     std::map<std::string, std::int32_t> patch_of_name_;
-    bool is_unnamed_ = false;          // of the facets that follow
-    std::int32_t unnamed_patch_ = -1;  // of the facets without a patch in the file
+    bool is_unnamed_ = false;          // the facets that follow have no patch in the file
+    std::int32_t unnamed_patch_ = -1;  // patch of the facets without one in the file
     std::vector<FacetSides> sides_;
     std::vector<std::string> region_names_;
     VertexTable table_;  // vertices of separate facets; below, hashes of their corners

@@ -18,7 +18,7 @@ inline std::uint32_t claimed_stl_facets(std::string_view bytes) {
     return count;
 }
 
-/// True if the size is that of a binary STL; many exporters begin theirs with the word "solid".
+/// Tells whether the size is that of a binary STL; many exporters begin theirs with the word "solid".
 inline bool is_binary_stl(std::string_view header, std::size_t size) {
     return header.size() >= stl_header_size && size == stl_header_size + stl_facet_size * claimed_stl_facets(header);
 }
@@ -32,7 +32,7 @@ inline std::string_view without_padding(std::string_view text) {
     return text;
 }
 
-/// True for a text that begins with "solid" in any case; padding may follow.
+/// Tells whether a text begins with "solid" in any case; padding may follow.
 inline bool is_ascii_stl(std::string_view bytes) {
     const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
     if (begin == std::string_view::npos) return false;

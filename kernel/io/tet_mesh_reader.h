@@ -16,9 +16,9 @@ struct TetFile {
     std::vector<Triangle> facets;                  ///< triangles of the file; none where it lists tetrahedra alone
     std::vector<char> is_interface;                ///< #F; in a part of Kerf: another part is on the other side
     std::int64_t turned_tets = 0;                  ///< number of tetrahedra of negative orientation in the file
-    std::vector<NodeScalar> node_scalars = {};     ///< only of read_tets_with_scalars()
+    std::vector<NodeScalar> node_scalars = {};     ///< filled by read_tets_with_scalars() only
     std::vector<std::string> notes = {};           ///< things passed over: "12 hexahedra were ignored."
-    std::vector<std::string> region_names = {};    ///< as read_surface() has them; none if there is one region
+    std::vector<std::string> region_names = {};    ///< names as of read_surface(); none if there is one region
     std::vector<std::int32_t> region_of_tet = {};  ///< #T, of several regions; not of read_tets_with_scalars()
 };
 

@@ -1,4 +1,4 @@
-// Whole small files of text.
+// Writes small files of text.
 #pragma once
 
 #include <string>

@@ -59,7 +59,7 @@ class TextScanner {
         skip(true);
         return position_ == text_.size();
     }
-    /// True if no word is left in the current line.
+    /// Tells whether no word is left in the current line.
     bool at_line_end() {
         skip(false);
         return position_ == text_.size() || detail::is_line_end(text_[position_]);

@@ -31,12 +31,12 @@ namespace kerf::vtu {
 struct Array {
     std::string type, format;
     std::string_view content;  // between the tags
-    std::int64_t offset = 0;   // of an appended array
+    std::int64_t offset = 0;   // place of an appended array
 };
 
 struct Piece {
     std::int64_t points = 0, cells = 0;
-    std::map<std::string, Array> scalars;  // of PointData
+    std::map<std::string, Array> scalars;  // arrays of PointData
     std::map<std::string, Array> arrays;  // "Points", "connectivity", ...; of CellData those that cell_array_of() names
 };
 
@@ -50,8 +50,8 @@ inline constexpr const char *front_array = "front", *back_array = "back";
 struct File {
     bool has_long_headers = false, is_compressed = false, is_appended_base64 = false;
     std::endian order = std::endian::little;
-    std::string_view appended;                          // behind the underscore
-    std::optional<Array> region_names, region_numbers;  // of FieldData
+    std::string_view appended;                          // bytes behind the underscore
+    std::optional<Array> region_names, region_numbers;  // arrays of FieldData
     std::vector<Piece> pieces;
 };
 

@@ -13,7 +13,7 @@ struct ZipEntry {
     std::string name;
     std::uint64_t size = 0;         ///< bytes of the content, as it claims
     std::uint64_t packed_size = 0;  ///< bytes in the archive
-    std::uint64_t offset = 0;       ///< of its header in the archive
+    std::uint64_t offset = 0;       ///< place of its header in the archive
     int method = 0;                 ///< 0: as it is, 8: deflated
 };
 

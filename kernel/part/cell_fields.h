@@ -14,7 +14,7 @@ namespace kerf {
 
 /// A quality that cells of part files may have.
 struct CellField {
-    const char* name;   ///< as given to --fields
+    const char* name;   ///< word for --fields
     const char* array;  ///< name of the array in the file
     double TetQuality::*measure;
 };

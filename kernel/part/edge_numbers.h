@@ -17,7 +17,7 @@ class EdgeNumbers {
  public:
     /// Edges that a part owns and shares.
     struct OwnedGroup {
-        std::vector<NodeId> parts;  ///< as SharedEdgeGroup::parts
+        std::vector<NodeId> parts;  ///< the same as SharedEdgeGroup::parts
         std::int64_t edges = 0;
 
         template <class Archive>

@@ -21,7 +21,7 @@ namespace kerf {
 /// Boundary vertices that the same parts hold.
 struct SharedGroup {
     std::vector<NodeId> parts;           ///< two or more, in the order of the tree; the first owns the vertices
-    std::vector<std::int32_t> vertices;  ///< of this part, ascending by global number: the same order in every part
+    std::vector<std::int32_t> vertices;  ///< numbers in this part, ascending by global number: same order in every part
 
     template <class Archive>
     void archive(Archive& a) {
@@ -32,7 +32,7 @@ struct SharedGroup {
 /// Edges that the same parts hold.
 struct SharedEdgeGroup {
     std::vector<NodeId> parts;          ///< two or more, in the order of the tree
-    std::vector<UndirectedEdge> edges;  ///< of this part, the end with the smaller global number first; ascending by
+    std::vector<UndirectedEdge> edges;  ///< ends in this part, that with the smaller global number first; ascending by
                                         ///< global numbers: the same order in every part
 
     template <class Archive>
@@ -85,9 +85,9 @@ struct Part {
     std::vector<NodeId> neighbour;    ///< #F; part on the other side of an interface or wall, else -1
     std::vector<std::int32_t> tet_at_facet;  ///< #F; the tetrahedron behind the triangle, -1 if there is none
     std::vector<std::int64_t> global_id;  ///< #V; dense over the whole mesh, the same in every part that has the vertex
-    NameTable patch_names;                ///< of the patches on the boundary at least
-    NameTable region_names;               ///< of the regions of the cells at least; empty if there is one region
-    std::vector<RegionRun> regions;       ///< of all tetrahedra, ascending; one run unless parts were joined;
+    NameTable patch_names;                ///< names of the patches on the boundary at least
+    NameTable region_names;               ///< names of the regions of the cells at least; empty if there is one region
+    std::vector<RegionRun> regions;       ///< runs of all tetrahedra, ascending; one unless parts were joined;
                                           ///< empty if there is one region
     std::vector<std::int32_t> contact_vertices;  ///< vertices where parts may be that share no triangle with this one
     std::vector<UndirectedEdge> contact_edges;   ///< edges where parts may be that share no triangle with this one
@@ -95,7 +95,7 @@ struct Part {
                                       ///< compared in the order of the tree
     std::vector<SharedEdgeGroup> shared_edges;  ///< all edges that other parts have, too; in the same order
 
-    std::vector<PartValues> values = {};  ///< of a solution (part/solution_parts.h), else empty
+    std::vector<PartValues> values = {};  ///< values of a solution (part/solution_parts.h), else empty
     EdgeNodes edge_nodes = {};            ///< nodes on edges of order 2; empty for order 1
 
     /// Tells whether another part lies on the other side of a boundary triangle.

@@ -34,15 +34,15 @@ struct CurvedCells {
 };
 
 struct MeshQuality {
-    std::string name;  ///< for people
+    std::string name;  ///< name for people
     std::int64_t parts = 1;
     std::int64_t vertices = 0;  ///< distinct vertices
     PartQuality cells;
-    TriangleDistributions boundary;           ///< of the triangles on the user's surface; may be empty
+    TriangleDistributions boundary;           ///< angles of the triangles on the user's surface; may be empty
     std::int64_t turned_tets = 0;             ///< tetrahedra of negative orientation in their file
     std::vector<std::string> notes = {};      ///< other content of the file that was passed over
     std::vector<RegionQuality> regions = {};  ///< in the order of their numbers; empty if there is one region
-    std::optional<CurvedCells> curved = {};   ///< of runs of order 2
+    std::optional<CurvedCells> curved = {};   ///< for runs of order 2 only
 
     std::int64_t tets() const { return cells.all.measures.front().count(); }
 };
