@@ -1,9 +1,11 @@
-// A place of points is a set of patches, as faces or as the curve between them. For each set that occurs a target is
-// made once: the facets of its faces in a tree, with the parameters of the face at their corners, or its curves as
-// straight pieces. A point goes to the nearest facet of the target; barycentric weights there give the parameters from
-// which the exact nearest point is found (nearest_point.h). So the face is chosen by facets, and the point by the face.
-// Curves are edges of the model between different patches, and creases inside of one. Middles of edges are projected
-// last, from the middle of the ends that have been moved already.
+// After the surface of a CAD file has been remeshed, its vertices and the middles of its edges are put back on the
+// faces: the file is imported again with the same options, and its facets lead to its faces. A place of points is a set
+// of patches, as faces or as the curve between them. For each place a target is made once: the facets of its faces in a
+// tree, with the parameters of the face at their corners, or its curves as straight pieces. A point goes to the nearest
+// facet of the target; barycentric weights there give the parameters from which the exact nearest point is found
+// (nearest_point.h). So the face is chosen by facets, and the point by the face. Curves are edges of the model between
+// different patches, and creases inside of one. Middles are projected last, from the middle of the two ends that have
+// been moved already.
 #include "cad/projection.h"
 
 #include <algorithm>

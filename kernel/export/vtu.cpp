@@ -1,6 +1,7 @@
-// VTK XML: a file a part and one that joins them; or all as one grid, whose cells are the tetrahedra of all parts, then
-// the triangles on patches, of a wall between regions those of one side; of order 2 quadratic ones. The arrays of the
-// grid have the names and values that they have in part files, which are described in part/vtu_writer.h.
+// VTK XML: a file a part and one that joins them; or, merged, all as one grid. The cells of that are the tetrahedra of
+// all parts, then the triangles on patches, for a wall between regions the triangles of one side; for order 2 all of
+// them are quadratic. The arrays of the grid have the names and values that they have in part files, which are
+// described in part/vtu_writer.h.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

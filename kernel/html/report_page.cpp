@@ -1,7 +1,9 @@
-// The page is assets/report/page.html with its style, its scripts, and two blocks of data: JSON, and the triangles
-// (html/packed_surface.h), compressed and as base64. No other file or address is named in it. A page is sent to others,
-// so paths lose their folders, and of the report only the members stay that the scripts read. The surfaces are read
-// twice: for the box of the grid, and for the triangles, so that one part at a time is in memory.
+// The page is assets/report/page.html with its style, its scripts, the part of three.js that these need (made by
+// assets/report/make_bundle.sh), and two blocks of data: JSON, and the triangles (html/packed_surface.h), compressed
+// and as base64. No other file or address is named in it. The address under which a page is opened says what its view
+// shows, which tests use, too. A page is sent to others, so paths lose their folders, and of the report only the
+// members stay that the scripts read. The surfaces are read twice: for the box of the grid, and for the triangles, so
+// that one part at a time is in memory.
 #include "html/report_page.h"
 
 #include <algorithm>

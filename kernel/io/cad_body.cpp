@@ -1,6 +1,8 @@
-// kerf and kerf-cad are two processes of one build: options travel as arguments of the command line, in the order and
-// spelling of arguments(), and the answer as bytes behind a magic text with the version. The fields behind it have no
-// names, so that bytes of another version are refused as a whole. The format of a CAD file is told by its first bytes.
+// CAD files are read by kerf-cad, a program of its own: OpenCASCADE takes longer to load than a small mesh takes, may
+// crash, and need not be there. Both are processes of one build: options travel as arguments of the command line, in
+// the order and spelling of arguments(), and the answer as bytes behind a magic text with the version. The fields
+// behind it have no names, so that bytes of another version are refused as a whole. The format of a CAD file is told by
+// its first bytes.
 #include "io/cad_body.h"
 
 #include <algorithm>

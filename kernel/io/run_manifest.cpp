@@ -2,9 +2,9 @@
 // report lies in it that is sealed: its last member is the hash of the text without that member, which is put back
 // together and compared byte by byte. Is a file foreign? In a run a file is foreign unless the report lists it; only
 // empty folders, and the files in `work` by which a failed run goes on, are known by their names, because no list has
-// them. Whether a name is a run's is a grammar of fixed names, part_NUMBER with an ending, and folders 4000/ of large
-// runs: a file that a run writes under a new name needs a line there. Removal never follows a folder, it goes file by
-// file, and folders go only when they are empty.
+// them. The names of a run are a grammar of fixed names, part_NUMBER with an ending, and folders 4000/ of large runs: a
+// file that a run writes under a new name needs a line there. Removal goes file by file and follows no links; folders
+// go only when they are empty.
 #include "io/run_manifest.h"
 
 #include <algorithm>

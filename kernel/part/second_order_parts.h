@@ -12,7 +12,9 @@ namespace kerf {
 void add_edge_nodes(const EdgeNumbers& numbers, const CurvedNodes& curved, Part& part);
 
 /// The parts of another source, of order 1, as parts of order 2: each edge has a node in its middle or, if it is
-/// curved, elsewhere. Values at points are extended to these nodes, as the means of the two ends.
+/// curved, elsewhere. The nodes are added here and not by meshers, because a part has no say in the nodes that others
+/// have: they are numbered when all parts are there. Values at points are extended to these nodes, as the means of the
+/// two ends.
 class SecondOrderParts : public PartSource {
  public:
     /// Takes the parts, which must outlive this, and the nodes that are not in the middle of their edges, by global

@@ -2,7 +2,8 @@
 // the way down from an item to a mesh gives its place, by the product of all transformations, and its name. A
 // transformation that mirrors would turn facets inside out, so these are turned then. Objects are counted from the text
 // before lib3mf reads it (threemf/placed_objects.h), since it follows components without a limit; the limits are
-// checked again on the way down, for objects, levels and facets.
+// checked again on the way down, for objects, levels and facets. The library is optional: only the program kerf-3mf
+// links it, whose answer is a CadBody as that of kerf-cad is.
 #include "threemf/threemf_import.h"
 
 #include <map>
