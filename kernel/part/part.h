@@ -206,11 +206,11 @@ class PartSource {
     PartSource(const PartSource&) = delete;
     PartSource& operator=(const PartSource&) = delete;
     virtual const MeshOutline& outline() const = 0;
-    /// Returns one part. Its mesh has no face neighbours: a caller that needs them finds them (mesh/adjacency.h). From
-    /// any thread. Throws Error(io).
+    /// Returns one part. Its mesh need not have face neighbours: a caller that needs them finds them
+    /// (mesh/adjacency.h). From any thread. Throws Error(io).
     virtual Part load(PartIndex index) const = 0;
-    /// Returns the part without content that is not asked for, where that spares time or memory; Part::shared and the
-    /// neighbours of tetrahedra come with PartContent::all alone. As load().
+    /// Returns the part without content that is not asked for, where that spares time or memory; only PartContent::all
+    /// asks for Part::shared, and for neighbours of tetrahedra if the source has them. As load().
     virtual Part load_only(PartIndex index, PartContent) const { return load(index); }
     /// Returns the bodies that the parts belong to (part/bodies.h), which are found when they are first asked for. From
     /// any thread. Throws Error(io).
