@@ -1,3 +1,8 @@
+// Options are found in a text as the names that follow "--" and are in the table of options; other names belong to
+// other programs, or are parts of paths, and are passed over. The type of an option says how its value is read: a
+// switch has none, a choice only one of its names, a number may end a sentence, and a list of repairs goes on as long
+// as a word follows its comma at once. Nothing marks an advice in a message, so that every new message which names an
+// option has its button without a change here; in turn a text must not name options that it does not advise.
 #include "viewer/model/advice.h"
 
 #include <algorithm>
@@ -23,11 +28,11 @@ std::string word_at(const std::string& text, std::size_t begin) {
     return text.substr(begin, end - begin);
 }
 
-// What a text says of an option right behind its name; empty: nothing, or no such value.
+// The value that a text has for an option right behind its name; empty: none, or no such value.
 std::string value_behind(const OptionField& field, const std::string& text, std::size_t end_of_name) {
     if (std::holds_alternative<bool*>(field.value)) return "true";
     if (end_of_name >= text.size() || text[end_of_name] != ' ') return "";
-    if (field.name == "repair") {  // steps with commas between, not what ends a sentence or begins another part of it
+    if (field.name == "repair") {  // steps with commas between, but no comma that ends a part of the sentence
         std::size_t end = end_of_name;
         do end += 1 + word_at(text, end + 1).size();
         while (end + 1 < text.size() && text[end] == ',' && text[end + 1] != ' ');

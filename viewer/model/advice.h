@@ -1,4 +1,4 @@
-// What a message advises, so that it can be done by a button.
+// The options that a message advises, found in its text so that a button can carry the advice out.
 #pragma once
 
 #include <optional>
@@ -10,32 +10,34 @@
 
 namespace kerf::view {
 
-/// All options of a run that a text names as "--name", each once, in this order: with the value that follows, "true" of
-/// a switch, or an empty text where the value is left to the reader: "--weld".
+/// Returns all options of a run that a text names as "--name", in the order of the text, each once with the same value.
+/// The value is the one that follows the name, "true" for a switch, or empty where the text leaves it to the reader, as
+/// "--weld" does.
 std::vector<OptionText> advised_options(const std::string& text);
 
-/// The option that a text advises, if it names one alone, and that needs no number: a choice with its value, as
+/// Returns the option that a text advises, if it names one alone and that needs no number: a choice with its value, as
 /// "--surface remesh", or a switch.
 std::optional<OptionText> advised_option(const std::string& text);
 
-/// Whether the options have it.
+/// Returns whether the options have this option with this value.
 bool is_set(const RunOptions& options, const OptionText& option);
 
-/// `options` with one of them changed; nothing if it has no such value, or one out of its range.
+/// Returns `options` with one of them changed, or nothing if the value does not exist or is out of range.
 std::optional<RunOptions> options_with(RunOptions options, const OptionText& option);
 
-/// A list of InputOptions::repair with what is missing in it of another one.
+/// Returns the list of repairs `plan` (InputOptions::repair) with those steps of `more` added that it lacks.
 std::string with_repairs(const std::string& plan, const std::string& more);
 
-/// What a button says: "Remesh the surface", "Run with --voids parity", or "Run with --weld" as long as it has no
-/// value. `verb`: what it does with the option.
+/// Returns the label of a button: "Remesh the surface", "Run with --voids parity", or "Run with --weld" as long as the
+/// option has no value. `verb` is the first word of the label.
 std::string words_of(const OptionText& advice, const char* verb = "Run");
 
-/// Whether an option, by its name, has a say in how a file is read.
+/// Returns whether the option of this name influences how a file is read.
 bool is_input_option(const std::string& option);
 
-/// A value to begin with where a text names none: what would fill the largest hole, weld what is as good as equal, or
-/// give a run twice as much as it had. Empty if nothing is known. `checked` may be null.
+/// Returns a value to begin with where a text names none: for --fill-holes the edges of the largest hole, for --weld a
+/// distance at which points are as good as equal, for other options twice the value that the run had. Empty if nothing
+/// is known. `checked` may be null.
 std::string usual_value(const std::string& option, const RunOptions& options, const CheckedSoup* checked);
 
 }  // namespace kerf::view

@@ -1,4 +1,4 @@
-// The work of the second thread, in groups of one fate, and what has failed of it.
+// The work of the second thread, in groups that are dropped as wholes, and the messages of works that failed.
 #pragma once
 
 #include <functional>
@@ -12,45 +12,46 @@
 
 namespace kerf::view {
 
-/// All calls come from the first thread, which owns all that is shown. Works get copies and shared constants, and give
-/// back a completion, which the first thread runs in take_over().
+/// Queues works for the second thread. All calls come from the first thread, which owns all that is shown. Works get
+/// copies and shared constants, and give back a completion, which the first thread runs in take_over().
 class Background {
  public:
-    /// Works with one fate, and how many of them are under way.
+    /// Works that are dropped together, and the number of those that are queued or under way.
     struct Group {
         std::shared_ptr<Scope> scope = std::make_shared<Scope>();
         int jobs = 0;
 
-        /// Those that wait and all results are dropped.
+        /// Drops the works that wait, and the results of all.
         void reset();
     };
-    Group open;    ///< what is open is read, checked and written
-    Group data;    ///< what is asked for is fetched
-    Group redo;    ///< cuts are made again
-    Group repair;  ///< a surface is repaired
-    Group watch;   ///< the run that is followed is looked at now and then: nobody waits for it
+    Group open;    ///< reads, checks and writes the open document
+    Group data;    ///< fetches data that panels and scene ask for
+    Group redo;    ///< makes cuts again
+    Group repair;  ///< repairs a surface
+    Group watch;   ///< looks at the followed run now and then; nobody waits for it
 
     using Failed = std::function<void(const Error&)>;
-    /// `failed` runs instead of the completion; a failure is noted if there is none.
+    /// Queues a work and counts it in its group. If it throws, `failed` runs instead of the completion; without
+    /// `failed` the failure is noted.
     void post(Group& group, Loader::Work work, Failed failed = {});
-    /// Done when nothing else is to be done, and not counted; failures are passed over.
+    /// Queues a work that is done when nothing else is to be done. It is not counted, and its failure is passed over.
     void post_idle(const Group& group, Loader::Work work);
 
-    /// Runs the completions that have come; whether one has changed something.
+    /// Runs the completions that have come. Returns whether one of them has changed something.
     bool take_over();
-    /// Said by a completion that has changed nothing.
+    /// Called by a completion that has changed nothing.
     void note_in_vain() { ++in_vain_; }
     /// Blocks until there is something to take over, at most `seconds`.
     void wait(double seconds) { loader_->wait(seconds); }
-    /// Drops all, and waits for the work under way. Nothing may be posted any more.
+    /// Drops all works, and waits for the one under way. Nothing may be posted afterwards.
     void end();
 
-    /// The last hundred, newest last.
+    /// The messages of the last hundred failures, newest last.
     const std::vector<std::string>& failures() const { return failures_; }
-    /// Of the first one; Error(io) where that was none that was thrown.
+    /// The code of the first failure; ErrorCode::io for one that was noted by its message alone.
     ErrorCode failure_code() const { return failure_code_; }
     void note_failure(const Error& error) { note_failure(error.what(), error.code()); }
-    /// An empty message is none.
+    /// Notes a failure by its message; an empty message is ignored.
     void note_failure(const std::string& message, ErrorCode code = ErrorCode::io);
     void forget_failures() { failures_.clear(); }
 

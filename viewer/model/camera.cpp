@@ -1,3 +1,10 @@
+// The camera is a target, a rotation (`turn`) and the height of the piece of the plane through the target that fills
+// the viewport. The eye lies on the axis `back`, at the distance at which that height is seen under 30 degrees: zooming
+// is a change of the height alone, and both projections show the target's plane alike. An orbit turns about the z axis
+// of the file first and about the eye's x axis then, so that up stays up; where the camera stands on its head the first
+// turn is reversed, so that the body follows the cursor. Near and far planes enclose the box of all that is drawn. In
+// perspective the near one is never closer to the eye than a hundredth of the target's distance, because the precision
+// of depths is lost otherwise.
 #include "viewer/model/camera.h"
 
 #include <algorithm>
@@ -8,7 +15,7 @@ namespace kerf::view {
 namespace {
 
 constexpr double half_field_of_view = 15 * M_PI / 180;  // from the middle to the upper border
-constexpr double margin = 1.04;                         // of what is fitted
+constexpr double margin = 1.04;                         // factor of the size of the fitted box
 constexpr double orbit_per_height = M_PI;               // a drag over the whole viewport turns by half a turn
 
 Eigen::Quaterniond turn_of(const Vec3& right, const Vec3& up) {
@@ -89,7 +96,7 @@ void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect) {
     const Vec3 half = box.sizes() / 2;
     const auto reach = [&](const Vec3& axis) { return half.dot(axis.cwiseAbs()); };
     const double up = reach(camera.up()), right = reach(camera.right());
-    // In perspective what is nearer than the target is larger.
+    // In perspective things nearer than the target are larger.
     const double nearer = camera.perspective ? reach(camera.back()) * std::tan(half_field_of_view) : 0;
     const double wanted = std::max(up, right / std::max(aspect, 1e-3)) + nearer;
     camera.height = std::max(2 * margin * wanted, 1e-300);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The lists of the folders that were asked for, so that a part costs no look at the report of all.
+// The lists of the folders that were asked for, so that a part does not cost a look at the report of all parts.
 class Lists {
  public:
     std::shared_ptr<const ListedFiles> of(const std::string& folder) {

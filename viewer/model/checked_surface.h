@@ -1,5 +1,5 @@
-// A surface that was opened, as options mend it and with what is wrong with it then; and the row of these states that a
-// user goes through.
+// A surface that was opened, as the options mend it and with the defects that are left; and the history of such states,
+// through which a user goes back and on.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace kerf::view {
 
-/// What a run would cut; mass properties are those of one region.
+/// The figures of the surface that a run would cut; mass properties are there for a single region only.
 struct OrientedSurface {
     std::int64_t vertices = 0, facets = 0;
     double volume = 0;
@@ -24,22 +24,23 @@ struct OrientedSurface {
     std::vector<std::string> region_names = {};
 };
 
+/// A surface as its options mend it, with its check.
 struct CheckedSurface {
     InputOptions options;
     std::shared_ptr<const CheckedSoup> checked;
-    std::shared_ptr<const NodeSurface> surface;  ///< of the soup; null where the options have not changed it
-    std::optional<OrientedSurface> oriented;     ///< where it can be meshed
-    std::string note;                            ///< of its slivers; empty: there are none
+    std::shared_ptr<const NodeSurface> surface;  ///< surface of the soup; null where the options have not changed it
+    std::optional<OrientedSurface> oriented;     ///< there where the surface can be meshed
+    std::string note;                            ///< note on its slivers; empty: there are none
 };
 
-/// Options that read the same, and leave the surface as it is read.
+/// Returns options that read the file in the same way, and leave the surface as it is read.
 InputOptions without_repairs(InputOptions options);
 
-/// Whether both read and mend a surface in the same way.
+/// Returns whether both options read and mend a surface in the same way.
 bool same_input(InputOptions a, InputOptions b);
 
-/// Checks files by options. `unrepaired`: what without_repairs() of them gives; null where they are such. Throws Error,
-/// and what `poll` throws (check_files()).
+/// Checks files as the options mend them. `unrepaired` is the result for without_repairs(options), or null where the
+/// options have no repairs. Throws Error, and lets exceptions of `poll` pass (check_files()).
 CheckedSurface check_surface(const InputFiles& files, const InputOptions& options, const std::string& path,
                              const CheckedSoup* unrepaired, const std::function<void()>& poll);
 
@@ -51,7 +52,7 @@ class RepairHistory {
     const CheckedSurface& shown() const { return states_[shown_]; }
 
     void begin(CheckedSurface unrepaired);
-    /// What was undone is forgotten.
+    /// Adds a state behind the shown one and shows it; the states that were undone are forgotten.
     void add(CheckedSurface state);
     void clear();
 

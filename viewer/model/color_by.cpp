@@ -1,4 +1,4 @@
-// What colourings are called.
+// The names of colourings, for files and command lines, and their titles in the legend.
 #include <array>
 
 #include "viewer/model/name_index.h"

@@ -1,3 +1,9 @@
+// A path is opened in three steps. read() runs on the loader's thread: it tells the kind of the path and reads as much
+// as the first picture needs. The completion that it returns runs on the first thread and fills the document
+// (show_files(), show_trace(), show_run(), show_partial_run()). The rest is posted from there: the check of a surface,
+// the trace of a run, the watch on a run that is under way. A run may end between the look at its folder and the
+// reading; it is read as a finished one then. The trace of a run lies where its report says, but a later run may have
+// written another one there: it is taken only if its cuts are those of the report.
 #include "viewer/model/document_loader.h"
 
 #include <filesystem>
@@ -74,7 +80,7 @@ void DocumentLoader::show_error(ErrorCode code, const std::string& message) {
     shown_.document.error = message;
 }
 
-// The surface is there at once: it would wait for the check else.
+// The surface is shown at once, and does not wait for its check.
 void DocumentLoader::show_files(const std::shared_ptr<const InputFiles>& files,
                                 const std::shared_ptr<const NodeSurface>& surface) {
     Document& document = shown_.document;

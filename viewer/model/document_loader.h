@@ -1,5 +1,5 @@
-// Opens what lies under a path: it is read on the loader's thread, as far as the first picture needs it; the rest
-// follows.
+// Opens the file or folder under a path, which is read on the loader's thread as far as the first picture needs it; the
+// rest follows.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class DocumentLoader {
     DocumentLoader(Background& background, Shown& shown, Fetched& fetched, Repairs& repairs, RunFollower& follower)
         : background_(background), shown_(shown), fetched_(fetched), repairs_(repairs), follower_(follower) {}
 
-    /// As Session::open(), where nothing is open.
+    /// Opens a path as Session::open() does, where nothing is open.
     void open(const std::string& path, const RunOptions& options);
 
  private:

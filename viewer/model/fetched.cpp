@@ -1,4 +1,12 @@
-// What is asked for is fetched once: its key is in the store, or among those being fetched, or among the failed ones.
+// A value is fetched once: its key is in the store, among those being fetched, or among those that have failed, and in
+// none of these cases is anything posted. make() runs on the loader's thread with copies and shared constants; its
+// completion puts the value into the store. A failed key is tried again only after restart() or drop(), because every
+// frame would repeat the error otherwise; a failure to read a folder that a run has just moved is none. Nothing is
+// fetched into a store that values in use fill: they would drive each other out, frame after frame. The surface of a
+// node comes from the trace where there is one, else from the parts of the folder, else from the soup; vertices and
+// facets have other numbers in each, so that use_trace() drops the surfaces of nodes. Prefetching fills idle time:
+// breadth first while there is room, and depth first afterwards for the rows that still lack facts, because the
+// replayer keeps only the last surfaces.
 #include "viewer/model/fetched.h"
 
 #include <algorithm>
@@ -39,7 +47,7 @@ void sort_depth_first(std::vector<NodeId>& nodes) {
     std::sort(nodes.begin(), nodes.end(), [&](NodeId a, NodeId b) { return path(a) < path(b); });
 }
 
-// Empty: there are none. A solution may be of higher order than its mesh.
+// The folder whose parts have nodes on edges; empty: none. A solution may be of higher order than its mesh.
 std::string folder_of_edge_nodes(const Document& document) {
     if (document.solution && document.solution->order > 1) return document.solution->folder;
     return document.options.order > 1 ? document.folder : "";
@@ -55,7 +63,7 @@ SizeField field_of(SizeOptions sizes, const NodeSurface& whole, const std::vecto
     return read_size_field(sizes, arrays, patch_names);
 }
 
-// Where nothing has told of them yet.
+// Fills the rows of cuts of which nothing has told yet.
 void describe_cuts(Document& document) {
     for (const Cut& cut : document.trace->cuts) {
         TreeRow* row = document.tree.find(cut.node);
@@ -74,7 +82,7 @@ std::shared_ptr<const T> Fetched::kept(const Store::Key& key) {
     return shown_.store.find<T>(key);
 }
 
-// For what is not kept. `make` runs on the loader's thread.
+// Fetches a value that is not kept. `make` runs on the loader's thread.
 template <class T, class Make>
 std::shared_ptr<const T> Fetched::fetch(const Store::Key& key, Make make) {
     if (fetching_.contains(key) || failed_.contains(key)) return nullptr;
@@ -106,7 +114,7 @@ std::shared_ptr<const T> Fetched::fetch(const Store::Key& key, Make make) {
     return nullptr;
 }
 
-// Of nodes that a report describes the row stays as it is.
+// Fills the row of a node from its surface, unless a report has described the node.
 Loader::Completion Fetched::fill_row(NodeId node, const Surface& surface) {
     return [this, node, vertices = surface.vertex_count(), facets = surface.facet_count(),
             mass = mass_properties(surface)] {
@@ -162,8 +170,8 @@ std::shared_ptr<const NodeSurface> Fetched::part_surface(NodeId part) {
                               });
 }
 
-// The surface from which one deviates: what is now from what was before, and what was from what is. nullptr: not there
-// yet.
+// The surface from which a surface deviates: the present one from the one before, and each one before from the present
+// one. nullptr: it is not there yet.
 std::shared_ptr<const NodeSurface> Fetched::compared_with(const std::shared_ptr<const NodeSurface>& surface,
                                                           const std::shared_ptr<const NodeSurface>& whole) {
     const auto unrepaired = shown_.document.unrepaired ? this->surface(not_repaired) : nullptr;
@@ -210,7 +218,7 @@ std::shared_ptr<const PartCells> Fetched::cells(NodeId part) {
     return fetch<PartCells>(key, [source = source_of(part)] { return read_part_cells(source); });
 }
 
-// Computed from the cells where these are at hand.
+// Fetches values of a part, which are computed from the cells where these are at hand.
 template <class Read>
 std::shared_ptr<const std::vector<float>> Fetched::values(Store::Kind kind, NodeId part, ColorBy color, Read read) {
     const Store::Key key{kind, part, static_cast<int>(color)};
@@ -302,19 +310,18 @@ void Fetched::use_trace(std::shared_ptr<const Trace> trace) {
 
 namespace {
 
-// What prefetching tasks share; only they look at it, one after the other.
+// The state that prefetching tasks share; only they look at it, one after the other.
 struct Prefetch {
     std::shared_ptr<Replayer> replayer;
     std::vector<NodeId> nodes;     // the next one last
-    std::set<NodeId> undescribed;  // whose rows lack what only the surface tells
+    std::set<NodeId> undescribed;  // nodes whose rows lack facts that only the surface tells
     std::size_t bytes = 0;
     bool is_full = false;
 };
 
 }  // namespace
 
-// So that stepping through the tree is immediate: breadth first while there is room. What does not fit is still
-// described in its row, and visited depth first then, since the replayer has kept only the last surfaces.
+// Makes steps through the tree immediate. A surface for which there is no room is still made, to describe its row.
 void Fetched::prefetch_surfaces() {
     if (!shown_.replayer) return;
     const auto state = std::make_shared<Prefetch>();

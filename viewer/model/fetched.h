@@ -1,4 +1,4 @@
-// What is asked for of a document is fetched in the background, and kept in a bounded memory.
+// Data of a document that are fetched in the background when they are asked for, and kept in a bounded memory.
 #pragma once
 
 #include <memory>
@@ -12,54 +12,57 @@
 
 namespace kerf::view {
 
-/// Returns what is in memory, or nullptr, and then fetches it: Session::poll() says when it is there. The least
-/// recently used leave the memory.
+/// Each query returns a value that is in memory, or else nullptr, and then has the value fetched: Session::poll() says
+/// when it is there. The least recently used values leave the memory.
 class Fetched {
  public:
     Fetched(Background& background, Shown& shown) : background_(background), shown_(shown) {}
 
-    /// The closed surface of a node: of a trace by its cuts, of a run folder from the surfaces of its parts.
-    /// not_remeshed: where Document::remeshed, the surface as the file has it, repaired. not_repaired:
-    /// Document::unrepaired.
+    /// Returns the closed surface of a node, made by the cuts of a trace or joined from the surfaces of the parts of a
+    /// run folder. For not_remeshed it is the surface as the file has it, repaired, where Document::remeshed; for
+    /// not_repaired that of Document::unrepaired.
     std::shared_ptr<const NodeSurface> surface(NodeId node);
-    /// The closed surface of a part of the run folder.
+    /// Returns the closed surface of a part of the run folder.
     std::shared_ptr<const NodeSurface> part_surface(NodeId part);
-    /// The deviation of the facets of a surface that was given here, or the size at its vertices; nullptr, too, where
-    /// the surface was neither remeshed nor repaired, or no size was asked for. What was repaired deviates from the
-    /// file, what was remeshed from what it was before.
+    /// Returns the deviation of the facets of a surface that this class has returned, or the size at its vertices;
+    /// nullptr, too, where the surface was neither remeshed nor repaired, or no size was asked for. A repaired surface
+    /// deviates from that of the file, a remeshed one from the surface before remeshing.
     std::shared_ptr<const SurfaceValues> values_on(const std::shared_ptr<const NodeSurface>& surface, ColorBy color);
-    /// The tetrahedra of a part of the run folder.
+    /// Returns the tetrahedra of a part of the run folder.
     std::shared_ptr<const PartCells> cells(NodeId part);
-    /// A measure of every cell of a part. `color` must be a measure, `kind` (1 at an interface, else 0),
+    /// Returns a value of every cell of a part. `color` must be a measure, `kind` (1 at an interface, else 0),
     /// or `origin` (the number of the CellOrigin).
     std::shared_ptr<const std::vector<float>> cell_values(NodeId part, ColorBy color);
-    /// The same for the cells behind the facets of a part's surface; reads no more than these values of the file where
-    /// it holds them.
+    /// Returns the value, as cell_values() has it, of the cell behind every facet of a part's surface. Where the file
+    /// holds the values, no more than these is read.
     std::shared_ptr<const std::vector<float>> facet_values(NodeId part, ColorBy color);
-    /// The `count` worst cells of the run by a measure, worst first: the smallest angle and shape, else the largest.
+    /// Returns the `count` worst cells of the run by a measure, worst first. The smallest angles and shapes are the
+    /// worst, but the largest values of other measures.
     std::shared_ptr<const std::vector<WorstCell>> worst_cells(ColorBy color, std::size_t count);
-    /// What the solution that is open has found in a part, in the case of this number.
+    /// Returns the values of the open solution in a part, for the case of this number.
     std::shared_ptr<const PartSolution> solution(NodeId part, std::size_t number);
-    /// Something that was asked for is being fetched.
+    /// Returns whether something that was asked for is being fetched.
     bool pending() const { return !fetching_.empty(); }
 
-    // What follows is for the other parts of a session.
+    // The functions below are for the other parts of a session.
 
-    /// What was asked for so long ago may leave the memory. Once a frame.
+    /// Begins a frame: values that were asked for neither in it nor in the frame before may leave the memory.
     void next_frame();
-    /// What is under way is of a tree or of files that are there no more; what is in memory stays.
+    /// Drops the fetches under way, because they belong to a tree or files that are there no more; values in memory
+    /// stay.
     void restart();
-    /// Nothing stays but the document.
+    /// Drops everything but the document.
     void forget();
-    /// It is made anew when it is asked for.
+    /// Drops a value, which is made anew when it is asked for.
     void drop(const Store::Key& key);
-    /// The nodes are those of a trace. Vertices and facets have other numbers there than in a run folder.
+    /// Takes nodes and their surfaces from a trace from now on. Surfaces in memory are dropped, because vertices and
+    /// facets have other numbers in a trace than in a run folder.
     void use_trace(std::shared_ptr<const Trace> trace);
-    /// The surfaces of all nodes of the trace, if there is one, as far as there is room.
+    /// Fetches the surfaces of all nodes of the trace, if there is one, as far as there is room.
     void prefetch_surfaces();
 
  private:
-    // What a work has made, and what runs when it is kept; may be empty.
+    // The value that a work has made, and a function, perhaps empty, that runs once the value is kept.
     template <class T>
     struct Made {
         T value;
@@ -80,7 +83,7 @@ class Fetched {
 
     Background& background_;
     Shown& shown_;
-    bool asked_ = false;  // something was, in this frame
+    bool asked_ = false;  // something was asked for in this frame
     bool told_of_full_store_ = false;
     std::set<Store::Key> fetching_, failed_;
 };

@@ -1,4 +1,4 @@
-// From where a place of a surface can be seen.
+// Directions from which a place of a surface can be seen.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,15 @@
 
 namespace kerf::view {
 
-/// The mean of the normals of these facets, by area, of length 1; zero if they cancel out or are flat.
+/// Returns the mean of the normals of these facets, weighted by area, of length 1; zero if they cancel out or the
+/// facets have no area.
 Vec3 mean_normal(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                  const std::vector<std::int32_t>& chosen);
 
-/// A direction from a place to the eye in which no facet lies before it: `present` if it does not look along the
-/// surface, else the first of those around `outward`, which may point inwards by mistake, that will do; none if none
-/// does. Of length 1, as the directions given are; `outward` may be zero. What is nearer to the place than `near`
-/// belongs to it. O(#F) for each direction that is tried, of which there are at most 27.
+/// Returns a direction from a place to the eye in which no facet lies before the place: `present` if that does not look
+/// along the surface, else the first free one of those around `outward`, which may point inwards by mistake; none if
+/// all are blocked. Directions have length 1, but `outward` may be zero. Facets nearer to the place than `near` belong
+/// to it. O(#F) for each direction that is tried, of which there are at most 27.
 std::optional<Vec3> direction_to_eye(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                      const Vec3& place, double near, const Vec3& outward, const Vec3& present);
 

@@ -1,4 +1,4 @@
-// The second thread: does one task after the other, and hands over what came out when the first thread asks.
+// The second thread, which does one task after the other and hands over the results when the first thread asks.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace kerf::view {
 
-/// What tasks belong to. Once it has ended, those that wait are dropped, and so are their results.
+/// The owner of tasks. Once it has ended, the tasks that wait are dropped, and so are the results of all.
 class Scope {
  public:
     bool has_ended() const { return ended_; }
@@ -27,15 +27,15 @@ class Scope {
 /// Runs tasks on a thread of its own. All other calls come from one thread.
 class Loader {
  public:
-    /// Runs on the thread of take_over().
+    /// A function that runs on the thread of take_over().
     using Completion = std::function<void()>;
-    /// Runs on the thread of the loader, sharing no data with others but what is const.
+    /// A function that runs on the thread of the loader, and shares no data with others but constants.
     using Work = std::function<Completion()>;
 
     struct Task {
         std::shared_ptr<const Scope> scope;
         Work work;
-        std::function<void(const Error&)> on_failure;  ///< instead of the completion, if `work` throws
+        std::function<void(const Error&)> on_failure;  ///< runs instead of the completion, if `work` throws
     };
 
     Loader();
@@ -44,12 +44,12 @@ class Loader {
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
 
-    /// Asked for by someone who waits: the newest come first, before all that can wait.
+    /// Queues a task for which someone waits: the newest comes first, before all idle ones.
     void post(Task task);
-    /// Done when nothing else is to be done, in the order of the calls.
+    /// Queues a task that is done when nothing else is to be done, in the order of the calls.
     void post_idle(Task task);
 
-    /// Runs the completions that have come; how many. Those of ended scopes are dropped.
+    /// Runs the completions that have come, and returns their number. Completions of ended scopes are dropped.
     std::size_t take_over();
     /// Blocks until there is something to take over, at most `seconds`.
     void wait(double seconds);

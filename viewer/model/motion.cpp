@@ -1,4 +1,4 @@
-// How the deformation of a solution moves.
+// The motion of the deformation of a solution.
 #include <cmath>
 #include <numbers>
 
@@ -7,7 +7,7 @@
 namespace kerf::view {
 
 double share_of_motion(Motion motion, double phase) {
-    // There and back are the same bit for bit, so that what was drawn on the way there is known on the way back.
+    // There and back are the same bit for bit, so that pictures of the way there are known on the way back.
     const double cosine = std::cos(2 * std::numbers::pi * (phase > 0.5 ? 1 - phase : phase));
     switch (motion) {
         case Motion::still:

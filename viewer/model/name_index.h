@@ -1,4 +1,4 @@
-// A choice by its name: only for the files of this folder.
+// Finds a choice by its name; only for the files of this folder.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace kerf::view {
 
-/// Throws Error(usage) naming all.
+/// Returns the index of a text among the names. Throws Error(usage) naming all of them.
 template <std::size_t N>
 int index_of(const std::array<const char*, N>& names, const std::string& text, const char* what) {
     for (std::size_t i = 0; i < N; ++i)

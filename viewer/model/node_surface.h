@@ -1,14 +1,14 @@
-// Surfaces in the form in which the viewer has them, with the memory that they take.
+// Converts surfaces into the form in which the viewer has them, and measures the memory that they take.
 #pragma once
 
 #include "viewer/model/document.h"
 
 namespace kerf::view {
 
-/// The surface of a node, numbered alike.
+/// Returns the surface of a node, with the same numbers.
 NodeSurface node_surface_of(const SurfaceArrays& surface);
 
-/// What a file said, numbered and oriented alike: as the surface of the root.
+/// Returns the content of a surface file as the surface of the root, with the same numbers and orientation.
 NodeSurface node_surface_of(const Soup& soup);
 
 template <class T>

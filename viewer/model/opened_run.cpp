@@ -1,3 +1,8 @@
+// A run is read as far as the first picture needs it: its report or request, the box of its parts, the places of its
+// regions. Paths in a report or trace may be out of date, because folders are moved: a file that is not at its path is
+// looked for by its name beside the run (existing_path()). The options of the run become those of the next one, so that
+// the names of files that the run has written are taken out of them (take_files()): a run that is made from the options
+// of another one must not write over its files. Notes whose advice the run has followed leave the document.
 #include "viewer/model/opened_run.h"
 
 #include <algorithm>
@@ -22,7 +27,7 @@ std::string existing_path(const std::string& path, const std::string& beside) {
     return fs::exists(other, ignored) ? other.lexically_normal().string() : path;
 }
 
-// A run that is made from the options of another one shall not write over its files. Returns where its trace is.
+// A run that is made from the options of another one shall not write over its files. Returns the path of its trace.
 std::string take_files(RunOptions& options, const std::string& folder) {
     std::string trace = options.trace_file.empty() ? "" : existing_path(options.trace_file, folder);
     if (!trace.empty() && !exists(trace)) trace = folder + ".trace";  // of a run that the viewer has saved

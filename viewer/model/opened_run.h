@@ -1,5 +1,4 @@
-// Runs as they are read on the loader's thread, as far as the first picture needs them, and how a document tells of
-// them.
+// Reads runs on the loader's thread, as far as the first picture needs them, and fills a document with them.
 #pragma once
 
 #include <optional>
@@ -16,40 +15,42 @@ namespace kerf::view {
 /// A finished run.
 struct OpenedRun {
     RunReportFile report;
-    std::optional<Solution> solution;  ///< on it
-    std::string folder, trace;         ///< the trace: where it is, if there is one
+    std::optional<Solution> solution;  ///< the solution on it that was opened, if one was
+    std::string folder, trace;         ///< trace: the path of its trace, or empty
     std::vector<std::string> patch_names;
     Eigen::AlignedBox3d box;
     std::vector<RegionPlace> region_places;
 };
 
-/// One that is under way, or was interrupted.
+/// A run that is under way, or was interrupted.
 struct OpenedPartialRun {
     RunOptions options;
     std::string folder, partial, trace;
     PartialRun state;
     std::vector<std::string> patch_names;
     Eigen::AlignedBox3d box;
-    std::shared_ptr<const Soup> soup;  ///< its input, if that is there
+    std::shared_ptr<const Soup> soup;  ///< the content of its input, if that is there; else null
 };
 
-/// `path`: its folder, or that of a solution on it. Throws Error(io).
+/// Reads a finished run. `path` is its folder, or that of a solution on it. Throws Error(io).
 OpenedRun read_run(const std::string& path);
-/// Throws Error(io).
+/// Reads a run that is under way, or was interrupted. Throws Error(io).
 OpenedPartialRun read_partial_run(const OpenedPath& path);
 
-/// Those of the trace, which lies at `path`; an option of another version is no reason not to show it.
+/// Returns the options of the trace, which lies at `path`. Options that this version does not know are left out, so
+/// that the trace of another version is shown, too.
 RunOptions options_of(const Trace& trace, const std::string& path);
 
-/// The tree, the numbers and the files of a finished run; a trace stays if its cuts are those of the run.
+/// Fills a document with the tree, the numbers and the files of a finished run. Its trace stays: the caller drops one
+/// whose cuts are not those of the run (is_trace_of()).
 void complete_from_report(OpenedRun run, Shown& shown);
-/// The surface that was read: its patches and its size.
+/// Fills a document with the patches and the size of the surface that was read.
 void set_input(const Soup& soup, Document& document);
-/// The surface that was cut.
+/// Fills a document with box, patches, regions, size and volume of the surface that was cut.
 void set_input(const Trace& trace, Document& document);
-/// Document::remeshed, for its options; without its file there is nothing to compare with.
+/// Sets Document::remeshed by the options of the document; without its input file there is nothing to compare with.
 void note_remeshing(bool remeshed, Document& document);
-/// A run of the surface that is open repeats those of its reader.
+/// Adds a note, unless the document has it: a run of the open surface repeats the notes of the surface's reader.
 void add_note(const std::string& note, Document& document);
 
 }  // namespace kerf::view

@@ -1,3 +1,9 @@
+// A run of ours is a process of `kerf mesh` or `kerf decompose`, followed by its events like any other run. Files that
+// the user has not named lie in a scratch folder, which lives as long as the process or a document needs it. Where the
+// input is not there any more, the surface of the trace is written into the scratch folder and meshed instead; that
+// needs a trace of a single region. One run is followed at a time: a run that is left is interrupted, and kept in
+// `leaving_` until it has ended or is overdue, when the destructor of its process kills it. An interrupted run writes
+// all that is needed to continue it, which is why it gets that time.
 #include "viewer/model/own_runs.h"
 
 #include <algorithm>
@@ -42,7 +48,7 @@ void OwnRuns::start(RunOptions options, bool volume) {
     }
     options.input = is_input_there ? absolute_path(document_.options.input) : document_.options.input;
     options.volume = volume;
-    if (!is_input_there) options.input_options.scale = 1;  // the surface of a trace is what was read
+    if (!is_input_there) options.input_options.scale = 1;  // the surface of a trace is scaled already
     run.options = options;
     run.has_scratch_output = options.output.empty();
     const bool is_read_otherwise = !same_input(options.input_options, document_.options.input_options);
@@ -107,7 +113,7 @@ bool OwnRuns::poll() {
     return true;
 }
 
-// A run that is asked to end writes what is needed to continue it; one that does not end in time is killed.
+// A run that is asked to end writes all that is needed to continue it; one that does not end in time is killed.
 void OwnRuns::end() {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::seconds patience{2};

@@ -11,6 +11,7 @@
 
 namespace kerf::view {
 
+/// Starts runs, one of which is followed, and ends them.
 class OwnRuns {
  public:
     /// `kerf`: the path of the program that makes them.
@@ -22,17 +23,18 @@ class OwnRuns {
           repairs_(repairs),
           follower_(follower) {}
 
-    /// As those of Session.
+    /// Do as Session::start_run() and Session::cancel_run() say.
     void start(RunOptions options, bool volume);
     void cancel();
 
-    /// Interrupts our run, and follows it no more.
+    /// Interrupts our run, whose end nobody waits for.
     void leave();
-    /// Some that were left are still there.
+    /// Returns whether runs that were left are still there.
     bool are_leaving() const { return !leaving_.empty(); }
-    /// Whether our run has ended. Once a frame.
+    /// Returns whether our run has ended; called once a frame. Kills runs that do not end in time after an interrupt.
     bool poll();
-    /// Interrupts all, and waits for two seconds at most; what has not ended then is killed by the destructor.
+    /// Interrupts all runs, and waits for two seconds at most; those that have not ended then are killed by the
+    /// destructor.
     void end();
 
  private:
@@ -45,7 +47,7 @@ class OwnRuns {
     Store& store_;
     Repairs& repairs_;
     RunFollower& follower_;
-    std::unique_ptr<RunProcess> process_;               // of the run that is followed
+    std::unique_ptr<RunProcess> process_;               // process of the run that is followed
     std::vector<std::unique_ptr<RunProcess>> leaving_;  // interrupted ones that nobody follows
 };
 

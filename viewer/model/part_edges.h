@@ -1,4 +1,4 @@
-// The nodes on the edges of a part of second order, as the viewer has them.
+// The nodes on the edges of a part of second order, in the form in which the viewer has them.
 #pragma once
 
 #include "part/part.h"
@@ -6,8 +6,8 @@
 
 namespace kerf::view {
 
-/// Those of its tetrahedra, or of the triangles of its surface, whose vertices come first in the part. Nothing of a
-/// part of first order. O(n log n) in the edges at a vertex.
+/// Adds the nodes on the edges of a part's tetrahedra, or of the triangles of its surface, whose vertices come first in
+/// the part; adds none for a part of first order. O(n log n) in the edges at a vertex.
 void add_edges(const Part& part, PartCells& cells);
 void add_edges(const Part& part, NodeSurface& surface);
 

@@ -1,3 +1,11 @@
+// A measure that the file of a part holds is read alone, without the cells. Only else are cells read, or those at hand
+// taken, and the measure is computed. Files of a run under way (".part") and runs of other formats have no such arrays,
+// nor global numbers of interior vertices, which are -1 then. Surfaces of parts are joined by the global numbers of
+// their vertices, never by coordinates; a facet whose neighbour lies below the same node is inside and left out. The
+// interface of a facet is that of the lowest common ancestor of the two parts, which follows from their numbers alone,
+// since the children of node n are 2n and 2n + 1. The worst cells are gathered in a heap of fixed size, one part in
+// memory at a time; a second pass over the few parts that have some of them finds their centres. Every file is checked
+// by checked_file() before it is read.
 #include "viewer/model/part_files.h"
 
 #include <algorithm>
@@ -75,7 +83,8 @@ std::vector<float> origins_of_tets(std::size_t count, std::int64_t core_tets) {
     return origins;
 }
 
-// Of the measures; the files of parts that are not finished, or of runs in other formats, have none.
+// Whether a file has arrays of measures; the files of parts that are not finished, or of runs in other formats, have
+// none.
 bool has_arrays(const std::string& path) { return path.ends_with(".vtu"); }
 
 std::string checked_part(const std::string& folder, NodeId part) {

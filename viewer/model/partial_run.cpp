@@ -27,7 +27,7 @@ NodeId number_in(const std::string& name, std::string_view prefix, std::string_v
     return error == std::errc() && stop == end && number > 0 ? number : 0;
 }
 
-// Also in the folders below, which large runs have.
+// Large runs have folders below, which are searched, too.
 std::set<NodeId> numbers_in(const fs::path& folder, std::string_view prefix, std::string_view ending) {
     std::set<NodeId> numbers;
     std::error_code error;

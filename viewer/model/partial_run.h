@@ -9,12 +9,12 @@
 
 namespace kerf::view {
 
-/// What lies in DIR.kerf-partial.
+/// The state of the folder DIR.kerf-partial.
 struct PartialRun {
     bool exists = false;
     bool is_alive = false;   ///< its process lives, or runs on another host, where nobody can tell
-    std::set<NodeId> parts;  ///< that are cut out: their surfaces are there
-    std::set<NodeId> taken;  ///< that are, or were, meshed in this run
+    std::set<NodeId> parts;  ///< parts that are cut out: their surfaces are there
+    std::set<NodeId> taken;  ///< parts that are, or were, meshed in this run
     std::set<NodeId> finished;
     std::set<NodeId> failed;
     std::vector<TreeRow> outcomes;  ///< tets and seconds of finished parts that were not known before
@@ -25,10 +25,11 @@ struct PartialRun {
     }
 };
 
-/// `known`: finished parts whose outcome need not be read. What cannot be read is passed over.
+/// Reads the state of such a folder. `known` are finished parts whose outcome need not be read. Files that cannot be
+/// read are passed over.
 PartialRun look_at_partial_run(const std::string& partial, const std::set<NodeId>& known);
 
-/// The parts that workers have taken.
+/// Returns the parts that workers have taken.
 std::set<NodeId> parts_taken(const std::string& partial);
 
 }  // namespace kerf::view

@@ -1,3 +1,10 @@
+// A cut is made again on the surface of its node as it was before the cut: by bisect(), and by a straight cut where no
+// contour of edges is found, or is asked for, and facets may be split. A run makes straight cuts in a complex of many
+// parts (FaceComplex), whose faces they divide together; here the complex holds the surface of this node alone, with
+// keys of its own for all vertices and facets, and the interface is triangulated as if no other cut crossed it.
+// Therefore numbers are mapped twice: those of the complex to vertices of the node's surface (`parent_vertex`), and
+// these to points of the interface, contour first. The keys of the surface are put back at the end, with those of
+// split() for new vertices. The new trace is the old one with this cut in its place and without the cuts below it.
 #include "viewer/model/redo.h"
 
 #include <algorithm>
@@ -30,7 +37,7 @@ TreeRow row_of(NodeId id, const Surface& surface) {
     return row;
 }
 
-// Keys of its own tell all vertices and facets of one surface apart, also the pieces of a facet that were split before.
+// A surface with keys of its own, which tell all its vertices and facets apart, also pieces of a facet that was split.
 Leaf with_own_keys(const Surface& surface, NodeId node) {
     Leaf leaf;
     leaf.id = node;
@@ -40,7 +47,8 @@ Leaf with_own_keys(const Surface& surface, NodeId node) {
     return leaf;
 }
 
-// The faces of the cap as the interface of the cut. `parent_vertex`: per vertex of the complex that the parent has.
+// Returns the faces of the cap as the interface of the cut. `parent_vertex` has the vertex of the parent for each
+// vertex of the complex that is one of the parent's.
 Interface interface_of(const FaceComplex& complex, const Cut& cut, const std::vector<std::int32_t>& parent_vertex) {
     Interface interface;
     interface.contour = cut.interface.contour;
@@ -64,7 +72,7 @@ Interface interface_of(const FaceComplex& complex, const Cut& cut, const std::ve
     return interface;
 }
 
-// As the run divides what no contour of edges divides, its interface triangulated as if no other cut crossed it.
+// Divides a surface by a straight cut, as a run does where no contour of edges is found; false if none is accepted.
 bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, const CutOptions& options,
                   MadeCut& made) {
     FaceComplex complex({with_own_keys(surface, node)});

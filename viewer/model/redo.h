@@ -1,4 +1,4 @@
-// One cut of a trace made again.
+// Makes one cut of a trace again.
 #pragma once
 
 #include <memory>
@@ -9,15 +9,15 @@
 
 namespace kerf::view {
 
-/// What came of it.
+/// A cut that was made again.
 struct RedoneCut {
-    std::shared_ptr<Replayer> replayer;  ///< of the trace with this cut instead of the old one, without those below it
-    std::vector<TreeRow> rows;           ///< of the node and, if a cut was made, its halves
+    std::shared_ptr<Replayer> replayer;  ///< of the trace with this cut for the old one, without cuts below it
+    std::vector<TreeRow> rows;           ///< rows of the node and, if a cut was made, of its halves
 };
 
-/// Cuts the node at `plane` (place_of()), else where it was cut before, else in two of equal load, with
-/// options.decompose.cut; by a straight cut where no contour of edges is found and the options allow it. `options` need
-/// not be resolved. Throws Error(usage) for options out of range or a node that the tree does not have.
+/// Cuts the node at `plane` (place_of()), else where it was cut before, else into two halves of equal load, with
+/// options.decompose.cut. The cut is straight where no contour of edges is found and the options allow it. `options`
+/// need not be resolved. Throws Error(usage) for options out of range or a node that the tree does not have.
 RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options, const std::optional<Plane>& plane = {});
 
 }  // namespace kerf::view

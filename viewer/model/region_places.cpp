@@ -1,3 +1,9 @@
+// One pass over facets finds the box of each region, and counts its facets and its walls with each other region; facets
+// that a cut has made within a region do not count. A region is held by another one if more than half of its facets are
+// walls with that one, whose box contains its own and is larger by volume; the latter excludes cycles, so that the walk
+// from holder to holder ends. The outermost holder moves by the vector from the centre of all to its own centre, and
+// each link of the chain adds a move through the nearest side of the holder's box, as long as that box is there; of
+// equally near sides the upper one is taken first.
 #include "viewer/model/region_places.h"
 
 #include <limits>
@@ -10,7 +16,7 @@ namespace kerf::view {
 
 namespace {
 
-// What facets tell of the regions that they bound.
+// The facts that facets tell of the regions that they bound.
 class RegionSurvey {
  public:
     explicit RegionSurvey(std::size_t count) : boxes_(count), facets_(count) {}
@@ -42,7 +48,8 @@ class RegionSurvey {
     std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> walls_;
 };
 
-// Through the side of the holder that is nearest to the same side of what it holds; of several upwards, if that is one.
+// The move through the side of the holder that is nearest to the same side of the region inside; of equally near sides
+// the upper one is taken first.
 Vec3 way_out(const Eigen::AlignedBox3d& inside, const Eigen::AlignedBox3d& holder) {
     double least = std::numeric_limits<double>::infinity();
     Vec3 way = Vec3::Zero();

@@ -1,4 +1,4 @@
-// Where the regions of several are, and where they go when they are pulled apart.
+// The places of regions, where there are several, and their moves when they are pulled apart.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,23 @@
 
 namespace kerf::view {
 
+/// The place of a region among the others.
 struct RegionPlace {
     Eigen::AlignedBox3d box;
-    /// The region that is around it: most of its facets are walls with that one, whose box holds its own. -1: none.
+    /// The region around this one, or -1: more than half of this one's facets are walls with it, and its box is larger
+    /// and contains this one's.
     std::int32_t holder = -1;
 };
 
-/// By the numbers of regions. O(#F log #regions).
+/// Returns the places of the regions of a trace, by their numbers. O(#F log #regions).
 std::vector<RegionPlace> region_places(const Trace& trace);
-/// The same of the parts of a run folder with `count` regions, whose surfaces are read. Throws Error(io).
+/// Returns the places of the `count` regions of a run folder, for which the surfaces of its parts are read. Throws
+/// Error(io).
 std::vector<RegionPlace> region_places(const std::string& folder, const Tree& tree, std::size_t count);
 
-/// How far each region moves where they are as far apart as they are large: away from the middle of all, so that
-/// bodies side by side stay so; a region that is held moves with its holder, and on, to where least of that is in the
-/// way, by the holder's length. Coordinates of the file. O(n).
+/// Returns the move of each region when all are pulled apart as far as they are large, in coordinates of the file. A
+/// region without a holder moves away from the middle of all, so that bodies side by side stay so. A region with a
+/// holder moves with that, and farther by the holder's length through the holder's nearest side. O(n).
 std::vector<Vec3> moves_apart(const std::vector<RegionPlace>& places);
 
 }  // namespace kerf::view

@@ -1,3 +1,10 @@
+// A state is the surface of the files as one set of options mends it (CheckedSurface). The surface without repairs is
+// checked before the first repaired one and begins the history, because deviations refer to it. Every repair starts
+// from the files, so that a state depends on its options alone, and going back computes nothing. Checks run on the
+// loader's thread and ask their scope now and then whether they are still wanted; if not they end by Error(cancelled).
+// Where a run or a trace is shown, a check changes neither surface nor tree; only a repair, undo() or redo() sets the
+// run aside (show_surface_again()). Document::soup shares memory with files_ or with the state, so that its address
+// tells whether the surface is shown as it was read.
 #include "viewer/model/repairs.h"
 
 #include <utility>
@@ -13,7 +20,7 @@
 
 namespace kerf::view {
 
-// The surface as the file has it comes before the first that is repaired.
+// The surface as the file has it is checked before the first one that is repaired.
 Loader::Work Repairs::checking(const InputOptions& options, std::shared_ptr<const Scope> scope) {
     const InputOptions plain = without_repairs(options);
     const bool knows_plain = !history_.empty() && same_input(plain, history_.unrepaired().options);
@@ -65,7 +72,7 @@ void Repairs::take_checked(std::vector<CheckedSurface> states) {
     show_checked();
 }
 
-// A run has told more since, if there is one.
+// If there is a run, it has told more of surface and tree since, and these stay.
 void Repairs::show_checked() {
     const CheckedSurface& state = history_.shown();
     document_.checked = state.checked;
@@ -164,7 +171,7 @@ void Repairs::show_state() {
     show_checked();
 }
 
-// What a run has made of it is kept to compare with.
+// The result of a run that is shown is kept to compare with.
 void Repairs::show_surface_again() {
     background_.forget_failures();
     document_.progress = {};

@@ -1,4 +1,4 @@
-// The surfaces of the nodes of a trace, each made from that of its parent, which is kept for the next.
+// The surfaces of the nodes of a trace, each made from that of its parent, which is kept for the next one.
 #pragma once
 
 #include <list>
@@ -9,23 +9,25 @@
 
 namespace kerf::view {
 
-/// Gives what replay() gives. Belongs to one thread; what it returns is shared.
+/// Makes the same surfaces as replay(). Belongs to one thread; the surfaces that it returns are shared.
 class Replayer {
  public:
-    /// `limit_bytes` bounds what is kept beyond the nodes above the last one asked for.
+    /// `limit_bytes` bounds the estimated memory of the surfaces that are kept; the last one is kept in any case.
     Replayer(std::shared_ptr<const Trace> trace, std::size_t limit_bytes);
 
-    /// Of a trace that differs from the other's only at and below `node`; takes over what the other keeps of the rest.
+    /// Takes a trace that differs from the other's only at and below `node`, and the surfaces that the other keeps of
+    /// the rest.
     Replayer(const Replayer& other, std::shared_ptr<const Trace> trace, NodeId node);
     Replayer(const Replayer&) = delete;
     Replayer& operator=(const Replayer&) = delete;
 
     const std::shared_ptr<const Trace>& trace() const { return trace_; }
 
-    /// The surface whose numbers the cut of the node refers to. O(#F) if the parent is kept. Throws Error(usage) if the
-    /// tree has no such node.
+    /// Returns the surface to whose numbers the cut of the node refers. O(#F) if the parent is kept. Throws
+    /// Error(usage) if the tree has no such node.
     std::shared_ptr<const Surface> surface(NodeId node);
-    /// The same before a straight cut has split its facets: the surface that was there to be cut.
+    /// Returns the surface of the node before a straight cut has split its facets: the surface that was there to be
+    /// cut.
     std::shared_ptr<const Surface> uncut_surface(NodeId node);
 
  private:

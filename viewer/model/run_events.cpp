@@ -1,3 +1,7 @@
+// An events file has a JSON object on each line, to which the run adds lines. EventTail remembers its position in bytes
+// and the begin of a line that has no end yet, so that a line is parsed once, when it is complete. Lines that are no
+// events are passed over, and kinds of events that this version does not know become `other`, so that runs of other
+// versions can be followed. Numbers that an event does not tell are negative and leave the row of the tree as it is.
 #include "viewer/model/run_events.h"
 
 #include <algorithm>
@@ -48,7 +52,7 @@ RunEvent::Part ended_part(const Json& json) {
     return part;
 }
 
-// Throws what the JSON library throws.
+// Throws exceptions of the JSON library.
 RunEvent event_from_json(const Json& json) {
     RunEvent event;
     event.kind = kind_of(json.at("event").get<std::string>());

@@ -1,4 +1,4 @@
-// The lines of an events file (report/event_log.h) as they come.
+// Reads the lines of an events file (report/event_log.h) as they come.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 namespace kerf::view {
 
+/// One line of an events file. Numbers that it does not tell are negative or 0.
 struct RunEvent {
     enum class Kind { run, stage, parts, part, end, other };
     struct Part {
@@ -22,15 +23,15 @@ struct RunEvent {
         std::int64_t core_tets = 0;
     };
     Kind kind = Kind::other;
-    double seconds = 0;                ///< since the start of the run
-    std::string input, output, trace;  ///< of `run`; absolute or empty
-    double scale = 1;                  ///< of `run`: what coordinates of the input are multiplied by
-    std::string stage;                 ///< of `stage`
-    std::vector<Part> parts;           ///< of `parts`: all; of `part`: the one that has ended
+    double seconds = 0;                ///< seconds since the start of the run
+    std::string input, output, trace;  ///< of `run`: paths, absolute or empty
+    double scale = 1;                  ///< of `run`: the factor of the input's coordinates
+    std::string stage;                 ///< of `stage`: its name
+    std::vector<Part> parts;           ///< of `parts`: all parts; of `part`: the one that has ended
     std::int64_t parts_done = 0, parts_total = 0;
     double load_done = 0;
     int exit_code = 0;
-    std::string message;  ///< of `end`
+    std::string message;  ///< of `end`: the reason of an end without success, or empty
 };
 
 /// Reads an events file while it is written. A file that is not there yet has no events.
@@ -39,7 +40,7 @@ class EventTail {
     explicit EventTail(std::string path) : path_(std::move(path)) {}
     const std::string& path() const { return path_; }
 
-    /// The events that have come since the last call. Lines that are no events are passed over.
+    /// Returns the events that have come since the last call. Lines that are no events are passed over.
     std::vector<RunEvent> read_new();
 
  private:
@@ -48,9 +49,9 @@ class EventTail {
     std::string rest_;  // a line that has no end yet
 };
 
-/// Fills what an event tells of parts; makes the tree where there is none.
+/// Fills a tree with the facts that an event tells of parts; makes the tree where there is none.
 void apply_to_tree(const RunEvent& event, Tree& tree);
-/// Fills stage, counts and times.
+/// Fills stage, counts and times with those of an event.
 void apply_to_progress(const RunEvent& event, Progress& progress);
 
 }  // namespace kerf::view

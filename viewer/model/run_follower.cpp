@@ -1,3 +1,10 @@
+// A run is followed by its events, or else by a look at DIR.kerf-partial four times a second. Both end alike:
+// report.json is read and replaces all that was known (show_result()). Events do not tell which parts are being meshed,
+// so that the folder is looked at for these, too (mark_taken()). The result before stays shown until a trace is there,
+// or parts are announced without one (show_run_under_way()); then it becomes the other document. The end of a run comes
+// from two sides, in any order: its last event or the end of its process, and the trace that is being read;
+// end_if_complete() is called from each and goes on when both are there. A work may come back after another run was
+// started: it is dropped with its scope, or asks is_following() first.
 #include "viewer/model/run_follower.h"
 
 #include <algorithm>
@@ -19,7 +26,7 @@ std::string message_of(int exit_code, const Tree& tree) {
     return failed == 0 ? "" : fmt::format("{} part{} could not be meshed.", failed, failed == 1 ? "" : "s");
 }
 
-// Of parts that were not cut again.
+// Keeps the rows of parts that were not cut again.
 void keep_known_rows(const Tree& known, Tree& tree) {
     for (TreeRow& row : tree.rows)
         if (const TreeRow* before = known.find(row.id); before && before->leaf() == row.leaf()) row = *before;
@@ -123,7 +130,7 @@ void RunFollower::apply_parts(const RunEvent& event) {
     if (event.kind == RunEvent::Kind::parts && run_->is_shown) use_partial_folder();
 }
 
-// The first thing that is there to be seen.
+// Shows the input, which is the first thing to be seen.
 void RunFollower::show_input() {
     if (!exists(run_->input)) return;
     const auto read = [this, path = run_->input, input = run_->options.input_options]() -> Loader::Completion {
@@ -137,7 +144,7 @@ void RunFollower::show_input() {
             document_.tree.at(1);
         };
     };
-    background_.post(background_.open, read, [](const Error&) {});  // the run itself says what is wrong with it
+    background_.post(background_.open, read, [](const Error&) {});  // the run itself tells the error
 }
 
 void RunFollower::load_trace() {
@@ -151,7 +158,7 @@ void RunFollower::load_trace() {
     const auto read = [path = run_->trace, show]() -> Loader::Completion {
         return [show, trace = std::make_shared<const Trace>(read_trace(path))] { show(trace); };
     };
-    // Reading belongs to the run: another one that is started makes it void.
+    // The reading belongs to the run: it is dropped when another run is started.
     background_.post(background_.watch, read, [this, show](const Error& error) {
         background_.note_failure(error);
         show(nullptr);
@@ -269,7 +276,7 @@ void RunFollower::end_process(const std::string& reason, bool cancelled) {
         run_->end.emplace();
         run_->end->message = reason;
     }
-    // What could be continued goes with the folder.
+    // The run cannot be continued, because its files go with the scratch folder.
     if (cancelled && run_->has_scratch_output && !run_->end->message.empty())
         run_->end->message = "The run was cancelled.";
     end_if_complete();
@@ -322,7 +329,7 @@ void RunFollower::show_result(OpenedRun run) {
     fetched_.prefetch_surfaces();
 }
 
-// The message may lie in the run.
+// `message` may be a member of run_, which stop() ends.
 void RunFollower::end_without_result(const std::string& message, int exit_code) {
     document_.progress.running = document_.progress.ours = false;
     document_.progress.message = message;

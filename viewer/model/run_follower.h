@@ -18,9 +18,9 @@ namespace kerf::view {
 /// A run that a document follows: ours, or that of another process.
 struct Followed {
     enum class TraceState { none, loading, known };
-    std::optional<EventTail> tail;  ///< none: its folder is looked at
+    std::optional<EventTail> tail;  ///< none: the folder of the run is looked at
     std::string input, output, trace;
-    std::vector<RunEvent> events;  ///< those that tell of parts
+    std::vector<RunEvent> events;  ///< the events that tell of parts
     TraceState trace_state = TraceState::none;
     std::optional<RunEvent> end;
     bool is_shown = false;   ///< the document shows this run and no older result any more
@@ -29,40 +29,42 @@ struct Followed {
     bool is_looking = false;
     std::optional<PartialRun> last_look;
     std::set<NodeId> finished;  ///< parts whose outcome is known
-    // Of ours:
+    // The members below are for a run of ours.
     std::shared_ptr<ScratchFolder> scratch;
     bool has_scratch_output = false;
-    RunOptions options;              ///< as they were asked for
-    std::optional<Document> before;  ///< what was shown; empty: nothing to compare with, or it was set aside
+    RunOptions options;              ///< the options as they were asked for
+    std::optional<Document> before;  ///< the document that was shown; empty: there was none, or it was set aside
 
     std::string partial() const { return output + ".kerf-partial"; }
 };
 
+/// Fills the shown document with the progress and the result of the run that it follows.
 class RunFollower {
  public:
     RunFollower(Background& background, ShownPair& pair, Fetched& fetched)
         : background_(background), pair_(pair), document_(pair.now.document), fetched_(fetched) {}
 
     bool is_following() const { return run_.has_value(); }
-    /// Its last event has come; its result may be being read.
+    /// Returns whether the last event of the run has come; its result may still be being read.
     bool has_ended() const { return run_ && run_->end; }
-    /// The run whose files are in a scratch folder.
+    /// Returns whether the run whose files are in this scratch folder is followed.
     bool is_following(const std::shared_ptr<ScratchFolder>& scratch) const { return run_ && run_->scratch == scratch; }
 
     void follow(Followed run) { run_ = std::move(run); }
-    /// One that another process makes, by its events.
+    /// Follows the run of another process by its events.
     void follow_events(const std::string& path);
-    /// One whose document is shown, as it was when it was looked at.
+    /// Follows a run by its folder, from the state in which the shown document has it.
     void follow_folder(const std::string& output, const PartialRun& state);
-    /// What a comparison shows beside the next run; may be empty. Leaves nothing to the one that is followed.
+    /// Returns the document that a comparison shows beside the next run; may be empty. The run that is followed loses
+    /// the document that was kept for it.
     std::optional<Document> take_before();
     void stop();
 
-    /// Reads what is new; whether anything is. Looks at folders now and then. Once a frame.
+    /// Reads new events, and returns whether there are any; looks at folders now and then. Called once a frame.
     bool poll();
-    /// The process of our run has ended. `reason`: why, if its events do not say so.
+    /// Takes the end of the process of our run; `reason` tells of it if the events do not.
     void end_process(const std::string& reason, bool cancelled);
-    /// The run that is followed, or was to be, ends here.
+    /// Ends the run that is followed, or was to be followed.
     void end_without_result(const std::string& message, int exit_code = 1);
 
  private:

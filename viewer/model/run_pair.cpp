@@ -52,7 +52,7 @@ void RunPair::redo_cut(NodeId node, const RunOptions& options, const std::option
     start_redo();
 }
 
-// One after the other: each changes the trace.
+// Cuts are made one after the other, because each changes the trace.
 void RunPair::start_redo() {
     if (background_.redo.jobs > 0 || now_.cuts_again.empty()) return;
     const CutAgain cut = std::move(now_.cuts_again.front());

@@ -1,3 +1,8 @@
+// The command line of a run is derived from the table of options: those that differ from the defaults are given, and
+// switches become --NAME or --no-NAME. A surface without a file is written in the MEDIT format with 17 digits, by which
+// doubles are read back bit for bit; the number of a patch, plus one, is the reference of its triangles. The process is
+// the only child of its pool. It keeps its scratch folder alive, whose removal is tried for half a second, because
+// workers of a killed run may still write into it.
 #include "viewer/model/run_process.h"
 
 #include <unistd.h>

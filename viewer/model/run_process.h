@@ -12,10 +12,10 @@
 
 namespace kerf::view {
 
-/// A folder of its own below that of the system, removed at its end.
+/// A temporary folder below that of the system; the destructor removes it.
 class ScratchFolder {
  public:
-    /// Throws std::filesystem::filesystem_error.
+    /// Throws Error(io).
     ScratchFolder();
     ~ScratchFolder();
     ScratchFolder(const ScratchFolder&) = delete;
@@ -26,27 +26,27 @@ class ScratchFolder {
     std::string path_;
 };
 
-/// The command line of a run without the program: what differs from the defaults of kerf. `options` says input,
-/// output, trace and events, too.
+/// Returns the command line of a run without the program: the options that differ from the defaults of kerf. `options`
+/// has the paths of input, output, trace and events, too.
 std::vector<std::string> command_line_of(RunOptions options, bool volume);
 
 /// Writes the surface of a trace so that its coordinates are read back bit for bit; patches keep their numbers, but not
 /// their names. Throws Error(io).
 void write_surface_of(const Trace& trace, const std::string& path);
 
-/// A child that can be interrupted. The destructor kills it.
+/// The process of a run, which can be interrupted. The destructor kills it.
 class RunProcess {
  public:
     /// Throws Error(io) if it cannot be started.
     RunProcess(const std::string& program, const std::vector<std::string>& arguments,
                std::shared_ptr<ScratchFolder> scratch);
 
-    /// Asks it to end.
+    /// Asks the process to end.
     void interrupt();
-    /// It was asked to end so long ago that it should be killed.
+    /// Returns whether the process was asked to end so long ago that it should be killed.
     bool is_overdue() const;
     bool was_interrupted() const { return interrupted_.has_value(); }
-    /// Its result, once, when it has ended; waits for that at most `seconds`.
+    /// Returns the result, once, when the process has ended; waits for that at most `seconds`.
     std::optional<ChildResult> wait(double seconds);
     bool is_running() const { return pool_.running() > 0; }
     double seconds() const;
@@ -59,7 +59,7 @@ class RunProcess {
     std::optional<Clock::time_point> interrupted_;
 };
 
-/// Why a run has ended, from its result alone: the end of what it said.
+/// Returns the reason why a run has ended, from its result alone: the end of its log, or else its exit.
 std::string reason_of(const ChildResult& result);
 
 }  // namespace kerf::view

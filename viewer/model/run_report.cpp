@@ -1,3 +1,9 @@
+// Rows of the tree are filled in two passes over report.json: "tree" has the nodes as they were when they were cut,
+// "parts" has the parts as they are at the end. The second overwrites the first, because straight cuts of neighbours
+// change a part after its node was described. Numbers that are not finite are null in the report and become -1, which
+// stands for "not known". Members that reports of older versions do not have get defaults, and an option of another
+// version becomes a note, so that its run can be shown. Files are only compared by their sizes here; their hashes are
+// checked when they are read (checked_files.h).
 #include "viewer/model/run_report.h"
 
 #include <algorithm>
@@ -67,7 +73,7 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
     row.message = part.value("error", "");
 }
 
-// The report says it of parts. Children have larger numbers than their parents.
+// The report tells regions of parts only. Children have larger numbers than their parents.
 void set_regions_of_nodes(Tree& tree) {
     for (auto row = tree.rows.rbegin(); row != tree.rows.rend(); ++row)
         if (!row->leaf() && row->regions == 1)
@@ -79,7 +85,7 @@ std::string option_text(const Json& value) {
     return value.is_string() ? path_of_text(value.get<std::string>()) : json_text(value);
 }
 
-// An option of another version is no reason not to show the run.
+// The run is shown though an option of another version is not known.
 void read_options(const Json& json, RunReportFile& report) {
     for (const auto& [name, value] : json.items()) {
         try {
@@ -140,7 +146,7 @@ RunReportFile report_from_json(const Json& json) {
     return report;
 }
 
-// Whether each file is there with all its bytes; what is in them is for kerf verify.
+// A sentence on files that are not there with all their bytes, or empty; their contents are for kerf verify.
 std::string damage_of(const std::string& folder, const Json& files) {
     std::string first;
     int count = 0;

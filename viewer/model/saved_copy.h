@@ -1,4 +1,4 @@
-// A temporary run becomes one that stays.
+// Makes a temporary run one that stays.
 #pragma once
 
 #include <string>

@@ -1,3 +1,8 @@
+// The session is glue: `Parts` owns the parts of the model, and calls are passed on to them. The order of its members
+// is the order of knowledge, as each gets references to some of those before it. Works of the second thread hold such
+// references, too, so that the destructor ends our runs and then that thread before any member is destroyed. Results of
+// works get into the document in poll() alone, so that a frame sees one state. close() must reset every part that
+// remembers something of the document.
 #include "viewer/model/session.h"
 
 #include <algorithm>
@@ -8,7 +13,7 @@
 
 namespace kerf::view {
 
-// Each knows those before it. The first thread owns them all.
+// Each part knows some of those before it. The first thread owns them all.
 struct Session::Parts {
     explicit Parts(std::string kerf_program) : kerf(std::move(kerf_program)) {}
     ~Parts() {

@@ -1,7 +1,7 @@
-// Opens files and folders, starts and follows runs, and fetches what is asked for in the background.
+// Opens files and folders, starts and follows runs, and fetches data in the background when they are asked for.
 //
 // All calls come from one thread; nothing blocks but wait(). A second thread reads and computes. Results depend on the
-// files alone; only when they are there depends on time.
+// files alone, and only their arrival on time.
 #pragma once
 
 #include <memory>
@@ -14,6 +14,7 @@
 
 namespace kerf::view {
 
+/// The open document and all that changes it: the model of the viewer.
 class Session {
  public:
     /// `kerf_program`: the path of kerf, which makes the runs, in a process of its own; kerf-worker lies beside it.
@@ -24,19 +25,19 @@ class Session {
     Session& operator=(const Session&) = delete;
 
     /// Opens a surface file, a trace, a run folder, a solution on one (find_solution()), the folder of a run that is
-    /// under way (DIR or DIR.kerf-partial), or its events (a file of --events). With InputOptions::more_files these are
-    /// opened with it, and all are surfaces. Cancels what was open. Never throws:
-    /// what fails is in document().error. `options`: those of the next run of a surface, by which it is read and
-    /// checked; a run and a trace bring theirs.
+    /// under way (DIR or DIR.kerf-partial), or its events (a file of --events). The files of
+    /// InputOptions::more_files are opened with it, and all must be surfaces. Closes the document before, with all
+    /// work for it. Never throws: errors are in document().error. `options` are those of the next run of a surface, by
+    /// which it is read and checked; a run and a trace bring theirs.
     void open(const std::string& path, const RunOptions& options = {});
     void reload();
     void close();
 
-    /// Takes over what has arrived since the last call; returns whether anything has. Cheap; called once a frame.
+    /// Takes over all that has arrived since the last call; returns whether anything has. Cheap; called once a frame.
     bool poll();
     /// Polls until something arrives, at most `seconds`; false if nothing did.
     bool wait(double seconds);
-    /// Something is being fetched, or a run of ours is under way.
+    /// Returns whether something is being fetched, or a run of ours is under way.
     bool busy() const;
 
     const Document& document() const;
@@ -44,28 +45,30 @@ class Session {
     /// Cuts and, if `volume`, meshes the surface that is open, with options.decompose and so on as given, into
     /// options.output, or into a temporary folder if that is empty. The document fills as it goes.
     void start_run(RunOptions options, bool volume);
-    /// Interrupts our run; it ends within two seconds.
+    /// Interrupts our run or repair. A run is killed if it has not ended after five seconds.
     void cancel_run();
 
-    /// Once start_run(), Repairs::repair() or RunPair::redo_cut() has something to show, what was shown before is kept,
-    /// whole, to compare with: the other document, until the next one of these or open(); nullptr if there is none.
+    /// Returns the other document, to compare with, or nullptr: once start_run(), Repairs::repair() or
+    /// RunPair::redo_cut() has something to show, the document that was shown before is kept, whole, until the next one
+    /// of these or open().
     const Document* other_document() const;
-    /// document() is the one before, other_document() the one after.
+    /// Returns whether document() is the one before, and other_document() the one after.
     bool shows_before() const;
 
-    /// What is asked for of the document.
+    /// The data of the document that are fetched when they are asked for.
     Fetched& fetched();
-    /// Of the surface that is open.
+    /// The repairs of the surface that is open.
     Repairs& repairs();
-    /// What is done with the runs that are shown.
+    /// The operations on the run that is shown and the one before.
     RunPair& pair();
     const RunPair& pair() const;
 
-    /// Something is being opened, or what was asked for is being fetched.
+    /// Returns whether a document is being opened, or data that were asked for are being fetched.
     bool pending() const;
-    /// What failed to be fetched or made, newest last, since a run or a cut was last started or shown.
+    /// Returns messages of failures to fetch or make something, newest last, since a run or a cut was last started or
+    /// shown.
     const std::vector<std::string>& failures() const;
-    /// Of the first of them.
+    /// Returns the code of the first of these failures.
     ErrorCode failure_code() const;
 
  private:

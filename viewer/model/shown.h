@@ -1,4 +1,4 @@
-// What is shown, and what was shown before the last change.
+// The document that is shown, and the one that was shown before the last change.
 #pragma once
 
 #include <deque>
@@ -25,22 +25,22 @@ struct Shown {
     static constexpr std::size_t store_bytes = std::size_t{4} << 30;
 
     Document document;
-    std::shared_ptr<Replayer> replayer;      ///< of its trace; only the loader's thread looks inside
-    std::set<NodeId> folder_parts;           ///< of which its folder has files that are those of the tree
-    std::shared_ptr<ScratchFolder> scratch;  ///< that its folder is in
-    std::deque<CutAgain> cuts_again;         ///< that wait for the one under way: each changes the trace
+    std::shared_ptr<Replayer> replayer;      ///< replays its trace; only the loader's thread looks inside
+    std::set<NodeId> folder_parts;           ///< parts whose files in its folder are those of the tree
+    std::shared_ptr<ScratchFolder> scratch;  ///< the scratch folder that holds its folder, if one does
+    std::deque<CutAgain> cuts_again;         ///< cuts that wait for the one under way, because each changes the trace
     Store store{store_bytes};
 };
 
-/// Two documents to compare, one of which is shown. `now` stays where it is, but what is in it is replaced: only its
+/// Two documents to compare, one of which is shown. `now` stays where it is, but its members are replaced: only its
 /// address may be kept.
 struct ShownPair {
     Shown now;
     std::optional<Shown> other;
     bool shows_before = false;  ///< `now` is the one before, `other` the one after
 
-    /// What was shown before, `before` and all but the document of `now`, becomes the other one. What follows belongs
-    /// to a new document, whose store is empty.
+    /// Makes `before`, with all of `now` but its document, the other one. `now` then is for a new document, whose store
+    /// is empty.
     void set_aside(Document before);
     void swap();
 };

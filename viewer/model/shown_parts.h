@@ -1,4 +1,4 @@
-// Which parts of a document a view shows, by their nodes and by their regions.
+// The parts of a document that a view shows, by their nodes and by their regions.
 #pragma once
 
 #include <string>
@@ -8,17 +8,20 @@
 
 namespace kerf::view {
 
-/// The name of the region of several in which a part, or all of a node, lies; else null.
+/// Returns the name of the region in which a part, or all of a node, lies, where there are several regions; else null.
 const std::string* region_of(const Document& document, NodeId node);
 
+/// Returns whether a region is hidden by its name.
 bool is_hidden(const ViewState& state, const std::string& region);
-/// Neither hidden nor beside the region that is isolated. O(log n).
+/// Returns whether a region is neither hidden nor beside the region that is isolated, if the document has that one.
+/// O(log n) in the hidden regions, O(n) in all if one is isolated.
 bool shows_region(const ViewState& state, const Document& document, const std::string& region);
-/// Neither it nor its region is hidden, or beside what is isolated; a node of several regions has none.
+/// Returns whether neither a node nor its region is hidden, or beside an isolated one. A node of several regions has no
+/// region.
 bool shows_node(const ViewState& state, const Document& document, NodeId node);
-/// A region is drawn as glass.
+/// Returns whether a region is drawn as glass.
 bool is_glass(const ViewState& state, const std::string& region);
-/// It lies in one that is.
+/// Returns whether a part lies in a region that is drawn as glass.
 bool is_glass(const ViewState& state, const Document& document, NodeId part);
 
 /// Shows a region again, whatever has hidden it.

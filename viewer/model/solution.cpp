@@ -1,3 +1,8 @@
+// The report of a solution tells its order, its cases and its modes. The values are arrays of its part files, found by
+// name: "Displacement", "Stress", "VonMises" and "ErrorIndicator", followed by a space and the name of the case where
+// there are several, and "Mode 1" and so on for displacements of modes. An array of cells has the values of the
+// tetrahedra first and those of the facets behind them. Where the report does not tell how large a mode is, the files
+// of all parts are read for it, once (measure_modes()).
 #include "viewer/model/solution.h"
 
 #include <algorithm>
@@ -105,7 +110,7 @@ void add_modes(const Json& modes, Solution& solution) {
     }
 }
 
-// Of modes, where the report does not say how large they are.
+// Measures the modes of which the report does not say how large they are.
 void measure_modes(Solution& solution) {
     std::vector<Solution::Case*> unknown;
     for (Solution::Case& one : solution.cases)

@@ -8,6 +8,7 @@
 
 namespace kerf::view {
 
+/// A stage of a cut, or a state of the surface before it or of the parts after it.
 enum class Stage {
     before_repair,     ///< of the root: the surface as the file has it, where repairs have changed it
     before_remeshing,  ///< of the root: the surface as it was read and repaired, where another one was cut
@@ -18,9 +19,9 @@ enum class Stage {
     closed_loops,      ///< ears and islands removed
     paths_removed,     ///< vertices with more than two contour edges opened
     contour,           ///< the smoothed contour, which was used
-    projected,         ///< it in the plane
-    triangulation,     ///< the section inside of it, in the plane
-    interface,         ///< mapped back to the surface
+    projected,         ///< the contour in the plane
+    triangulation,     ///< the section inside of the contour, triangulated in the plane
+    interface,         ///< the triangulated section, mapped back to the surface
     split,             ///< both halves
     parts,             ///< the surfaces of the parts below the node, of a run that has not filled them
     tetrahedra,        ///< the parts below the node
@@ -36,18 +37,19 @@ struct Step {
     bool operator==(const Step&) const = default;
 };
 
-/// The words of a stage, wherever it is named: "crossed-edges" for the command line, the state file and the layer of
-/// the scene that shows it; in_words() of that in legends; its title, "Crossed edges", on buttons and as a heading.
+/// Return the words of a stage, wherever it is named: its name, "crossed-edges", for the command line, the state file
+/// and the layer of the scene that shows it, and in_words() of it for legends; its title, "Crossed edges", for buttons
+/// and headings.
 const char* name(Stage stage);
 std::string title(Stage stage);
 
-/// The stage's name, or "try:3" (counted from 0).
+/// Returns the stage's name, or "try:3" (counted from 0).
 std::string name(const Step& step);
-/// The stage's title, or "Try 4" (counted from 1).
+/// Returns the stage's title, or "Try 4" (counted from 1).
 std::string title(const Step& step);
-/// Throws Error(usage) naming all stages.
+/// Returns the step of a name. Throws Error(usage) naming all stages.
 Step step_from_name(const std::string& text);
-/// All names, as a list for people: "input, plane, ...".
+/// Returns the names of all stages, as a list for people: "input, plane, ...".
 std::string names_of_stages();
 
 }  // namespace kerf::view

@@ -1,4 +1,4 @@
-// What was fetched, in a bounded memory.
+// Fetched values in a bounded memory.
 #pragma once
 
 #include <compare>
@@ -12,8 +12,8 @@
 namespace kerf::view {
 
 /// Keeps values of several types by key; the least recently used leave when their sizes add up to more than the limit.
-/// What was asked for since the last but one call of next_frame() stays: to drop it would mean to fetch it again at
-/// once, for ever.
+/// Values that were asked for since the last but one call of next_frame() stay: to drop them would mean to fetch them
+/// again at once, for ever.
 class Store {
  public:
     enum class Kind : std::uint8_t {
@@ -30,8 +30,8 @@ class Store {
         Kind kind;
         NodeId node = 0;
         int color = 0;
-        std::size_t count = 0;     ///< of worst cells; the number of the case of a solution
-        const void* of = nullptr;  ///< the surface on which values lie, which these keep alive
+        std::size_t count = 0;     ///< number of worst cells; for a solution the number of the case
+        const void* of = nullptr;  ///< the surface on which values lie; the values keep it alive
         auto operator<=>(const Key&) const = default;
     };
 
@@ -43,16 +43,17 @@ class Store {
 
     void next_frame() { ++frame_; }
 
-    /// nullptr if it is not there. T must be that of the key's kind.
+    /// Returns the value of a key, which counts as used now; nullptr if there is none. T must be the type of the key's
+    /// kind.
     template <class T>
     std::shared_ptr<const T> find(const Key& key) {
         return std::static_pointer_cast<const T>(touch(key));
     }
-    /// Replaces what has the key. It counts as used now.
+    /// Adds a value, which counts as used now; replaces the one that has the key.
     void insert(const Key& key, std::shared_ptr<const void> value, std::size_t bytes);
     void erase(const Key& key);
     void clear();
-    /// Drops all for which `drops` is true.
+    /// Drops all values for whose keys `drops` is true.
     template <class Predicate>
     void erase_if(Predicate drops) {
         for (auto entry = entries_.begin(); entry != entries_.end();) {
@@ -62,14 +63,14 @@ class Store {
         }
     }
 
-    /// Holds all that the other one does; the values are the same objects.
+    /// Inserts all that the other store holds; the values are the same objects.
     void share(const Store& other);
-    /// Drops the least recently used, whatever is in use, until they take no more than this.
+    /// Drops the least recently used values, even those in use, until all take no more than `bytes`.
     void shrink(std::size_t bytes);
 
     bool holds(const Key& key) const { return places_.contains(key); }
     std::size_t bytes() const { return bytes_; }
-    /// What is in use fills the memory: nothing more should be fetched.
+    /// Returns whether values in use fill the memory, so that nothing more should be fetched.
     bool is_full() const;
 
  private:
@@ -77,7 +78,7 @@ class Store {
         Key key;
         std::shared_ptr<const void> value;
         std::size_t bytes;
-        std::uint64_t frame;  // in which it was last used
+        std::uint64_t frame;  // the frame in which it was last used
     };
     using Place = std::list<Entry>::iterator;
 

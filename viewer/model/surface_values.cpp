@@ -1,3 +1,10 @@
+// The deviation of a facet is the largest distance from the other surface of ten points of it, on a grid that divides
+// its edges into three; it is a lower bound of the one-sided Hausdorff distance. Distances come from a tree of the
+// triangles of the other surface, and a point that lies within the largest distance found so far is passed over without
+// its exact distance. For feature edges the sides of all facets of the input are sorted by their two vertices, and
+// successive ones with the same vertices are compared by the cosine between normals. The angle is that of the remesher,
+// so that the lines drawn are those that remeshing keeps. A surface as its file has it may have coordinates that are
+// not finite; their facets get NaN.
 #include "viewer/model/surface_values.h"
 
 #include <algorithm>

@@ -1,3 +1,8 @@
+// The steps of a node follow from the data that the document has. With a trace these are the refused tries and all
+// stages of the contour that have edges; with a report alone the plane and, if there is a folder, the halves. A try
+// counts as refused unless the cut was made from it: where nothing better was found, the best try that was refused
+// softly is used after all, and known by its contour (is_used()). Sentences take counts from the trace, but facets,
+// volumes and the quality of the interface from the tree, because a run improves interfaces after its last cut.
 #include "viewer/model/timeline.h"
 
 #include <algorithm>
@@ -45,7 +50,7 @@ void add_cut(const Cut& cut, std::vector<Step>& steps) {
 
 std::string counted(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
-// Planes are moved along their normal, which points into the half above.
+// Says how a plane was found. Planes are moved along their normal, which points into the half above.
 std::string describe_plane_of(const CutTry& attempt, NodeId node) {
     if (attempt.method == ContourMethod::straight)
         return fmt::format("straight across {}, choice {} of the planes", "xyz"[std::clamp(attempt.axis, 0, 2)],

@@ -1,4 +1,10 @@
-// Sentences are a table; {names} in them stand for figures, which are looked up in the document.
+// Sentences are a table in the order in which they are told; each has a stage, a text and perhaps a condition on the
+// cut. {names} in a text stand for figures, which are looked up in the document; a sentence with a figure that is not
+// known is left out, so that a document that knows less tells less, but nothing wrong. Figures come from the tree where
+// it has them, since it knows more than the trace of all that happened after the cut. Views are made from three
+// directions: the normal of the plane (`normal`), a direction in the plane (`aside`), and one across both (`up`),
+// upright where that can be. Stages of the border show the interface obliquely and closely, others the body; the
+// tetrahedra are cut open by a clip plane across `aside`.
 #include "viewer/model/tour.h"
 
 #include <algorithm>
@@ -125,7 +131,7 @@ void add_contour(const Cut& cut, Figures& figures) {
     figures["area"] = short_value(cut.interface_area);
 }
 
-// Of the tree, which knows more than the trace of what came after the cut.
+// Adds figures of the tree, which knows more than the trace of all that came after the cut.
 void add_tree(const Document& document, NodeId node, Figures& figures) {
     figures["body"] = node == 1 ? "the whole body" : fmt::format("piece {}", node);
     const Tree& tree = document.tree;
@@ -148,7 +154,7 @@ void add_tree(const Document& document, NodeId node, Figures& figures) {
     if (cells > 0) figures["cells"] = grouped(cells);
 }
 
-// Empty if a figure is not known.
+// Returns the text with its figures; empty if one is not known.
 std::string filled(const std::string& text, const Figures& figures) {
     std::string result;
     std::size_t at = 0;
@@ -167,13 +173,13 @@ const Cut* recorded_cut(const Document& document, NodeId node) {
     return cut && cut->made() ? cut : nullptr;
 }
 
-// Aside from the normal, and upright where that can be.
+// A direction across the normal, level where that can be.
 Vec3 across(const Vec3& normal) {
     const Vec3 up = std::abs(normal.z()) < 0.9 ? Vec3::UnitZ() : Vec3::UnitX();
     return normal.cross(up).normalized();
 }
 
-// A border is looked at from the side, with as much around it that one sees where it is.
+// The box of a border with some room around it, by which one sees where it lies in the body.
 Eigen::AlignedBox3d around_contour(const Cut& cut, const Eigen::AlignedBox3d& body) {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : cut.interface.points) box.extend(p);

@@ -1,5 +1,4 @@
-// A guided tour of one cut: what happens at each stage, in plain sentences with the figures of this very cut, and how
-// the stage is seen best.
+// A guided tour of one cut: plain sentences on each stage, with the figures of this very cut, and the best view of it.
 #pragma once
 
 #include <optional>
@@ -11,24 +10,25 @@
 
 namespace kerf::view {
 
-/// The node whose cut is shown: `wanted`, if its cut was made and recorded, else the first one of which that is true.
-/// None: the document has no stages.
+/// Returns the node whose cut is shown: `wanted`, if its cut was made and recorded, else the first node of which that
+/// is true; none if the document has no stages.
 std::optional<NodeId> node_of_tour(const Document& document, NodeId wanted);
 
-/// The steps of the node, without tries that were refused, from its input on.
+/// Returns the steps of the node from its input on, without tries that were refused.
 std::vector<Step> stops_of_tour(const Document& document, NodeId node);
 
-/// What happens at a stop, for who sees it for the first time. A sentence whose figures are not known is left out.
+/// Tells the events at a stop to a reader who sees them for the first time. A sentence whose figures are not known is
+/// left out.
 std::string tell(const Document& document, NodeId node, Stage stage);
 
-/// How a stop is looked at.
+/// The view of a stop.
 struct TourView {
-    ViewState state;            ///< without a camera
-    Eigen::AlignedBox3d box;    ///< what fits into the picture
-    Vec3 back = Vec3::UnitX();  ///< from there to the eye, of length 1
+    ViewState state;            ///< state of the view, without a camera
+    Eigen::AlignedBox3d box;    ///< the box that fits into the picture
+    Vec3 back = Vec3::UnitX();  ///< direction from the box to the eye, of length 1
 };
-/// `body`: the box of the node's surface. Theme, panels and the like are those of `before`. The node has a recorded
-/// cut.
+/// Returns the view of a stop. `body` is the box of the node's surface. Theme, panels and times are those of `before`.
+/// The node must have a recorded cut.
 TourView view_of_stop(const Document& document, NodeId node, Stage stage, const Eigen::AlignedBox3d& body,
                       const ViewState& before);
 

@@ -18,27 +18,27 @@ enum class NodeState {
 };
 const char* name(NodeState state);
 
-/// One node. What is not known is negative, or empty.
+/// One node of the tree. Facts that are not known are negative, or empty.
 struct TreeRow {
     NodeId id = 1;
     NodeState state = NodeState::waiting;
     std::int32_t leaves = 1;
     std::int64_t vertices = -1, facets = -1, tets = -1;
     double volume = -1, load = -1;
-    double seconds = -1;         ///< of meshing a part, of cutting an inner node
-    std::int32_t rank = -1;      ///< that meshed it
-    std::int32_t region = -1;    ///< of several, in which all of it lies
-    std::int32_t regions = 1;    ///< in it: a node of several is divided without a cut
-    std::string filled_by;       ///< of a part: see name_of_filler()
-    std::int64_t core_tets = 0;  ///< of a part: Filling::core_tets
-    std::string message;         ///< why it failed
+    double seconds = -1;         ///< seconds of meshing a part, or of cutting an inner node
+    std::int32_t rank = -1;      ///< the rank that meshed it
+    std::int32_t region = -1;    ///< the region in which all of it lies, where there are several
+    std::int32_t regions = 1;    ///< number of regions in it: a node of several is divided without a cut
+    std::string filled_by;       ///< for a part: see name_of_filler()
+    std::int64_t core_tets = 0;  ///< for a part: Filling::core_tets
+    std::string message;         ///< reason why it failed
     std::optional<Vec3> centroid;
     Vec3 eigenvalues = Vec3::Zero();
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the order of the eigenvalues
-    std::optional<CutSummary> cut;                       ///< made, or tried in vain
+    std::optional<CutSummary> cut;                       ///< the cut that was made, or tried in vain
 
     bool leaf() const { return state != NodeState::divided; }
-    /// That of the cut, if one was made and is known; else null.
+    /// Returns the plane of the cut, if one was made and is known; else null.
     const Plane* plane() const { return cut && cut->made() ? &cut->plane : nullptr; }
 };
 
@@ -48,20 +48,20 @@ constexpr int level_of(NodeId node) {
     return level;
 }
 
-/// What has filled a part, in words: the way that its mesher went, or the mesher where it has one way.
+/// Returns the words for a part's filler: the way that its mesher went, or the mesher where it has one way.
 std::string name_of_filler(const std::string& mesher, const std::string& strategy);
 
-/// Rows ascending by number.
+/// The tree of a decomposition: rows ascending by number.
 struct Tree {
     std::vector<TreeRow> rows;
 
     const TreeRow* find(NodeId id) const;
     TreeRow* find(NodeId id);
-    /// The row, which is made if there is none.
+    /// Returns the row of a node, which is made if there is none.
     TreeRow& at(NodeId id);
-    /// The parts below a node, itself included, ascending.
+    /// Returns the parts below a node, itself included, ascending.
     std::vector<NodeId> parts_below(NodeId node) const;
-    /// Rows in depth-first order, parents first: as a tree is read.
+    /// Returns the rows in depth-first order, parents first: as a tree is read.
     std::vector<const TreeRow*> in_order() const;
     int levels() const;
 };

@@ -1,4 +1,4 @@
-// What fills the rows of a tree: cuts, surfaces, and lists of parts.
+// Fills the rows of a tree from cuts, surfaces, and lists of parts.
 #pragma once
 
 #include "run/trace.h"
@@ -7,16 +7,16 @@
 
 namespace kerf::view {
 
-/// The nodes of a trace and how they were cut. Facets, volumes and axes are not known yet: see describe_surface().
+/// Returns the nodes of a trace with their cuts. Facets, volumes and axes are not known yet: see describe_surface().
 Tree tree_of(const Trace& trace);
 
-/// The nodes of a tree with these parts.
+/// Returns the nodes of a tree with these parts.
 Tree tree_of(const std::vector<NodeId>& parts);
 
-/// Fills what a cut, made or not, tells of its node.
+/// Fills a row with the facts that a cut, made or not, tells of its node.
 void describe_cut(const Cut& cut, TreeRow& row);
 
-/// Fills what the surface of a node tells.
+/// Fills a row with the facts that the surface of its node tells.
 void describe_surface(std::int64_t vertices, std::int64_t facets, const MassProperties& mass, TreeRow& row);
 
 /// Sets the number of parts below each node to that of the parts there are.

@@ -1,3 +1,10 @@
+// The state is written as JSON and read by names. Enumerations have an array of names in the order of their values.
+// Switches are lists of names and addresses (switches()), by which both directions work; all other fields are named in
+// to_json() and in state_from_json(), and a new one needs both. read_fields() refuses a name that is unknown, with the
+// list of those that are known, and names the field whose value has a wrong type: files are written by hand, too, and a
+// typing error must not be silent. A quaternion of length 1 is not normalised again, so that a camera is read back bit
+// for bit. A camera is fitted anew only to a body whose box differs by more than a hundredth of its diagonal: remeshing
+// does not move the view.
 #include "viewer/model/view_state.h"
 
 #include <algorithm>
@@ -97,7 +104,7 @@ Camera camera_from(const OrderedJson& json, const std::string& source) {
     if (!(camera.height > 0)) refuse("'height' must be positive.");
     if (turn) {
         if (!(turn->norm() > 0)) refuse("'turn' must not be zero.");
-        // What was written reads back bit for bit.
+        // A camera that was written reads back bit for bit.
         camera.turn = std::abs(turn->norm() - 1) < 1e-12 ? *turn : turn->normalized();
         return camera;
     }
@@ -154,7 +161,7 @@ Selection selection_from(const OrderedJson& json, const std::string& source) {
     return s;
 }
 
-// The switches of a value, by name: written and read by the same list.
+// The switches of a value, by name; writing and reading use the same list.
 std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
     return {{"edges", &s.edges},
             {"context", &s.context},
