@@ -4,9 +4,9 @@
 // frame would repeat the error otherwise; a failure to read a folder that a run has just moved is none. Nothing is
 // fetched into a store that values in use fill: they would drive each other out, frame after frame. The surface of a
 // node comes from the trace where there is one, else from the parts of the folder, else from the soup; vertices and
-// facets have other numbers in each, so that use_trace() drops the surfaces of nodes. Prefetching fills idle time:
-// breadth first while there is room, and depth first afterwards for the rows that still lack facts, because the
-// replayer keeps only the last surfaces.
+// facets have other numbers in each, so that use_trace() drops the surfaces of nodes. The surface before remeshing is
+// read from the file again, when it is asked for. Prefetching fills idle time: breadth first while there is room, and
+// depth first afterwards for the rows that still lack facts, because the replayer keeps only the last surfaces.
 #include "viewer/model/fetched.h"
 
 #include <algorithm>

@@ -96,7 +96,7 @@ std::vector<Vec3> moves_apart(const std::vector<RegionPlace>& places) {
     std::vector<Vec3> moves(places.size(), Vec3::Zero());
     for (std::size_t r = 0; r < places.size(); ++r) {
         if (places[r].box.isEmpty()) continue;
-        std::size_t outermost = r;  // holders are larger than what they hold
+        std::size_t outermost = r;  // holders are larger than the regions inside of them
         for (; places[outermost].holder >= 0; outermost = static_cast<std::size_t>(places[outermost].holder))
             moves[r] += way_out(places[outermost].box, places[static_cast<std::size_t>(places[outermost].holder)].box);
         moves[r] += places[outermost].box.center() - all.center();

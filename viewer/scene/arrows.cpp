@@ -15,7 +15,7 @@ namespace {
 
 constexpr double cubes_per_diagonal = 14;
 constexpr double head_length = 0.28, head_width = 0.11;  // of the arrow
-constexpr double least_share = 0.01;                     // of the longest: what is shorter is a dot
+constexpr double least_share = 0.01;                     // of the longest: a shorter arrow would be a dot
 
 }  // namespace
 

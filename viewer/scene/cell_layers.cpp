@@ -1,4 +1,10 @@
-// Faces and sections of cells, and the one that is selected.
+// Cells are drawn as faces of the chosen ones (cell_shapes.h), in layers of their own: `cells`, the `section` of a
+// smooth clip plane, a `wall` of backs behind shrunk cells, through whose gaps the far side of the body is seen and not
+// the ground, and the selected cell. The colours of all of these come from one CellColors, which holds the values alive
+// that its choice has spans of. Geometry is cached by a key with all that it depends on, but for its source: the
+// solution, the values or the cells, in this order. A selected cell is added only if no layer shows it; then all layers
+// of triangles that are there become translucent, so that it comes after all other cells. Where patches share colours,
+// the values of faces are colours, and the numbers of patches are found by making the faces again with these.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +15,7 @@ namespace kerf::view {
 
 Fill fill_of_values(ColorBy color) { return is_kind(color) ? Fill::categories : Fill::scale; }
 
-// False if what the colours need is not there yet.
+// Returns false if data that the colours need are not there yet.
 bool CellLayers::find_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
                              CellColors& colors) {
     const ColorBy color = context_.state.color;
@@ -43,7 +49,7 @@ std::shared_ptr<Geometry> CellLayers::colored_faces(const PartCells& cells, cons
     return cell_faces(cells, context_.frame, choice);
 }
 
-// nullptr if there are none.
+// Returns nullptr if there are no such faces.
 Layer* CellLayers::add_faces(LayerKind kind, const std::string& chosen, const PartCells& cells,
                              const NodeSurface& surface, CellColors& colors) {
     const std::string key =
@@ -112,7 +118,7 @@ bool CellLayers::add(NodeId part, const NodeSurface& surface) {
                                [&](std::int32_t v) { return is_shared[static_cast<std::size_t>(v)] != 0; });
         };
     }
-    if (state.shrink > 0)  // through the gaps one sees the far side of the body, and not what lies behind it
+    if (state.shrink > 0)  // through the gaps the far side of the body is seen, and not the ground behind it
         if (Layer* wall = add_faces(LayerKind::wall, context_.clip_key(0), *cells, surface, colors)) {
             wall->backs_only = true;
             wall->edges = false;
@@ -123,7 +129,7 @@ bool CellLayers::add(NodeId part, const NodeSurface& surface) {
     return true;
 }
 
-// From somewhere: a cell at the surface, unless that is the wall of a void, and whatever is drawn as a cell.
+// Whether a cell is seen from somewhere: at the surface, unless that is the wall of a void, or drawn as a cell.
 bool CellLayers::is_seen(const PartCells& cells, const NodeSurface& part, const NodeSurface* shown,
                          std::int32_t cell) const {
     for (const Layer& layer : sink_.layers()) {

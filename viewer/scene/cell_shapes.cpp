@@ -1,3 +1,9 @@
+// A face of a chosen cell is open if there is no cell behind it, or one that is not chosen; a cell with an open face is
+// an outer one. Open faces are drawn; with shrink all faces of outer cells, about the centre of the cell, and unshrunk
+// those faces behind them that outer cells would cover, so that the gaps do not look into nothing. A plane chooses
+// cells by the signed distances of their corners, which are positive on the hidden side. It cuts a tetrahedron in a
+// triangle or, with two corners on each side, a quadrangle, whose corners are listed in the order of going around.
+// Values and places at rest are interpolated along the cut edges like the places. Face k is opposite to corner k.
 #include "viewer/scene/cell_shapes.h"
 
 #include <algorithm>
@@ -40,7 +46,7 @@ Triangle face_of(const PartCells& cells, std::size_t tet, std::size_t face) {
     return corners;
 }
 
-// Of the edges 01, 12 and 02 of a face, in edges_of_tet.
+// The nodes on the edges 01, 12 and 02 of a face, from edges_of_tet.
 std::array<std::int32_t, 3> edges_of_face(const PartCells& cells, std::size_t tet, std::size_t face) {
     std::array<std::int32_t, 3> edges = {};
     for (std::size_t e = 0; e < 3; ++e) {
@@ -65,7 +71,7 @@ void add_quadratic_face(Geometry& geometry, const PartCells& cells, const Frame&
                   !choice.places.empty());
 }
 
-// Where the plane cuts a tetrahedron: three or four points, in the order of going around.
+// The points where the plane cuts a tetrahedron: three or four, in the order of going around, or none.
 std::vector<ValuedPoint> section_of(const PartCells& cells, const CellChoice& choice, std::size_t tet,
                                     const std::array<double, 4>& distance) {
     const Places places = places_of(cells, choice);
@@ -155,7 +161,7 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
         if (!outer && !shrinks) continue;
         const float value = choice.value.empty() ? 0 : choice.value[t];
         const Vec3 center = center_of(places, cells.tets[t]);
-        // Of a cell behind shrunk ones, what these would cover.
+        // A cell behind shrunk ones has those faces drawn that these would cover.
         const auto is_drawn = [&](std::size_t face) {
             if (outer) return shrinks || is_open(t, face);
             return is_outer(static_cast<std::size_t>(cells.neighbours[t][face]));

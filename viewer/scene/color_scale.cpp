@@ -1,4 +1,9 @@
-// From the values that are drawn to the colours that they get.
+// The range of a scale comes from the view, else from the measure (natural_range()), else from the histogram of the
+// run, which is the same for every picture of the run; only then from the values that are drawn. Lengths and volumes
+// end at a multiple of the median, because few cells are far larger than the others, and stresses span a percentile of
+// the drawn values, because single vertices at corners of a body have far larger ones. Values outside of the range have
+// the colours of its ends, and the legend says on which side there are some. Only corners that the clip plane does not
+// hide count as drawn, and layers must be complete before follow_layers() and mark_extremes() are called.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +14,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr double rounding_share = 1e-9;  // of the diagonal: what deviates less is not to look as if it did
+constexpr double rounding_share = 1e-9;  // of the diagonal: smaller deviations are rounding, and drawn as none
 
 }  // namespace
 
@@ -26,7 +31,7 @@ void ScaleMaker::begin() {
     // Few cells are far larger than the others: their colour is that of the upper end.
     if (!range && is_measure(context_.state.color) && histogram)
         range = ValueRange{histogram->min, std::min(histogram->max, (is_volume ? 4 : 2) * histogram->median)};
-    if (!range) return;  // follows from what is drawn
+    if (!range) return;  // the range follows from the drawn values
     set_range(*range);
 }
 
@@ -53,7 +58,7 @@ void ScaleMaker::for_drawn_values(Visit visit) const {
     }
 }
 
-// Of values of whole triangles, in the middle of one.
+// The value of a whole triangle is marked in its middle, that of a corner at the corner.
 void ScaleMaker::mark_extremes() {
     if (!context_.state.extremes || !context_.shows_values()) return;
     struct Found {
@@ -82,7 +87,7 @@ void ScaleMaker::mark_extremes() {
     sink_.add_points(LayerKind::extremes, places, context_.colors.feature, place_pixels);
 }
 
-// Of a stress that has a sign, at both ends. All values where most of them are the same.
+// Stresses that have a sign are limited at both ends. The range is that of all values where most of them are the same.
 ValueRange ScaleMaker::range_of_most_values(const ValueRange& all) {
     if (context_.state.percentile >= 100) return all;
     std::vector<double> values;
@@ -99,7 +104,7 @@ ValueRange ScaleMaker::range_of_most_values(const ValueRange& all) {
     return most;
 }
 
-// Of a run under way nobody knows the distribution of the values yet, of surfaces nobody ever does.
+// The distribution of values is not known yet for a run under way, and never for surfaces.
 void ScaleMaker::follow_layers() {
     const bool is_solution = is_of_solution(context_.state.color);
     if (!context_.shows_values()) return;
@@ -115,7 +120,7 @@ void ScaleMaker::follow_layers() {
     built_.legend.goes_above = static_cast<float>(drawn.high) > built_.scene.scale.high;
 }
 
-// Of values that nobody has limited.
+// Sets the range of values that nobody has limited.
 void ScaleMaker::follow(ValueRange range) {
     if (is_stress(context_.state.color) && range.low < range.high) range = range_of_most_values(range);
     if (context_.state.color == ColorBy::deviation && range.high >= 0)

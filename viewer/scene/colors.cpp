@@ -1,3 +1,8 @@
+// Things that have no order have the eight colours of Okabe and Ito, with grey for black, and then the same eight
+// lighter and darker. Values have Viridis, whose lightness grows evenly. Measures of the shape of cells, of which one
+// end is bad, have ten colours of ColorBrewer's RdYlBu from the bad end to the good one. People who see fewer colours
+// can tell the ends of both scales apart. All are given as texts "#RRGGBB"; a new member of SceneColors needs a colour
+// for the light and for the dark theme.
 #include "viewer/scene/colors.h"
 
 #include <algorithm>
@@ -10,7 +15,7 @@ namespace {
 constexpr std::array<const char*, 8> okabe_ito = {"#56B4E9", "#E69F00", "#009E73", "#F0E442",
                                                   "#CC79A7", "#0072B2", "#D55E00", "#999999"};
 
-// From what is bad to what is good: ColorBrewer's RdYlBu (Harrower and Brewer 2003) without its darkest red, so that
+// From bad to good: ColorBrewer's RdYlBu (Harrower and Brewer 2003) without its darkest red, so that
 // the worst cells stand out and the best ones are the darkest. People who see fewer colours can tell its ends apart.
 constexpr std::array<const char*, 10> red_to_blue = {"#D73027", "#F46D43", "#FDAE61", "#FEE090", "#FFFFBF",
                                                      "#E0F3F8", "#ABD9E9", "#74ADD1", "#4575B4", "#313695"};
@@ -98,7 +103,7 @@ SceneColors scene_colors(Theme theme) {
     c.feature = color_from_hex(light ? "#101A26" : "#F4F6F8");
     c.error = color_from_hex("#E53935");
     c.warning = color_from_hex("#E68A00");
-    // Not those of the coordinates, which the gizmo has.
+    // Colours of the coordinate axes belong to the gizmo and are not used here.
     c.axes = {color_from_hex("#F0A000"), color_from_hex(light ? "#A83A7C" : "#7E1B5A"),
               color_from_hex(light ? "#1C2733" : "#F4F6F8")};
     c.colliding = color_from_hex("#FFB000");

@@ -1,3 +1,12 @@
+// A node is drawn as its surface and the layers of one step of its cut: a refused try with the places where it failed,
+// or a stage from the plane to the interface. Stages of the contour are lists of edges by the vertex numbers of the
+// node's surface, as the trace has them, so that they can only be drawn on that surface; loops of the contour are drawn
+// as they are, or projected into the plane. The stages from `projected` on lie inside of the body, for which its
+// surface becomes a translucent shell. Sections are shaded little or not at all, so that they have the colour of the
+// legend. Halves are drawn apart, each with a copy of the contour as a range of one layer. Principal axes reach twice
+// the standard deviation of the vertices to both sides. With C_k for the sum of squared distances along axis k, the
+// eigenvalues of inertia are C_0 + C_1 + C_2 - C_k, and half of their sum is C_0 + C_1 + C_2, from which C_k and the
+// variance follow.
 #include "viewer/scene/cut_layers.h"
 
 namespace kerf::view {
@@ -5,10 +14,10 @@ namespace kerf::view {
 namespace {
 
 constexpr float plane_opacity = 0.3f;
-constexpr float shell_opacity = 0.55f, shell_front_share = 0.12f;  // of the node's surface around what is inside
+constexpr float shell_opacity = 0.55f, shell_front_share = 0.12f;  // of the node's surface around things inside of it
 constexpr float flat_shading = 0, interface_shading = 0.4f;        // so that sections have the colour of the legend
 
-// Sides of a try or a cut that lines are drawn from.
+// The lines of edges of a try or a cut.
 std::vector<std::array<Vec3, 2>> ends_of(const std::vector<SurfaceEdge>& edges, const NodeSurface& surface) {
     std::vector<std::array<Vec3, 2>> ends;
     for (const SurfaceEdge& edge : edges)
@@ -69,7 +78,7 @@ void CutLayers::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     const TreeRow* row = context_.document.tree.find(node);
     const auto number = static_cast<std::size_t>(step.refused_try);
     const CutTry* attempt = step.refused_try >= 0 && cut && number < cut->tries.size() ? &cut->tries[number] : nullptr;
-    // What lies inside is to be seen.
+    // Things inside of the surface are to be seen.
     if (layer && (step.stage >= Stage::projected || (attempt && !attempt->collisions.empty()))) {
         layer->opacity = shell_opacity;
         layer->front_share = shell_front_share;
@@ -85,7 +94,7 @@ void CutLayers::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     if (layer) surfaces_.add_features(surface, node);
 }
 
-// Along each axis twice the standard deviation of the vertices.
+// Axes reach twice the standard deviation of the vertices to both sides.
 void CutLayers::add_axes(const TreeRow& row) {
     if (!context_.state.axes || row.regions > 1) return;
     if (!sink_.awaited(row.centroid) || row.vertices <= 0) return;
@@ -113,7 +122,7 @@ void CutLayers::add_plane(const Plane& plane) {
     if (!context_.state.plane) return;
     const auto surface = context_.session.fetched().surface(context_.state.node);
     const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : context_.document.box;
-    // Where the section lies in the plane, its own colour is what is to be seen.
+    // Where the section lies in the plane, its own colour is to be seen.
     if (context_.step.stage < Stage::triangulation) {
         Layer& sheet = sink_.add(LayerKind::plane, plane_rectangle(plane, box, context_.frame), context_.colors.plane);
         sheet.opacity = plane_opacity;

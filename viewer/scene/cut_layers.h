@@ -1,21 +1,23 @@
-// What one cut did, stage by stage, and what is wrong with what is to be cut.
+// The layers of one cut, stage by stage, and of the defects of the surface that is to be cut.
 #pragma once
 
 #include "viewer/scene/surface_layers.h"
 
 namespace kerf::view {
 
-/// Of what the scene shows at the stage and not before.
+/// Returns the colour of the things that the scene shows at the stage and not before.
 Color color_of(Stage stage, const SceneColors& colors);
 
+/// Adds the layers of a node and of its cut, as far as the step of the view shows them.
 class CutLayers {
  public:
     CutLayers(const SceneContext& context, LayerSink& sink, SurfaceLayers& surfaces)
         : context_(context), sink_(sink), surfaces_(surfaces) {}
 
-    /// The surface of the node itself, and what its cut did to it.
+    /// Adds the surface of the node itself, and the stage or the refused try of its cut.
     void add_node(const std::shared_ptr<const NodeSurface>& surface);
-    /// Both take the contour along. `parent` may be null.
+    /// Adds both halves, which take the contour along. `parent` is the surface of the node, or null: no contour is
+    /// drawn.
     void add_halves(const NodeSurface* parent);
 
  private:
@@ -34,7 +36,7 @@ class CutLayers {
     SurfaceLayers& surfaces_;
 };
 
-/// What kerf check has found; null: nothing.
+/// Adds the defects that kerf check has found, at the root alone; null: none are known.
 void add_defects(const SceneContext& context, LayerSink& sink, const CheckedSoup* found);
 
 }  // namespace kerf::view

@@ -1,4 +1,4 @@
-// Triangles with values and edges, as all shapes add them to a geometry.
+// Adds triangles with values and edges to a geometry, as all shapes do.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ inline std::array<std::int16_t, 3> packed_normal(const Vec3& normal) {
     return {static_cast<std::int16_t>(n.x()), static_cast<std::int16_t>(n.y()), static_cast<std::int16_t>(n.z())};
 }
 
-// Where the last triangle is when nothing is deformed.
+// Adds the places of the last triangle's corners when nothing is deformed.
 inline void add_rest(Geometry& geometry, const Frame& frame, const Corners& corners) {
     for (const Vec3& p : corners) geometry.rest.push_back(frame.draw(p));
 }
@@ -44,7 +44,7 @@ inline Corners corners_at(const Places& places, const Triangle& t) {
             places[static_cast<std::size_t>(t[2])]};
 }
 
-// The last triangle gets values of its own at its corners.
+// Gives the last triangle values of its own at its corners.
 inline void set_corner_values(Geometry& geometry, const std::array<float, 3>& values) {
     for (std::size_t k = 0; k < 3; ++k)
         (geometry.corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->value = values[k];
@@ -61,7 +61,7 @@ struct ValuedPoint {
     Vec3 rest = Vec3::Zero();  // see Geometry::rest
 };
 
-// A convex polygon as a fan of triangles whose inner edges are not drawn.
+// Adds a convex polygon as a fan of triangles whose inner edges are not drawn.
 inline void add_polygon(Geometry& geometry, const Frame& frame, const std::vector<ValuedPoint>& polygon,
                         std::int32_t element, bool is_moved = false) {
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {

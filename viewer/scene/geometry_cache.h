@@ -1,4 +1,4 @@
-// Geometry that was made before, so that going back and forth computes nothing again.
+// Keeps geometry that was made, so that going back and forth computes nothing again.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace kerf::view {
 /// Remembers geometry by a key that tells how it was made and the value that it was made from.
 class GeometryCache {
  public:
-    /// What make() returned for this key and source before, else what it returns now. A source that is another object
-    /// than before makes it anew.
+    /// Returns the geometry that make() has made for this key and source, or makes it now. It is made anew if the
+    /// source is another object than before.
     template <class Make>
     std::shared_ptr<const Geometry> get(const std::string& key, std::shared_ptr<const void> source, Make make) {
         Entry& entry = entries_[key];
@@ -27,9 +27,9 @@ class GeometryCache {
         return entry.geometry;
     }
 
-    /// Called once per scene: what was not used for long is forgotten when there is much.
+    /// Forgets the geometries that were not used for longest when there is much; called once per scene.
     void age();
-    /// How often something had to be made.
+    /// Returns the number of geometries that had to be made so far.
     std::int64_t made() const { return made_; }
 
  private:

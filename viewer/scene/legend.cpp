@@ -1,3 +1,8 @@
+// The legend explains the layers of a finished scene, so that it names no colour that is not to be seen: a kind of
+// layer is looked for and explained if it is there with a plain fill. Categories are collected from the corners of
+// triangles, but patches from the numbers of layers (Layer::patch), because several patches may share a colour. The
+// order of explanations is fixed in run(): the colouring first, then halves, axes, the stages of a cut, interfaces,
+// features, the failures of a try, defects. Colours of glass are explained with their opacity.
 #include "viewer/scene/legend.h"
 
 #include <algorithm>
@@ -8,14 +13,14 @@
 
 namespace kerf::view {
 
-// Of glass, with its opacity.
+// The colour of a part; of glass it has its opacity.
 Color LegendMaker::drawn_color_of(NodeId part) const {
     Color color = context_.color_of(part);
     if (is_glass(context_.state, context_.document, part)) color.a = context_opacity;
     return color;
 }
 
-// With what else there is to know of a picture of a solution.
+// The title of values; for a solution with its case and deformation.
 std::string LegendMaker::title_of_values() const {
     std::string text = title(context_.state.color);
     if (!context_.needs_solution()) return text;
@@ -45,7 +50,7 @@ void LegendMaker::explain(const std::string& text, const Color& color, LegendEnt
     legend_.categories.push_back({text, color, mark});
 }
 
-// Of a layer that there is; glass is explained as glass.
+// Explains a layer, if there is one; glass is explained as glass.
 void LegendMaker::explain_layer(const Layer* layer, const std::string& text, const Color& color) {
     if (!layer || layer->fill != Fill::plain) return;
     Color drawn = color;
@@ -121,7 +126,7 @@ void LegendMaker::explain_parts() {
     }
 }
 
-// What the colours of cells and facets stand for, where they stand for few things.
+// Explains the colours of cells and facets where they stand for few things.
 void LegendMaker::explain_coloring() {
     if (context_.state.color == ColorBy::patch) return explain_patches();
     if (!context_.shows_parts() || context_.shows_values()) return;
@@ -146,7 +151,7 @@ void LegendMaker::explain_axes() {
     explain_kind(LayerKind::centre, "centre of gravity", context_.colors.contour);
 }
 
-// What lies in the surfaces of nodes, by earlier cuts or by this one.
+// Explains interfaces in the surfaces of nodes, made by earlier cuts or by this one.
 void LegendMaker::explain_interfaces() {
     const bool is_split = context_.step.stage == Stage::split;
     if (is_split && context_.state.node == 1 && context_.state.explode == 0 && !context_.side &&

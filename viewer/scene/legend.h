@@ -1,4 +1,4 @@
-// What colours mean in a scene: the scale of values, and words.
+// The meaning of colours in a scene: the scale of values, and words.
 #pragma once
 
 #include <set>
@@ -7,17 +7,17 @@
 
 namespace kerf::view {
 
-/// Sets Scene::scale, and what the legend tells of it.
+/// Sets Scene::scale, and the members of the legend that tell of it.
 class ScaleMaker {
  public:
     ScaleMaker(const SceneContext& context, LayerSink& sink, BuiltScene& built)
         : context_(context), sink_(sink), built_(built) {}
 
-    /// By what is asked for, and by the distribution of all values of a run, where that is known.
+    /// Sets the range by the view and by the distribution of all values of a run, where that is known.
     void begin();
-    /// By what is drawn, where begin() could not know.
+    /// Sets the range by the values that are drawn, where begin() could not know it.
     void follow_layers();
-    /// Where the least and the largest value are.
+    /// Adds points at the least and the largest value that are drawn, if the view asks for them.
     void mark_extremes();
 
  private:

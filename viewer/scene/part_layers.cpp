@@ -1,3 +1,10 @@
+// A part is drawn by the facets of its surface as long as nothing else of it can be seen, and by its cells where clip
+// plane, filter, shrink or a selection look into it; the facets stand in while the cells are being fetched. A clip
+// plane brings out the cells only of parts from which it takes something away. Walls and glass are always drawn by
+// facets. Where all parts are shown whole and together, the facets between them are a range marked `inside`, which the
+// renderer skips: they are most of the triangles. Where only some cells are shown, an outline of sharp edges and the
+// far side as glass tell where they lie. The box of a scene holds all phases of a motion, so that every picture of it
+// has the same scale.
 #include "viewer/scene/part_layers.h"
 
 #include <algorithm>
@@ -30,8 +37,8 @@ void PartLayers::add(const std::shared_ptr<const NodeSurface>& surface) {
     }
 }
 
-// Where all parts of the body are there, whole and together, nobody sees what lies between them: most of the triangles
-// of many parts.
+// Where all parts of the body are there, whole and together, nobody sees the facets between them, which are most of the
+// triangles of many parts.
 void PartLayers::mark_inside(std::size_t part_count) {
     const ViewState& state = context_.state;
     std::vector<Layer>& layers = sink_.layers();
@@ -112,7 +119,7 @@ void PartLayers::add_facets(NodeId part, const std::shared_ptr<const NodeSurface
     layer.smooth |= geometry->has_normals;
 }
 
-// Where the cells that are left lie: sharp edges, and the far side as glass, which covers no cell.
+// Shows where in the body the shown cells lie: sharp edges, and the far side as glass, which covers no cell.
 void PartLayers::add_outline(NodeId owner, const std::shared_ptr<const NodeSurface>& surface, const Vec3& offset) {
     sink_.extend(box_of(surface->vertices), offset);
     const auto lines = context_.feature_lines(surface, owner);
@@ -132,7 +139,7 @@ void PartLayers::add_outline(NodeId owner, const std::shared_ptr<const NodeSurfa
     layer.smooth = layer.two_sided = true;
 }
 
-// By all that it reaches, so that a picture of each phase is as large.
+// Extends the box by all places that a motion reaches, so that pictures of all phases have one scale.
 void PartLayers::extend_by_motion(const NodeSurface& surface, const PartSolution* solution, const Vec3& offset) {
     const ViewState& state = context_.state;
     if (!solution || state.motion == Motion::still || state.deform == 0) return;

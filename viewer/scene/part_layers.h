@@ -1,4 +1,4 @@
-// The tetrahedra: boundaries of parts as long as these are all one sees, cells where one looks into them.
+// The layers of tetrahedra: boundaries of parts where nothing else is seen of them, cells where one looks into them.
 #pragma once
 
 #include "viewer/scene/cell_shapes.h"
@@ -7,22 +7,22 @@
 
 namespace kerf::view {
 
-/// Of values of cells.
+/// Returns the fill for a colouring by values of cells.
 Fill fill_of_values(ColorBy color);
 
-/// Where one looks into parts.
+/// Adds the cells of parts into which one looks.
 class CellLayers {
  public:
     CellLayers(const SceneContext& context, LayerSink& sink) : context_(context), sink_(sink) {}
 
-    /// Faces of chosen cells, and their sections; false if the cells are not there yet.
+    /// Adds faces of chosen cells, and their sections; returns false if the cells are not there yet.
     bool add(NodeId part, const NodeSurface& surface);
-    /// A selected cell that lies inside is seen through the others, which are drawn before. What clip plane or filter
-    /// have taken away stays away. `shown`: the surface of the node, or null.
+    /// Adds a selected cell that lies inside, and makes the layers before translucent, so that it is seen through them.
+    /// A cell that clip plane or filter have taken away is not added. `shown` is the surface of the node, or null.
     void add_selected(const NodeSurface* shown);
 
  private:
-    // What the colours of cells are made from, and the choice that looks at it; it stays where it is.
+    // The data from which the colours of cells are made, and the choice with views of them; neither copied nor moved.
     struct CellColors {
         CellColors() = default;
         CellColors(const CellColors&) = delete;
@@ -49,11 +49,12 @@ class CellLayers {
     LayerSink& sink_;
 };
 
+/// Adds the layers of parts that have been meshed.
 class PartLayers {
  public:
     PartLayers(const SceneContext& context, LayerSink& sink) : context_(context), sink_(sink), cells_(context, sink) {}
 
-    /// Those below the node; `surface` is its own, or null while it is being fetched.
+    /// Adds the parts below the node of the view; `surface` is that of the node, or null while it is being fetched.
     void add(const std::shared_ptr<const NodeSurface>& surface);
 
  private:

@@ -1,3 +1,11 @@
+// Notation: l are the barycentric coordinates of a point of the triangle. Corner k has the share l_k (2 l_k - 1), and
+// the node on the edge from a to b has 4 l_a l_b; these are the shape functions of a triangle of second order, for
+// places, places at rest and values alike. The normal of the curved face is the cross product of the derivatives by l_1
+// and l_2, with l_0 = 1 - l_1 - l_2. A triangle is drawn on a regular grid of pieces * pieces triangles; the number of
+// pieces of a curved one depends on the size of the geometry alone, not on its curvature, so that two curved neighbours
+// have the same points on their common edge and no gap opens. Interpolated values are clamped to those of the nodes,
+// since a quadratic function overshoots: a length would fall below zero, and a picture show values that the solution
+// does not have.
 #include "viewer/scene/quadratic_triangle.h"
 
 #include <algorithm>
@@ -9,8 +17,8 @@ namespace kerf::view {
 
 namespace {
 
-constexpr double straight_share = 1e-5;  // of the edge: a node that is no farther from its middle
-constexpr double linear_share = 1e-3;    // of the values: what no colour shows
+constexpr double straight_share = 1e-5;  // of the edge: largest distance of a straight edge's node from the middle
+constexpr double linear_share = 1e-3;    // of the values: a difference that no colour shows
 constexpr std::size_t many = 100000, most = 400000;
 
 using Shares = std::array<double, 3>;
@@ -21,8 +29,8 @@ Vec3 mixed_place(const std::array<Vec3, 6>& nodes, const std::array<double, 6>& 
     return sum;
 }
 
-// Between those of the nodes: the least and the largest value of a picture are those of the solution, which reports
-// have, and a length is not below zero.
+// A value between those of the nodes, so that the least and the largest value of a picture are those that reports have,
+// and a length is not below zero.
 float mixed_value(const std::array<float, 6>& nodes, const std::array<double, 6>& shares) {
     double sum = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -31,7 +39,7 @@ float mixed_value(const std::array<float, 6>& nodes, const std::array<double, 6>
     return std::clamp(static_cast<float>(sum), *least, *largest);
 }
 
-// Of the curved face, outwards.
+// The outward normal of the curved face, of any length.
 Vec3 normal_at(const QuadraticTriangle& t, const Shares& l) {
     std::array<Vec3, 3> slope;
     for (std::size_t k = 0; k < 3; ++k) slope[k] = (4 * l[k] - 1) * t.place[k];

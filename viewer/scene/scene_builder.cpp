@@ -1,3 +1,11 @@
+// The order of building matters. The colour scale begins with all that is known before layers exist; add_layers() adds
+// the layers of the step, the rest of the body and the defects; the scale then follows the values that are drawn.
+// Isolines, extremes and arrows need its range and the layers below them, and the legend, at the end, explains a
+// finished scene. Each maker of layers (SurfaceLayers, CutLayers, PartLayers with CellLayers, SolutionLayers) reads one
+// SceneContext and writes to one LayerSink. A scene is pending where something was not there yet and is still on its
+// way: a fetch that has failed does not make it wait for ever. In explosions each cut between a part and the root moves
+// its halves apart along its normal, by the edge of a cube with the volume of its node (times ViewState::explode), so
+// that pieces of very different sizes part in proportion.
 #include "viewer/scene/scene_builder.h"
 
 #include <cmath>
@@ -29,7 +37,7 @@ void add_selection(const SceneContext& context, LayerSink& sink) {
     if (corners.size() == 1) sink.add_points(LayerKind::selected_place, corners, context.colors.selection, 12);
 }
 
-// What the step shows, and what surrounds it.
+// Adds the layers of the step, and those of its surroundings.
 void add_layers(const SceneContext& context, LayerSink& sink) {
     const Document& document = context.document;
     const Stage stage = context.step.stage;
@@ -82,7 +90,7 @@ BuiltScene build_scene(SceneContext& context) {
     lines.add_vectors();
     LegendMaker(context, scene, sink.drawn_parts(), built.legend).run();
     if (state.context) sink.extend(document.box);
-    built.pending &= context.session.pending() || context.session.busy();  // what failed does not come
+    built.pending &= context.session.pending() || context.session.busy();  // a value whose fetch failed does not come
     return built;
 }
 

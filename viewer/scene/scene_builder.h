@@ -1,4 +1,4 @@
-// From what is open and what is to be shown to what is drawn.
+// Builds the scene that is drawn from the open document and the state of the view.
 #pragma once
 
 #include <optional>
@@ -13,43 +13,44 @@
 
 namespace kerf::view {
 
-/// What colours mean in a scene.
+/// The meaning of the colours in a scene.
 struct Legend {
-    std::string title;                    ///< of a colouring; empty: what there is to see is explained
-    std::optional<ValueRange> values;     ///< of a measure
-    std::optional<ValueRange> extremes;   ///< of a solution: the least and the largest value that is drawn
-    std::vector<PlacedValue> marked;      ///< where ViewState::extremes asks for them: of the least, the largest value
+    std::string title;                    ///< title of a colouring; empty: the things in the scene are explained
+    std::optional<ValueRange> values;     ///< range of the colours of values
+    std::optional<ValueRange> extremes;   ///< the least and the largest value of a solution that are drawn
+    std::vector<PlacedValue> marked;      ///< the least and the largest value, if ViewState::extremes asks for them
     double percentile = 100;              ///< per cent of the drawn values that the colours span, where they span fewer
-    std::vector<Color> scale;             ///< from its low to its high end
+    std::vector<Color> scale;             ///< colours from the low to the high end of the range
     bool goes_below = false;              ///< values that are drawn lie below `values`
-    bool goes_above = false;              ///< or above
-    std::vector<LegendEntry> categories;  ///< what else there is to explain, also beside a scale
+    bool goes_above = false;              ///< values that are drawn lie above `values`
+    std::vector<LegendEntry> categories;  ///< colours of other things, also beside a scale
 };
 
+/// A scene with its legend and its boxes.
 struct BuiltScene {
     Scene scene;
     Legend legend;
     Frame frame;
-    Eigen::AlignedBox3d box;   ///< of what is drawn, moved parts included; coordinates of the file
-    Eigen::AlignedBox3d left;  ///< of what the clip plane leaves of the body; empty without one
+    Eigen::AlignedBox3d box;   ///< box of all that is drawn, moved parts included; coordinates of the file
+    Eigen::AlignedBox3d left;  ///< box of the rest that the clip plane leaves of the body; empty without one
     bool pending = false;      ///< something is still being fetched: build again when it has arrived
 };
 
 /// Makes the layers, of kinds (LayerKind) that suit step and view.
 ///
-/// Deterministic: a function of state and document. What was drawn before costs no more than a look-up.
+/// The scene is a function of state and document alone. Geometry that was drawn before costs no more than a look-up.
 class SceneBuilder {
  public:
     BuiltScene build(const ViewState& state, Session& session);
-    /// How much geometry had to be made so far: stays as it is when one goes back.
+    /// Returns the number of geometries that had to be made so far; it stays as it is when one goes back.
     std::int64_t geometry_made() const { return cache_.made(); }
 
  private:
     GeometryCache cache_;
 };
 
-/// Where a part or half goes when the parts below `root` are pulled apart: a sum over the cuts between them, along the
-/// normals. Coordinates of the file.
+/// Returns the offset of a part or half when the parts below `root` are pulled apart: a sum along the normals of the
+/// cuts above the part, up to that of `root`. `explode` is that of ViewState. Coordinates of the file.
 Vec3 explosion_offset(const Tree& tree, NodeId part, NodeId root, double explode, double diagonal);
 
 }  // namespace kerf::view

@@ -1,3 +1,9 @@
+// The context is computed once for a scene: the step nearest to the wanted one that the node has, the frame, the shown
+// side of the clip plane, the palette. A palette of the file's colours has each colour once, and maps patches to these;
+// else patches have the colours of category_color() by number. Offsets of parts add up moves of regions, where the node
+// has several, and those of cuts. The keys at the end are parts of the names of cached geometry: all members of the
+// view that change a geometry must be in one of them, as a picture would show an old one otherwise. The deformation at
+// a phase is in solution_key(), so that each step of a motion is made once.
 #include "viewer/scene/scene_context.h"
 
 #include <cmath>

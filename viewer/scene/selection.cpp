@@ -1,3 +1,9 @@
+// A hit is a facet or a cell of an owner, which is a node or a part, and becomes a selection by the mode: a facet, the
+// cell behind it, or the nearest of its vertices. Numbers of a selection are those of the surface that surface_of()
+// returns, or those of the cells of the part; vertices inside of a part come after the vertices of its surface, so that
+// both share one numbering. Every query may find that its data are still being fetched; it returns nothing then, and is
+// asked again in the next frame. Neighbours of a facet, and facets around a vertex, are found by a search through the
+// whole surface, which is done for the one thing that is selected.
 #include "viewer/scene/selection.h"
 
 #include <algorithm>
@@ -47,7 +53,7 @@ bool is_leaf(const Document& document, NodeId node) {
     return row && row->leaf();
 }
 
-// Where there are several.
+// Names the region of a node, where there are several.
 std::string in_region(const Document& document, NodeId node) {
     const std::string* region = region_of(document, node);
     return region ? fmt::format(" in region '{}'", *region) : "";
@@ -59,7 +65,7 @@ std::string owner_text(const Document& document, NodeId owner) {
     return fmt::format("{} {}{}", is_leaf(document, owner) ? "part" : "node", owner, in_region(document, owner));
 }
 
-// What the numbers of its facets are of.
+// The surface to which the numbers of facets belong.
 const char* numbered_surface(const Document& document, NodeId owner) {
     if (document.remeshed && owner > not_remeshed) return "remeshed surface";
     return document.unrepaired && owner != not_repaired ? "repaired surface" : "input";
@@ -131,7 +137,8 @@ std::string describe_cell(const Document& document, const PartCells& cells, std:
                       q.max_edge);
 }
 
-// What was found at vertices of a part, as means over them, a fact a line; empty if nothing was, or is not there yet.
+// The solution at vertices of a part, as means over them, a fact a line; empty if there is none, or it is not there
+// yet.
 std::string describe_solution(Session& session, NodeId part, int load_case, std::span<const std::int32_t> vertices) {
     if (!session.document().solution) return "";
     const auto found = session.fetched().solution(part, static_cast<std::size_t>(load_case));
@@ -201,7 +208,7 @@ std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode)
 
 namespace {
 
-// nullptr if there is none of this number.
+// The selected defect; nullptr if there is none of this number.
 const Defect* defect_of(const Document& document, const Selection& s) {
     if (s.kind != Selection::Kind::defect || !document.checked) return nullptr;
     const auto& defects = document.checked->diagnosis.defects;

@@ -1,3 +1,10 @@
+// Facets become triangles that share no corners, so that each has its own edges, value and normals. Facets of the input
+// come before those of interfaces, on which ranges of layers rely (input_triangles()). The normal of a corner is the
+// sum of the area normals of the facets around its vertex that turn by less than 40 degrees against the corner's own
+// facet: edges stay sharp without a search for creases. An isoline crosses a triangle where exactly two of its sides
+// have their ends on different sides of the level; an end at the level itself counts as above it on both sides of an
+// edge, so that lines go on from triangle to triangle. A clip plane is kept as the half space normal . p <= offset in
+// coordinates of the file, and is turned into draw coordinates, with the opposite sign, only for the renderer.
 #include "viewer/scene/shapes.h"
 
 #include <algorithm>

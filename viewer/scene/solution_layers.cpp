@@ -1,3 +1,9 @@
+// Vertices are moved by the displacement times the factor of the view, in double precision and before anything is
+// clipped; places at rest go along, so that the file's coordinates of a place can be told. Nodes on edges have values
+// of their own in a solution of second order; in one of first order they get the mean of the ends of their edges.
+// Isolines are made on the triangles of a layer as it is drawn, for which they are cached by the layer's geometry, and
+// each keeps the number of its layer; the lines of all layers are added at the end, because references to layers do not
+// last. Arrows stand at vertices that can be seen: on interfaces only where parts are pulled apart.
 #include "viewer/scene/solution_layers.h"
 
 #include <iterator>
@@ -18,7 +24,7 @@ SolvedNodes::SolvedNodes(const SceneContext& context, LayerSink& sink, NodeId pa
     add_edges(state, edges);
 }
 
-// Of a solution of first order, means of the ends of edges.
+// Nodes on edges of a solution of first order have the means of the ends of the edges.
 void SolvedNodes::add_edges(const ViewState& state, const EdgePoints& edges) {
     const double factor = state.drawn_deformation();
     for (std::size_t e = 0; e < edges.places.size(); ++e) {
@@ -72,7 +78,7 @@ void SolutionLayers::add_isolines(const ValueRange& range) {
     std::move(lines.begin(), lines.end(), std::back_inserter(sink_.layers()));
 }
 
-// Of vertices at the surface, about evenly spread; those between parts only where these are apart.
+// Adds arrows at some vertices of the surface, about evenly spread; at interfaces only where parts are apart.
 void SolutionLayers::add_vectors() {
     if (!context_.state.vectors || !context_.document.solution || context_.step.stage != Stage::tetrahedra) return;
     const auto number = static_cast<std::size_t>(context_.state.load_case);

@@ -1,4 +1,4 @@
-// Of a solution: where vertices move, their values, lines where these are alike, arrows.
+// The layers of a solution: moved vertices and their values, isolines, arrows.
 #pragma once
 
 #include "viewer/scene/arrows.h"
@@ -6,14 +6,14 @@
 
 namespace kerf::view {
 
-/// What was found at the nodes of a part, as it is drawn. Everything is empty where nothing moves, or the colour is of
-/// something else.
+/// The solution at the nodes of a part, as it is drawn. Places are empty where nothing moves, values where the colour
+/// is that of something else.
 struct SolvedNodes {
-    std::shared_ptr<const PartSolution> found;  ///< null if nobody asks for it, or while it is being fetched
-    std::vector<Vec3> moved;                    ///< vertices
-    std::vector<float> at_vertices;
-    std::vector<Vec3> moved_edges;  ///< nodes on edges
-    std::vector<float> at_edges;
+    std::shared_ptr<const PartSolution> found;  ///< null if the view does not need it, or while it is being fetched
+    std::vector<Vec3> moved;                    ///< places of vertices
+    std::vector<float> at_vertices;             ///< values at vertices
+    std::vector<Vec3> moved_edges;              ///< places of nodes on edges
+    std::vector<float> at_edges;                ///< values at nodes on edges
 
     SolvedNodes() = default;
     SolvedNodes(const SceneContext& context, LayerSink& sink, NodeId part, const std::vector<Vec3>& vertices,
@@ -29,13 +29,14 @@ struct SolvedNodes {
     void add_edges(const ViewState& state, const EdgePoints& edges);
 };
 
+/// Adds isolines and arrows to the layers of parts.
 class SolutionLayers {
  public:
     SolutionLayers(const SceneContext& context, LayerSink& sink) : context_(context), sink_(sink) {}
 
-    /// At the tenths of the range of colours.
+    /// Adds isolines at the inner tenths of the range of colours.
     void add_isolines(const ValueRange& range);
-    /// Displacements.
+    /// Adds displacements as arrows.
     void add_vectors();
 
  private:

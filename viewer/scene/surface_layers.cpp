@@ -1,3 +1,10 @@
+// A surface is drawn as one geometry with two ranges, the facets of the input and those of interfaces, each with a
+// colour and a switch of its own. Its layer is `closed` only if all facets are drawn, unshrunk, and known to face
+// outwards: the renderer leaves out backs of such a layer, and would leave out faces of a surface that its file has
+// turned. Where walls or glass are drawn, a facet with a neighbour behind it is there twice, once for each part; one of
+// them is left out, by an order in which opaque regions come before glass and smaller numbers before larger ones, but
+// only if the neighbour is drawn and touches the part. The context of a node is the other half of each cut above it,
+// without interfaces.
 #include "viewer/scene/surface_layers.h"
 
 #include <algorithm>
@@ -15,7 +22,7 @@ bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownS
     return std::min({d[0], d[1], d[2]}) < 0 && std::max({d[0], d[1], d[2]}) >= 0;
 }
 
-// A surface as its file has it may be open or turned; what was cut is neither.
+// A surface as its file has it may be open or turned; one that was cut is neither.
 bool is_outward(const Document& document) {
     if (document.trace) return true;
     if (!document.checked || !document.checked->diagnosis.clean()) return false;
@@ -25,7 +32,7 @@ bool is_outward(const Document& document) {
            diagnosis.count(DefectKind::duplicate_facet) == 0;
 }
 
-// The neighbour is drawn, too, where it touches the part.
+// Whether the neighbour is drawn, too, in a place where it touches the part.
 bool is_met(const SceneContext& context, NodeId part, NodeId neighbour) {
     if (!lies_below(neighbour, context.state.node) || !context.is_shown(neighbour)) return false;
     const TreeRow* row = context.document.tree.find(neighbour);
@@ -33,7 +40,8 @@ bool is_met(const SceneContext& context, NodeId part, NodeId neighbour) {
     return is_there && context.offset_of(part) == context.offset_of(neighbour);
 }
 
-// One range becomes two, of which those are left that are to be seen; returns how many triangles these are.
+// Divides the range of a layer into two, of which those are left that the view shows; returns the number of their
+// triangles.
 std::size_t divide_at_interfaces(const NodeSurface& surface, const ViewState& state, const Color& interface_color,
                                  Layer& layer) {
     Range input = layer.ranges.front(), interface = input;
