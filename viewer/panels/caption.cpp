@@ -1,4 +1,8 @@
-// What the picture shows, in words for who does not know Kerf: what there is, how much of it, and what is left out.
+// The caption of a picture, in words for a reader who does not know Kerf: the piece shown and its step, its numbers,
+// and its omissions. Clip plane, filter, hidden or isolated nodes and regions, glass, and colours that span fewer
+// values add a line each, so that a saved picture says that it does not show all. A new way to hide something needs its
+// line in caption_of(). Lines are broken at the width of the scene before they are measured, as the ground behind them
+// is drawn first.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -36,7 +40,8 @@ std::string body_of(const Document& document, NodeId node) {
     return fmt::format("{} {}", row && row->leaf() ? "Part" : "Piece", node);
 }
 
-// Of the parts of a node: how many there are and are shown, filled ones, and what these hold.
+// The parts of a node: their number, those shown, those of these that are filled, and the tetrahedra and facets of
+// those shown.
 struct Content {
     std::int64_t parts = 0, shown = 0, filled = 0, tets = 0, facets = 0;
 };
@@ -55,7 +60,7 @@ Content content_of(const Document& document, const ViewState& state) {
     return content;
 }
 
-// `told`: parts that are meant.
+// `told`: the number of parts that the caption is about.
 std::string in_parts(const std::string& body, const Content& content, std::int64_t told) {
     if (told < content.parts) return fmt::format("{}, {} of {}", body, told, counted(content.parts, "part"));
     return content.parts == 1 ? body : fmt::format("{} in {}", body, counted(content.parts, "part"));
@@ -86,7 +91,7 @@ std::string heading(const Document& document, const ViewState& state, const Step
                        step.refused_try < 0 ? in_words(name(step.stage)) : beginning_small(title(step)));
 }
 
-// What has changed the surface of the file.
+// The repairs that have changed the surface of the file.
 std::string repairs_of(const Document& document) {
     const InputOptions& options = document.options.input_options;
     const std::string wraps = options.wraps() ? "wrapped" : "";
@@ -94,7 +99,7 @@ std::string repairs_of(const Document& document) {
     return options.repair + (wraps.empty() ? "" : ", " + wraps);
 }
 
-// Where an axis of the file is the normal, with the place in its units.
+// The place of the clip plane, with its coordinate in units of the file if an axis is its normal.
 std::string clip_text(const Clip& clip, const Eigen::AlignedBox3d& box) {
     const ValueRange range = extent_along(box, clip.normal);
     const double place = range.low + clip.position * (range.high - range.low);
@@ -111,7 +116,7 @@ std::string size_text(const Eigen::AlignedBox3d& box) {
                        rounded(size.z()));
 }
 
-// Which regions are shown, and how, where that is not as usual.
+// A line for each way in which regions are shown that is not the usual one.
 std::vector<std::string> region_lines(const Document& document, const ViewState& state) {
     std::vector<std::string> lines, glass, hidden;
     for (const std::string& region : document.region_names) {
@@ -132,7 +137,7 @@ std::vector<std::string> region_lines(const Document& document, const ViewState&
     return lines;
 }
 
-// As far as there is room of this width.
+// The lines of the caption, for a scene that has room for lines of this width.
 std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     const Document& document = context.session.document();
     const ViewState& state = context.state;

@@ -1,4 +1,5 @@
-// The colours over all values. A drag over it says between which values they change; a drag of an end moves that.
+// A bar with the colours over all values. A drag over it gives the values between which colours change; a drag of an
+// end of the colours moves that end.
 #include <algorithm>
 #include <cmath>
 
@@ -65,7 +66,7 @@ class ColorBar {
         if (std::min(to_low, to_high) < reach) memory_.drag_from = to_low < to_high ? colored_.high : colored_.low;
     }
 
-    // Between here and where the drag began, or the other end.
+    // Spreads the colours between this value and the one where the drag began, or the other end.
     void drag_to(double value) {
         const double least = 1e-3 * length();  // else there would be no colours between
         if (std::abs(value - memory_.drag_from) < least) return;

@@ -1,4 +1,8 @@
-// What colours mean: the choice, its range, its distribution, the worst cells.
+// The section of colours: the choice of a colouring, the range of its colours, a filter of cells, and the lists of the
+// worst cells and interfaces. Range and filter are two things: the range says which values the colours span, the filter
+// which cells are drawn at all. Fields of both are always there, so that nothing below them moves when one is used.
+// Another colouring clears both, as their numbers were other values. The list of worst cells holds a hundred and is
+// drawn by an ImGuiListClipper, which needs rows of one height.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +17,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float title_place = 0.24f;  // of a row: its title
+constexpr float title_place = 0.24f;  // share of the title in the width of a row
 
 void draw_choice(UiContext& context) {
     static const std::vector<std::string> titles = [] {
@@ -28,7 +32,7 @@ void draw_choice(UiContext& context) {
     context.state.color_range.reset();
 }
 
-// A title and two fields in a row. True if one of them was changed.
+// Draws a title and two fields in a row, and returns whether one of them was changed.
 bool draw_limits(Widgets& widgets, const char* title, const std::array<const char*, 2>& labels, const ValueRange& value,
                  ValueRange& typed, ValueRange& changed) {
     const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
@@ -44,7 +48,7 @@ bool draw_limits(Widgets& widgets, const char* title, const std::array<const cha
     return low || high;
 }
 
-// Always there, so that nothing below moves when it is used.
+// Draws the range of the colours. It is always there, so that nothing below moves when it is used.
 void draw_range(UiContext& context, ColorMemory& memory) {
     ViewState& state = context.state;
     bool fixed = state.color_range.has_value();
@@ -58,7 +62,7 @@ void draw_range(UiContext& context, ColorMemory& memory) {
     context.widgets.checkbox("Mark extremes", &state.extremes, "Where the least and the largest value are");
 }
 
-// Always there, so that nothing below moves when a filter begins.
+// Draws the limits of the filter. They are always there, so that nothing below moves when a filter begins.
 void draw_filter(UiContext& context, ColorMemory& memory) {
     ViewState& state = context.state;
     const ValueRange all = values_of_run(context);
@@ -85,7 +89,7 @@ void fly_to_cell(UiContext& context, const WorstCell& cell) {
     context.actions.camera.turn_to_selection();
 }
 
-// As far as keys have asked for; the row comes into sight.
+// Goes on in the list as far as keys have asked for, and brings the row into sight.
 void step_through_worst(UiContext& context, WorstCellsMemory& memory, ListKeys& keys,
                         const std::vector<WorstCell>& cells) {
     const int steps = keys.take(ListKeys::List::worst_cells);

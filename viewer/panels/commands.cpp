@@ -1,3 +1,8 @@
+// The table of commands (all_commands), in the order of menus and lists. A command acts by plain functions; templates
+// make those that only toggle a flag or call one action. A new command is a row here, and the menus, the window of
+// keys, the search box and the keyboard have it. A search ranks a command 0 if its name begins with the text, 1 if its
+// name contains it, 2 if its words are elsewhere in name, heading or keys. Left, Right, Up, Down and Escape mean other
+// things during a tour or in a list of defects or cells: step_by(), go_by() and leave() decide that.
 #include "viewer/panels/commands.h"
 
 #include <algorithm>
@@ -110,7 +115,7 @@ void step_by(UiContext& context, Dialogs& dialogs) {
         context.actions.play.move_step(Count);
 }
 
-// The list of defects or cells that was used last goes on first.
+// Up and Down go on in the list of defects or cells that was used last, else in the tree.
 template <int Count>
 void go_by(UiContext& context, Dialogs& dialogs) {
     if (dialogs.list.list == ListKeys::List::none)
@@ -323,7 +328,7 @@ bool has_key(const Command& command, const std::string& key) {
     return false;
 }
 
-// 0: it is found first; negative: it is not what was typed.
+// The rank of a command in a search: 0, 1, 2, the best first, or -1 if it does not have all typed words.
 int rank_of(const Command& command, const std::string& typed) {
     const std::string name = in_small_letters(command.name);
     const std::string all = name + " " + in_small_letters(command.heading) + " " + in_small_letters(command.keys);

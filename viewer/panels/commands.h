@@ -1,5 +1,5 @@
-// What can be asked for by a word or a key, once: menus, the window of keys, the search box and the keyboard all read
-// this table.
+// The table of all commands, each with its name, keys and menu. Menus, the window of keys, the search box and the
+// keyboard all read it, so that a command is described once.
 #pragma once
 
 #include <string>
@@ -12,25 +12,25 @@ namespace kerf::view {
 
 struct Command {
     const char* name;     ///< "Fit everything"; no two are alike
-    const char* keys;     ///< "Ctrl+Shift+Z, Ctrl+Y": any of them; empty: none
-    const char* heading;  ///< under which it is listed
-    const char* menu;     ///< "View"; empty: in no menu
+    const char* keys;     ///< the keys that run it, any of "Ctrl+Shift+Z, Ctrl+Y"; empty: none
+    const char* heading;  ///< the heading under which it is listed
+    const char* menu;     ///< the menu that has it, "View"; empty: none
     void (*run)(UiContext& context, Dialogs& dialogs);
-    bool (*is_on)(const UiContext& context) = nullptr;       ///< of a switch
-    bool (*is_enabled)(const UiContext& context) = nullptr;  ///< null: always
-    bool repeats = false;                                    ///< while its key is held
-    bool ends_section = false;                               ///< a line follows in the menu
+    bool (*is_on)(const UiContext& context) = nullptr;       ///< the state of a switch; null: the command is no switch
+    bool (*is_enabled)(const UiContext& context) = nullptr;  ///< whether it can be run now; null: always
+    bool repeats = false;                                    ///< it is run again and again while its key is held
+    bool ends_section = false;                               ///< a separating line follows it in the menu
 };
 
-/// In the order of menus and lists.
+/// Returns the table, in the order of menus and lists.
 const std::vector<Command>& commands();
 
 bool is_enabled(const Command& command, const UiContext& context);
-/// The command of a key as it is pressed, "Ctrl+Shift+Z". With Shift it is that without, where it has none of its own.
-/// nullptr: there is none.
+/// Returns the command of a key as it is pressed, "Ctrl+Shift+Z", or nullptr if there is none. A key with Shift that
+/// has no command of its own stands for the key without Shift.
 const Command* command_of_key(const std::string& key);
-/// Those whose name, heading and keys have all words that were typed, in any case: first those whose name begins with
-/// the text, then those whose names have it, then the rest, each in the order of the table.
+/// Returns the commands whose name, heading and keys together have all typed words, in any case: first those whose name
+/// begins with the text, then those whose name contains it, then the rest, each in the order of the table.
 std::vector<const Command*> find_commands(std::string_view typed);
 
 }  // namespace kerf::view

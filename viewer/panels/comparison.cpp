@@ -1,4 +1,7 @@
-// What a repetition with other options has changed: of one cut, and of the whole run.
+// The comparison of two runs, A before and B after a repetition with other options: of the cut of the node shown, where
+// it differs, and of the whole run. A value of B is green or red where more or less of it is better; a value that is
+// not known is negative and shown as "-". Whichever of the two is shown, A is the earlier one; the switch is drawn
+// first, because it may exchange the two documents that the tables refer to.
 #include <algorithm>
 #include <filesystem>
 
@@ -34,7 +37,7 @@ class Table {
     void add(const char* what, const std::string& before, const std::string& now) {
         row(what, before, now, colors_.text);
     }
-    // The new value is green or red if one of them is better. Negative: not known.
+    // Adds a row of numbers, the new one green or red if one of the two is better. Negative: not known.
     void add(const char* what, double before, double now, Better better = Better::neither) {
         const bool same = before == now || better == Better::neither || before < 0 || now < 0;
         const bool gain = better == Better::more ? now > before : now < before;
@@ -77,7 +80,7 @@ void compare_cuts(NodeId node, const CutSummary& before, const CutSummary& now, 
     table.add("off the plane", before.max_deviation, now.max_deviation);
 }
 
-// Of a run; negative: not known.
+// The numbers of a run; negative: not known.
 struct RunNumbers {
     double parts = 0, failed = 0, tries = 0, tets = 0, area = 0, imbalance = -1, angle = -1;
     double smallest = -1, percentile = -1, median = -1;  // dihedral angles
@@ -128,7 +131,7 @@ void compare_runs(const Document& before, const Document& now, const Palette& co
     if (a.failed > 0 || b.failed > 0) table.add("failed parts", a.failed, b.failed, Better::less);
 }
 
-// Which of the two is shown.
+// Draws the switch between the two runs.
 void draw_switch(UiContext& context) {
     const bool shows_before = context.session.shows_before();
     ImGui::BeginDisabled(!context.session.pair().can_swap());

@@ -1,4 +1,8 @@
-// What is shown, and the plane that clips it.
+// The sections of display and clip plane. Each switch writes one member of the view state, which the next frame's scene
+// follows, so that nothing here draws the scene. Clip::position is a fraction of the body's extent along the normal
+// (extent_along()), not a length: the slider shows the fraction, the field beside it the distance from the origin in
+// units of the file. Typed numbers take effect when a field is left, as half a number would turn or move the plane.
+// Items that would do nothing at the present step are disabled, and say why.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +14,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float title_share = 0.76f;  // of a row: what its title leaves
+constexpr float title_share = 0.76f;  // share of a row that its title leaves
 
 // Checkboxes in two columns.
 void draw_switches(UiContext& context) {
@@ -37,7 +41,7 @@ void draw_switches(UiContext& context) {
     }
 }
 
-// Elsewhere it would do nothing, and not say so.
+// Draws the slider that pulls pieces apart; it is disabled where there is one piece, and says why.
 void draw_explode(UiContext& context) {
     const Document& document = context.session.document();
     const Step& step = context.state.step;
@@ -100,7 +104,8 @@ void draw_snap_button(UiContext& context) {
     ImGui::EndDisabled();
 }
 
-// What is typed takes effect when the field is left, so that half a number does not turn the plane.
+// Draws the fields of the normal. A typed normal takes effect when the field is left, so that half a number does not
+// turn the plane.
 void draw_normal(UiContext& context, ClipMemory& memory) {
     Clip& clip = context.state.clip;
     const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
@@ -115,7 +120,7 @@ void draw_normal(UiContext& context, ClipMemory& memory) {
     if (!ImGui::IsItemActive()) memory.normal = {clip.normal.x(), clip.normal.y(), clip.normal.z()};
 }
 
-// The position in units of the file: along the normal from the origin.
+// Draws the field of the position in units of the file: the distance of the plane from the origin along its normal.
 void draw_distance(UiContext& context, ClipMemory& memory) {
     Clip& clip = context.state.clip;
     const Eigen::AlignedBox3d& box = context.session.document().box;

@@ -1,4 +1,8 @@
-// The dialog to open a file or folder. What can be opened is told by names; any other file can be tried.
+// The dialog that opens a file or folder. Kinds are told by names alone, as opening every file of a folder would take
+// long; a folder is a run by its report.json or its ending .kerf-partial, and any other file can be tried by "All
+// files". The folder is read once, when it is entered, into FileBrowser; a Dialog lives for one frame and collects the
+// entries that the filter lists. Opening an entry replaces the list, so it waits until the list has been drawn. ImGui
+// gives the keyboard to a new dialog itself, hence the two frames before the path gets it.
 #include <algorithm>
 #include <cctype>
 
@@ -35,7 +39,7 @@ Kind kind_of_file(const fs::path& path) {
 }
 
 Kind kind_of_folder(const fs::path& path) {
-    std::error_code ignored;  // what cannot be looked into is a folder
+    std::error_code ignored;  // a folder that cannot be read is a folder
     const bool run = path.extension() == ".kerf-partial" || fs::is_regular_file(path / "report.json", ignored) ||
                      fs::is_regular_file(path / "solution/report.json", ignored);
     return run ? Kind::run : Kind::folder;
@@ -97,7 +101,7 @@ class Dialog {
 
     void try_typed() {
         if (browser_.typed == browser_.folder && browser_.chosen >= 0) return activate(browser_.chosen);
-        std::error_code ignored;  // neither: the browser says so
+        std::error_code ignored;  // a path that is neither: go_to() says so
         if (fs::is_regular_file(browser_.typed, ignored)) return open(browser_.typed);
         browser_.go_to(browser_.typed);
     }
@@ -274,7 +278,7 @@ void draw_browser(UiContext& context, FileBrowser& browser) {
         browser.open = false;
         return;
     }
-    // It would come slowly, and stop on the way where frames are drawn on demand.
+    // The veil would fade in slowly, and stop on the way where frames are drawn on demand.
     ImGui::GetCurrentContext()->DimBgRatio = 1;
     Dialog(context, browser).draw();
     ImGui::EndPopup();

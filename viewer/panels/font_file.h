@@ -1,4 +1,4 @@
-// Which file holds the font of the user interface.
+// The file that holds the font of the user interface.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@ namespace kerf::view {
 
 struct FontFile {
     std::string path;  ///< empty: none was found
-    int number = 0;    ///< of the font in a collection
+    int number = 0;    ///< index of the font in a collection
 };
 
-/// The TrueType font of the family or what fontconfig offers in its place, with Latin letters. Some milliseconds; where
-/// fontconfig has no cache, each font of the system takes some.
+/// Returns the TrueType font of the family, or the one that fontconfig offers in its place, with Latin letters. It
+/// takes some milliseconds; where fontconfig has no cache, some for each font of the system.
 FontFile find_font(const std::string& family);
 
 }  // namespace kerf::view

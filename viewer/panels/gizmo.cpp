@@ -1,4 +1,4 @@
-// The axes of the file as they are turned; a click on an end looks from there.
+// The axes of the file as the camera has turned them; a click on an end looks from there.
 #include <algorithm>
 
 #include "viewer/panels/parts.h"
@@ -31,7 +31,7 @@ struct PlacedEnd {
     double depth = 0;  // larger: nearer
 };
 
-// Nearest first.
+// The ends of the axes in the window, the nearest first.
 std::array<PlacedEnd, 6> place_ends(const Camera& camera, const ImVec2& center, float reach) {
     std::array<PlacedEnd, 6> placed;
     const Eigen::Quaterniond to_eye = camera.turn.conjugate();

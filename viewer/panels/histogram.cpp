@@ -1,4 +1,8 @@
-// The distribution of a measure over all cells of the run. A drag over it shows only the cells of these bins.
+// The distribution of a measure over all cells of the run, from the bins of its report. Bin i lies between edges[i] and
+// edges[i + 1]; bins before the first and after the last cell are not drawn. Positions along the axis are numbers of
+// bins, not values, as the bins of some measures are logarithmic: place_of() goes from a value to them. A drag sets the
+// filter to whole bins, so that the cells drawn are those counted. Heights may be logarithmic, log2(1 + count), so that
+// a bin of one cell is seen beside one of a million.
 #include <algorithm>
 #include <cmath>
 
@@ -66,7 +70,7 @@ class HistogramView {
         return std::max(1.f, 0.94f * size_.y * static_cast<float>(part));
     }
 
-    // Where a value lies among the bins, as a number of bins.
+    // The place of a value among the bins, as a number of bins.
     double place_of(double value) const {
         const auto& edges = histogram_.edges;
         const auto above = std::upper_bound(edges.begin(), edges.end(), value);
@@ -76,7 +80,7 @@ class HistogramView {
         return static_cast<double>(above - edges.begin() - 1) + (value - low) / (high - low);
     }
 
-    // A veil over what is left out.
+    // Draws a veil over the values that the filter leaves out.
     void draw_filter(ImDrawList& list) const {
         const ValueRange& filter = *context_.state.filter;
         const float left = std::clamp(x_of(place_of(filter.low)), from_.x, from_.x + size_.x);
@@ -99,7 +103,7 @@ class HistogramView {
         if (bin < histogram_.interface.size()) bar(histogram_.interface[bin], colors_.accent);
     }
 
-    // Whole bins, so that what is shown is what is counted.
+    // Sets the filter to whole bins, so that the cells shown are those counted.
     void brush() {
         const ImGuiIO& io = ImGui::GetIO();
         if (ImGui::IsItemClicked()) memory_.brush_from = static_cast<double>(bin_at(io.MousePos.x));

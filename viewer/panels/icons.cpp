@@ -1,3 +1,6 @@
+// Icons as lines, discs and boxes of an ImDrawList, so that they do not depend on the glyphs of a font. A Pen draws in
+// units of half of the icon's side about its centre, so that an icon fills -1 to 1 in both directions, y down. Lines
+// grow with the icon and are at least a pixel wide. A new icon is a member of Icon and a case of draw_icon().
 #include "viewer/panels/icons.h"
 
 #include <cmath>
@@ -8,7 +11,7 @@ namespace kerf::view {
 
 namespace {
 
-// Draws in units of half of the side, y down.
+// A pen in units of half of the side, with the origin at the centre and y down.
 class Pen {
  public:
     Pen(ImDrawList& list, const ImVec2& center, float size, ImU32 color)

@@ -1,4 +1,4 @@
-// Small drawn pictures: they look alike with any font.
+// Small pictures that are drawn with lines and shapes, so that they look alike with any font.
 #pragma once
 
 #include <string>
@@ -27,10 +27,11 @@ enum class Icon {
     file
 };
 
-/// Within a square of side `size` about `center`.
+/// Draws the icon within a square of side `size` about `center`.
 void draw_icon(ImDrawList& list, Icon icon, const ImVec2& center, float size, ImU32 color);
 
-/// A square button without a frame, recorded under `label`. `color`: of the picture.
+/// Draws a square button without a frame, recorded under `label`, and returns whether it was pressed. `color`: of the
+/// icon. `tip` may be null.
 bool icon_button(Widgets& widgets, const std::string& label, Icon icon, float size, ImU32 color, const char* tip);
 
 }  // namespace kerf::view

@@ -42,7 +42,7 @@ void number_imgui_key(ImGuiKey key, int number) { imgui_keys[number] = key; }
 
 bool is_imgui_key_pressed(ImGuiKey key) { return ImGui::IsKeyPressed(key); }
 
-// Once each: what does not fit into a frame stays for the next one.
+// Each event is scaled once: events that do not fit into a frame stay in the queue for the next one.
 void scale_mouse(float x, float y) {
     static ImU32 last = 0;
     for (ImGuiInputEvent& event : ImGui::GetCurrentContext()->InputEventsQueue) {

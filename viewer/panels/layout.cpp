@@ -58,7 +58,7 @@ Layout layout_of(const ViewState& state, const Document& document, const PanelSi
     const float right =
         size_of(layout.has_right, sizes.right, std::min(std::clamp(0.22f * width, 20 * e, 24 * e), 0.34f * width),
                 12 * e, 0.42f * width);
-    const float rows = width - right < 58 * e ? 9 : 8;  // where it is narrow there are two of steps
+    const float rows = width - right < 58 * e ? 9 : 8;  // a narrow timeline has two rows of steps
     const float timeline = size_of(layout.has_timeline, sizes.timeline, rows * e, 6.5f * e, 0.4f * middle);
     const float above = std::max(1.f, middle - timeline);
     layout.left = {0, menu, left, above};

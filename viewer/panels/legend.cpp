@@ -1,4 +1,8 @@
-// What the colours of the scene mean, at its lower right.
+// The legend at the lower right of the scene: a title, a scale with ticks where colours are numbers, and samples of
+// other colours. It is a part of the picture and should not cover the body: body_area() gives it a strip at the right
+// of a wide scene and below the body of another one, of a size that does not depend on its content, and the camera fits
+// the body into the rest. The legend is measured first (prepare_scale(), prepare_entries()) and then placed by its
+// lower right corner. Entries that have no room become "+ N more". Ticks are round values with equally many decimals.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_categories = 12;
 
-// Ticks of one legend have equally many decimals.
+// The text of a tick; ticks of one legend have equally many decimals.
 std::string tick_text(double value, double step) {
     const double size = std::max(std::abs(value), std::abs(step));
     if (size >= 1e5 || step < 1e-4) return fmt::format("{:.3g}", value);
@@ -20,7 +24,7 @@ std::string tick_text(double value, double step) {
     return fmt::format("{:.{}f}", value, decimals);
 }
 
-// The legend has more room at the right of a wide scene, and below the body in another one.
+// The legend stands at the right of the body in a wide scene, and below it in another one.
 bool is_wide(const Rectangle& scene) { return scene.width > 1.25f * scene.height; }
 
 class LegendBox {
@@ -34,7 +38,7 @@ class LegendBox {
         if (!facts_.legend_title.empty()) highest_ -= ImGui::GetTextLineHeight() + 0.4f * e;
     }
 
-    // Title, the scale if colours are numbers, and then what else there is, from top to bottom.
+    // Draws title, scale (if colours are numbers) and entries from top to bottom.
     void draw() {
         const bool has_scale = facts_.values && facts_.scale.size() >= 2;
         if (!has_scale && facts_.categories.empty()) return;
@@ -48,7 +52,8 @@ class LegendBox {
     }
 
  private:
-    // The ground for a content of this height; returns its upper left corner, below the title.
+    // Draws ground and title for a content of this height; returns the upper left corner of the content, below the
+    // title.
     ImVec2 begin(float height) {
         const float e = em(), line = ImGui::GetTextLineHeight();
         const std::string& head = facts_.legend_title;
@@ -107,7 +112,8 @@ class LegendBox {
         draw_extremes(from, bottom);
     }
 
-    // Pointed ends: values beyond have these colours, too. Of a solution the extremes say how far they go.
+    // Draws pointed ends of the bar where values beyond it have its last colours. A solution has its extremes written
+    // there instead.
     void draw_ends(const ImVec2& from, float width) {
         if (facts_.extremes) return;
         const float middle = from.x + width / 2, bottom = from.y + bar_height_, point = 0.4f * em();
@@ -119,7 +125,7 @@ class LegendBox {
                                     packed(facts_.scale.front()));
     }
 
-    // Above and below the bar, each with a mark where its colour is.
+    // Writes the extremes above and below the bar, each with a mark at its colour.
     void draw_extremes(const ImVec2& from, float bottom) {
         if (!facts_.extremes) return;
         const float half = 0.28f * em();
@@ -134,7 +140,8 @@ class LegendBox {
 
     bool is_filtered_out(double value) const { return filter_ && (value < filter_->low || value > filter_->high); }
 
-    // Highest at the top. What a filter leaves out is not among the colours of the picture.
+    // Draws the bar, its highest value at the top. Values that a filter leaves out are veiled, as the picture does not
+    // have their colours.
     void draw_bar(const ImVec2& from, float width) {
         const std::vector<Color>& scale = facts_.scale;
         const auto pieces = static_cast<float>(scale.size() - 1);
@@ -158,7 +165,7 @@ class LegendBox {
     float line_height() const { return ImGui::GetTextLineHeight() + 0.15f * em(); }
     static float sample_width() { return 1.1f * em(); }
 
-    // One below the other at the right of the body, in columns below it.
+    // Arranges the entries: one below the other at the right of the body, in columns below it.
     void prepare_entries() {
         const auto& entries = facts_.categories;
         const float e = em(), sample = sample_width() + 0.6f * e, room = highest_ - scale_height_;
@@ -200,7 +207,7 @@ class LegendBox {
         list_.AddText({at.x + left, at.y}, packed(colors_.dim), more_.c_str());
     }
 
-    // As it is drawn in the scene; `left`: the middle of its left side.
+    // Draws a sample of the colour, as the scene has it; `left`: the middle of its left side.
     void draw_sample(const LegendEntry& entry, const ImVec2& left) {
         const float width = sample_width(), half = 0.4f * em();
         switch (entry.mark) {
@@ -224,14 +231,14 @@ class LegendBox {
     const Rectangle& scene_;
     const Palette& colors_;
     ImDrawList& list_ = *ImGui::GetBackgroundDrawList();
-    float widest_ = 0, highest_ = 0;  // what there is room for
+    float widest_ = 0, highest_ = 0;  // the room of the legend
     float width_ = 0;
     // Of the scale:
     ValueRange range_;
     std::optional<ValueRange> filter_;
     std::vector<double> ticks_;
     float bar_height_ = 0, scale_height_ = 0;
-    std::string least_, largest_;  // of the values that are drawn
+    std::string least_, largest_;  // texts of the least and the largest value drawn
     // Of the entries:
     std::size_t shown_ = 0, rows_ = 0;
     float column_width_ = 0;

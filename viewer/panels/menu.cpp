@@ -8,7 +8,7 @@ namespace {
 
 bool begin_menu(Widgets& widgets, const char* label, bool enabled = true) {
     const bool open = ImGui::BeginMenu(label, enabled);
-    // A menu that opens from a menu has made itself the current window.
+    // An open menu has made itself the current window, so that only a closed one is recorded here.
     if (!open) widgets.record(label);
     return open;
 }

@@ -12,14 +12,15 @@
 
 namespace kerf::view {
 
-/// What panels cannot do by changing the view state, by what does it.
+/// The action of opening files. This class and the five below are interfaces to the parts of the app that do more than
+/// change the view state, which panels do themselves.
 class FileActions {
  public:
     virtual ~FileActions() = default;
     virtual void open_files(
-        const std::vector<std::string>& paths) = 0;  ///< together, at least one; see Session::open()
+        const std::vector<std::string>& paths) = 0;  ///< opens at least one, together; see Session::open()
     virtual void reload() = 0;
-    virtual void open_again(const RunOptions& options) = 0;  ///< what is open, read by them
+    virtual void open_again(const RunOptions& options) = 0;  ///< reads the open files again, with these options
 };
 
 class CameraActions {
@@ -27,16 +28,19 @@ class CameraActions {
     virtual ~CameraActions() = default;
     virtual void fit_all() = 0;
     virtual void frame_selection() = 0;
-    /// Turns the camera's target to a point and comes as close as `radius` (units of the file) asks for; selects it.
-    /// `back`: where the eye goes from there, of length 1; zero: as before.
+    /// Moves the camera's target to a point, makes the scene 6 times `radius` (units of the file) high, and selects the
+    /// point unless a cell is selected. `back`: the direction from there to the eye, of length 1; zero: the present
+    /// one.
     virtual void fly_to(const Vec3& point, double radius, const Vec3& back) = 0;
-    /// Once it is known where a selected cell at the surface can be seen from, the camera turns there.
+    /// Turns the camera to a direction from which the selected cell is seen at the surface, as soon as that direction
+    /// is known.
     virtual void turn_to_selection() = 0;
-    /// The clip plane with its normal, or facing the eye, goes through the middle of what is selected.
+    /// Moves the clip plane through the middle of the selection, with its present normal or, if `faces_eye`, facing the
+    /// eye.
     virtual void clip_through_selection(bool faces_eye) = 0;
-    /// Looks through it from now on, in this frame, too.
+    /// Looks through this camera from now on, in this frame, too.
     virtual void take_camera(const Camera& camera) = 0;
-    /// To the view before, and back to the one after (ViewHistory).
+    /// Goes to the view before, and on to the one after (ViewHistory).
     virtual void show_earlier() = 0;
     virtual void show_later() = 0;
 };
@@ -44,31 +48,31 @@ class CameraActions {
 class PlayActions {
  public:
     virtual ~PlayActions() = default;
-    virtual void move_step(int count) = 0;  ///< so many steps of the node on, or back
-    virtual void move_node(int count) = 0;  ///< to the next node of the tree, 1, or the one before, -1
+    virtual void move_step(int count) = 0;  ///< goes `count` steps of the node on, or back if negative
+    virtual void move_node(int count) = 0;  ///< goes to the next node of the tree, 1, or the one before, -1
     virtual void toggle_play() = 0;
-    virtual void toggle_motion() = 0;  ///< of the deformation
+    virtual void toggle_motion() = 0;  ///< starts or stops the motion of the deformation
 };
 
 class RunActions {
  public:
     virtual ~RunActions() = default;
     virtual void start_run(const RunOptions& options, bool volume) = 0;
-    /// At the plane, or where it was.
+    /// Makes the cut of a node again with these options, at the plane if there is one, else where it was.
     virtual void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) = 0;
     virtual void swap_runs() = 0;
-    /// From what was before a run or a repair to what is after, and back.
+    /// Goes from the state before a run or a repair to the state after it, and back.
     virtual void show_other() = 0;
 };
 
 class RepairActions {
  public:
     virtual ~RepairActions() = default;
-    /// Repairs::repair() and its like; what was selected is no more.
+    /// Repairs the surface (Repairs::repair()).
     virtual void repair(const InputOptions& options) = 0;
     virtual void undo_repair() = 0;
     virtual void redo_repair() = 0;
-    virtual void show_before_repair(bool before) = 0;  ///< or the surface after it, under the same camera
+    virtual void show_before_repair(bool before) = 0;  ///< shows the surface before repairs, or after them
 };
 
 class WindowActions {
@@ -76,9 +80,9 @@ class WindowActions {
     virtual ~WindowActions() = default;
     virtual void quit() = 0;
     virtual void take_screenshot() = 0;
-    virtual void copy(const std::string& text) = 0;  ///< to the clipboard
+    virtual void copy(const std::string& text) = 0;  ///< copies it to the clipboard
     virtual std::string clipboard() = 0;
-    /// Shows what could not be done, until the next notice or click.
+    /// Shows an error until the next notice or click.
     virtual void complain(const std::string& text) = 0;
 };
 
@@ -91,7 +95,7 @@ struct Actions {
     WindowActions& window;
 };
 
-/// A number on a face: its middle, in ImGui's units of the window.
+/// A number on a face, and the place of its middle in ImGui's units of the window.
 struct FaceNumber {
     std::int32_t number = 0;
     float x = 0, y = 0;
@@ -104,27 +108,27 @@ struct ValueLabel {
     bool is_beside = false;  ///< the text stands beside the place, not on it
 };
 
-/// What the scene knows that panels show.
+/// The facts about the scene that panels show.
 struct SceneFacts {
-    std::string legend_title;                     ///< empty: the legend explains what is there, not a colouring
-    std::optional<ValueRange> values;             ///< of what is shown, by ViewState::color
-    std::optional<ValueRange> extremes;           ///< Legend::extremes
-    std::vector<PlacedValue> marked;              ///< Legend::marked
-    double percentile = 100;                      ///< Legend::percentile
-    std::vector<LegendEntry> categories;          ///< what else a legend explains: "part 8"
-    std::vector<Color> scale;                     ///< colours from low to high, of a legend with numbers
+    std::string legend_title;             ///< empty: the legend explains the objects of the scene, not a colouring
+    std::optional<ValueRange> values;     ///< range of the values shown, by ViewState::color
+    std::optional<ValueRange> extremes;   ///< Legend::extremes
+    std::vector<PlacedValue> marked;      ///< Legend::marked
+    double percentile = 100;              ///< Legend::percentile
+    std::vector<LegendEntry> categories;  ///< other entries of the legend: "part 8"
+    std::vector<Color> scale;             ///< colours from low to high, of a legend with numbers
     bool goes_below = false, goes_above = false;  ///< Legend::goes_below, goes_above
-    std::string selection;                        ///< what is selected, as lines of text; empty: nothing
-    std::int64_t triangles = 0, lines = 0;        ///< drawn
+    std::string selection;                        ///< the selection as lines of text; empty: nothing is selected
+    std::int64_t triangles = 0, lines = 0;        ///< numbers of those drawn
     std::string notice;                           ///< e.g. "saved as kerf-001.png"; shown for some seconds
-    bool notice_is_error = false;                 ///< then until the next click
-    std::vector<FaceNumber> numbers;              ///< of patches, to be drawn on them
+    bool notice_is_error = false;                 ///< the notice is an error, which stays until the next click
+    std::vector<FaceNumber> numbers;              ///< numbers of patches, to be drawn on them
     std::vector<ValueLabel> labels;               ///< values of isolines, the least and the largest value
     std::optional<ValueLabel> probe;              ///< the value under the mouse
-    bool has_earlier = false, has_later = false;  ///< views
+    bool has_earlier = false, has_later = false;  ///< there are views to go back to, or on to
     bool playing = false;
-    bool moving = false;   ///< the deformation does
-    bool pending = false;  ///< something that is to be shown is still being read
+    bool moving = false;   ///< the deformation is in motion
+    bool pending = false;  ///< data to be shown is still being read
 };
 
 /// Sizes that the user has given to panels, in heights of the font; 0: as the window suggests.
@@ -134,17 +138,17 @@ struct PanelSizes {
     bool operator==(const PanelSizes&) const = default;
 };
 
-/// Of the picture in the window: pixels, and the scale of the screen (FrameSize::scale) that it was on.
+/// The size of the picture in the window in pixels, and the scale of its screen (FrameSize::scale).
 struct WindowSize {
     int width = 1280, height = 800;
     double scale = 1;
 };
 
-/// What was open once.
+/// A file or folder that was open once.
 struct RecentFile {
     std::string path;
-    std::string day;    ///< when, "26 Nov 2026"; empty: not known
-    std::string sizes;  ///< as sizes_of() said; empty: not known
+    std::string day;    ///< the day when it was last opened, "26 Nov 2026"; empty: not known
+    std::string sizes;  ///< its content as sizes_of() told it; empty: not known
 };
 
 /// A surface to try that comes with the program.
@@ -155,16 +159,16 @@ struct Example {
     ImTextureID picture = nullptr;  ///< null: there is none
 };
 
-/// "6.21 k facets, 14.6 k tetrahedra", as far as they are known.
+/// Returns "6.21 k facets, 14.6 k tetrahedra", as far as they are known.
 std::string sizes_of(const Document& document);
 
 /// Settings that outlive the document, kept in the user's config folder.
 struct Settings {
     Theme theme = Theme::light;
-    std::vector<RecentFile> recent;  ///< the last one first
-    std::string browser_folder;      ///< of the file browser
+    std::vector<RecentFile> recent;  ///< the files opened before, the last one first
+    std::string browser_folder;      ///< the folder of the file browser
     PanelSizes panels;
-    WindowSize window;  ///< when it was last drawn
+    WindowSize window;  ///< size of the window when it was last drawn
 };
 
 struct UiContext {
@@ -172,11 +176,11 @@ struct UiContext {
     Session& session;
     Settings& settings;
     const SceneFacts& facts;
-    const std::vector<Step>& steps;  ///< of the node
+    const std::vector<Step>& steps;  ///< steps of the node shown
     const Actions& actions;
     Widgets& widgets;
-    const Camera& camera;                  ///< that is in use, also where the state has none
-    const std::vector<Example>& examples;  ///< for the start page
+    const Camera& camera;                  ///< the camera in use, also where the state has none
+    const std::vector<Example>& examples;  ///< surfaces for the start page
 };
 
 /// A rectangle of the window in ImGui's units, y down.
@@ -186,30 +190,33 @@ struct Rectangle {
     bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
 };
 
-/// The ground of a text in the scene.
+/// Returns the rectangle behind a label in the scene.
 Rectangle rectangle_of(const ValueLabel& label);
 
-/// Where the scene goes: what the panels leave. Without panels the whole window.
+/// Returns the rectangle of the scene: the part of the window that the panels leave, or without panels the whole
+/// window.
 Rectangle scene_rectangle(const ViewState& state, const Document& document, const PanelSizes& sizes, float width,
                           float height, bool panels);
 
-/// What the legend leaves of the scene, on its left or above it, so that the body stands beside it. The same for all
-/// steps and colourings.
+/// Returns the part of the scene that the legend leaves, on its left or above it, so that the body stands beside it. It
+/// is the same for all steps and colourings.
 Rectangle body_area(const ViewState& state, const Rectangle& scene);
 
-/// What Dear ImGui keeps for us between frames: open dialogs, edited options.
+/// The user interface, with its state between frames: open dialogs, edited options.
 class Ui {
  public:
     Ui();
     ~Ui();
 
-    /// Style, colours and fonts for a theme and a HiDPI factor.
+    /// Sets style, colours and fonts for a theme and a HiDPI factor.
     void apply(Theme theme, float scale);
-    /// All panels, dialogs and overlays. Between ImGui::NewFrame() and ImGui::Render().
+    /// Draws all panels, dialogs and overlays. Call it between ImGui::NewFrame() and ImGui::Render().
     void draw(UiContext& context, float width, float height);
-    /// Legend, gizmo and caption in the scene's rectangle: part of every picture, also without panels.
+    /// Draws legend, gizmo, caption and labels into the scene's rectangle, or the start page where nothing is open.
+    /// They are part of every picture, also without panels.
     void draw_overlays(UiContext& context, const Rectangle& scene);
-    /// Does what a key means, "Ctrl+Shift+Z", unless a dialog or a text field has the keyboard. `repeat`: it is held.
+    /// Runs the command of a key, "Ctrl+Shift+Z", unless a dialog or a text field has the keyboard. `repeat`: the key
+    /// is held.
     void press(UiContext& context, const std::string& key, bool repeat);
 
  private:
@@ -217,7 +224,7 @@ class Ui {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Loads DejaVu Sans at the size, or what fontconfig has in its place, or else ImGui's own font.
+/// Loads DejaVu Sans at this size and a larger one for titles, or fontconfig's substitute, or else ImGui's own font.
 void load_fonts(ImFontAtlas& atlas, float pixels);
 
 }  // namespace kerf::view

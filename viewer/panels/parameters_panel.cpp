@@ -1,4 +1,9 @@
-// The options of the next run, from the kernel's table, and what a repetition has changed.
+// The options of the next run, and the comparison of the last two. There is a field for each row of the kernel's table
+// of options (option_fields()), under the headings of the help, so that a new option needs no code here: Editor has one
+// way to edit each type of value. The panel edits a copy, which is taken anew when key_of() the document changes,
+// because options arrive after the document was opened and change with a run. The copy is held against ranges and files
+// only when a value changes, as that reads files. A bar marks a value that differs from the document's, and the heading
+// above it.
 #include <algorithm>
 #include <limits>
 
@@ -11,10 +16,10 @@ namespace kerf::view {
 
 namespace {
 
-// Files that a run writes besides the result are no business of the viewer.
+// Whether an option names a file that a run writes besides its result, which is no business of the viewer.
 bool is_file(const OptionField& field) { return names_output(field.name); }
 
-// True when the value has changed.
+// Draws the field of a value of each type, and returns whether the value has changed.
 struct Editor {
     Widgets& widgets;
     const char* label;
@@ -57,14 +62,14 @@ struct Editor {
     }
 };
 
-// Of the same name in the other table, to see what was changed.
+// The text of the field of this name in the other table, to see whether it was changed.
 std::string text_in(const std::vector<OptionField>& fields, const std::string& name) {
     for (const OptionField& field : fields)
         if (field.name == name) return field.text();
     return "";
 }
 
-// A bar from `at` down: the item to the right of it was changed.
+// Draws a bar from `at` down: the item to the right of it was changed.
 void mark(const ImVec2& at, const Palette& colors) {
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + 0.2f * em(), at.y + ImGui::GetFrameHeight()},
                                               packed(colors.accent));
@@ -81,10 +86,11 @@ bool draw_field(Widgets& widgets, const OptionField& field, bool changed, const 
     return edited;
 }
 
-// Most runs change some of these.
+// Whether the options of a heading are open at first: most runs change some of these.
 bool is_common(const std::string& heading) { return heading == option_group::cuts || heading == option_group::sizes; }
 
-// Holds the edited options against their ranges and the files that they name: when they change, not in every frame.
+// Holds the edited options against their ranges and the files that they name. It is done when they change, not in every
+// frame.
 void check_options(ParametersMemory& memory) {
     try {
         memory.wrong.clear();
@@ -94,7 +100,7 @@ void check_options(ParametersMemory& memory) {
     }
 }
 
-// Under the headings of the help.
+// Draws all fields under the headings of the help.
 void draw_fields(UiContext& context, ParametersMemory& memory) {
     RunOptions given = context.session.document().options;
     const std::vector<OptionField> before = option_fields(given), now = option_fields(memory.options);
@@ -144,7 +150,7 @@ void draw_buttons(UiContext& context, ParametersMemory& memory) {
     ImGui::EndDisabled();
 }
 
-// The document's options arrive after it was opened, and change with a run.
+// Takes the document's options, which arrive after it was opened and change with a run.
 void take_options(const Document& document, ParametersMemory& memory) {
     std::string key = key_of(document);
     if (memory.options_of == key) return;
@@ -152,7 +158,7 @@ void take_options(const Document& document, ParametersMemory& memory) {
     put_options(memory, document.options);
 }
 
-// One line in any case, so that nothing moves while one types.
+// Draws the error in the options, or a hint: one line in any case, so that nothing moves while one types.
 void draw_remark(const std::string& wrong, const Palette& colors) {
     const std::string text = wrong.empty() ? "A bar marks what was changed." : wrong;
     show(shortened(text, ImGui::GetContentRegionAvail().x), wrong.empty() ? colors.dim : colors.bad);

@@ -1,4 +1,8 @@
-// The clip plane is moved and turned where it is seen, and the plane of a cut is moved.
+// Handles in the scene that move and turn the clip plane, and move the plane of a cut. A handle is an ImGui window of
+// its own around a point of the file as the camera shows it, so that ImGui takes the mouse and a drag of a handle is
+// not a drag of the scene. A drag along an arrow counts as the share of the arrow's length on the screen by which the
+// mouse has moved along it; where the arrow points to the eye, up is forward. Arrows are 5 ems long whatever is seen of
+// the body. The clip plane follows the drag at once; a cut is made again when its handle is let go, as that takes time.
 #include <cmath>
 #include <optional>
 
@@ -8,7 +12,7 @@ namespace kerf::view {
 
 namespace {
 
-// From the file to the screen and back, near one point.
+// The way from the file to the screen and back, near one point.
 class ScreenPlace {
  public:
     ScreenPlace(const Camera& camera, const Rectangle& scene, const Rectangle& body)
@@ -28,11 +32,11 @@ class ScreenPlace {
 
  private:
     const Camera& camera_;
-    ImVec2 middle_;  // where the target is
-    float pixels_;   // of the camera's height
+    ImVec2 middle_;  // place of the camera's target in the window
+    float pixels_;   // pixels of Camera::height
 };
 
-// Around the middle of the plane, as wide as the box asks for.
+// The corners of a rectangle around the middle of the plane, as wide as the box asks for.
 std::array<Vec3, 4> corners_of(const Vec3& middle, const Vec3& normal, const Eigen::AlignedBox3d& box) {
     const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
     const auto reach = [&](const Vec3& axis) { return 0.55 * box.sizes().dot(axis.cwiseAbs()); };
@@ -41,11 +45,11 @@ std::array<Vec3, 4> corners_of(const Vec3& middle, const Vec3& normal, const Eig
 }
 
 struct Dragged {
-    bool moved = false;     ///< by the mouse's way since the last frame
-    bool released = false;  ///< in this frame
+    bool moved = false;     ///< the mouse has moved since the last frame while it held the handle
+    bool released = false;  ///< the handle was let go in this frame
 };
 
-// A button that is dragged.
+// Draws a button that can be dragged.
 Dragged drag(UiContext& context, const char* label, const ImVec2& at, const char* tip) {
     const float radius = 0.7f * em();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
@@ -66,8 +70,8 @@ Dragged drag(UiContext& context, const char* label, const ImVec2& at, const char
     return {held && (delta.x != 0 || delta.y != 0), released};
 }
 
-// Of the way along an arrow, from one end to the other, that the mouse has gone since the last frame. Where it points
-// to the eye, up is forward.
+// The component of the mouse's move since the last frame along an arrow, as a share of the arrow's length. Where the
+// arrow points to the eye, up is forward.
 double share_along(const ImVec2& from, const ImVec2& to) {
     Eigen::Vector2d arrow(to.x - from.x, to.y - from.y);
     if (arrow.norm() < em()) arrow = Eigen::Vector2d(0, -5 * em());
@@ -93,7 +97,7 @@ void draw_clip_handles(UiContext& context, const Rectangle& scene, const ScreenP
     const double height = range.low + clip.position * (range.high - range.low);
     const Vec3 middle = box.center() + (height - clip.normal.dot(box.center())) * clip.normal;
     const Vec3 shown_side = clip.flipped ? clip.normal : Vec3(-clip.normal);
-    // Long enough to be taken hold of, whatever is seen of the body.
+    // The arrow is long enough to be taken hold of, whatever is seen of the body.
     const double length = 5 * em() * screen.unit();
     const Vec3 tip = middle - length * shown_side;
     const ImU32 color = packed(palette(context.state.theme).accent);
@@ -109,7 +113,7 @@ void draw_clip_handles(UiContext& context, const Rectangle& scene, const ScreenP
     }
 }
 
-// The cut that is shown with its plane, and can be made again.
+// The cut that is shown with its plane and can be made again; null: there is none.
 const Cut* movable_cut(const UiContext& context) {
     const Document& document = context.session.document();
     const ViewState& state = context.state;

@@ -1,4 +1,9 @@
-// What is wrong with the surface, what to do about it, and where it is.
+// The problems of the surface: errors and notes, the repairs, and the list of defects. Defects of one kind and severity
+// are a group, because they have one remedy; a click on a group lists only its defects, a click on a defect flies to it
+// and turns the camera to a side from which no facet hides it. Options that a text names become buttons
+// (model/advice.h) with a field where the text leaves the value to the reader; the options are checked when a value
+// changes, not in every frame. A button may exchange the document while the panel is drawn, so that texts are copied,
+// and the checked surface is held, before any button is drawn.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -28,8 +33,8 @@ std::string measure_of(const Defect& defect) {
     return "";
 }
 
-// A button that runs again with an option, or opens again what could not be opened; before it a field for the value if
-// the text left that to the reader.
+// Draws a button that runs again with an option, or opens again a file that could not be opened, and before it a field
+// for the value if the text left that to the reader.
 void draw_option(UiContext& context, ProblemsMemory& memory, OptionText advice) {
     const Document& document = context.session.document();
     const bool opens = !document.error.empty();
@@ -62,8 +67,8 @@ void draw_option(UiContext& context, ProblemsMemory& memory, OptionText advice) 
     ImGui::PopID();
 }
 
-// Where a text advises options that the run did not have: a button for each. A file that could not be opened needs
-// those by which it is read. Where the surface is at hand, repairs have buttons of their own.
+// Draws a button for each option that a text advises and the run did not have. A file that could not be opened needs
+// the options by which it is read. Repairs have buttons of their own where the surface is at hand.
 void draw_advice(UiContext& context, ProblemsMemory& memory, const std::string& text) {
     const Document& document = context.session.document();
     const bool opens = !document.error.empty(), repairs = context.session.repairs().can_repair();
@@ -95,7 +100,7 @@ class ProblemList {
     }
 
  private:
-    // Of one kind and severity: they have one remedy.
+    // The defects of one kind and severity, which have one remedy.
     struct Group {
         const Defect* first = nullptr;
         std::int64_t count = 0;
@@ -104,7 +109,7 @@ class ProblemList {
         return static_cast<int>(defect.severity) * static_cast<int>(defect_kind_count) + static_cast<int>(defect.kind);
     }
 
-    // Errors first.
+    // The groups of the defects, errors first.
     std::map<int, Group> groups() const {
         std::map<int, Group> groups;
         for (const Defect& defect : checked_.diagnosis.defects) {
@@ -117,7 +122,8 @@ class ProblemList {
         return groups;
     }
 
-    // A line for each; a click lists only these. Many remedies would leave no room for the list.
+    // Draws a line for each group; a click lists only its defects. The remedies of many groups would leave no room for
+    // the list.
     void draw_groups() {
         const std::map<int, Group> all = groups();
         for (const auto& [key, group] : all) draw_group(key, group, all.size() <= 4 || memory_.group == key);
@@ -157,7 +163,7 @@ class ProblemList {
     }
 
     void draw_entries() {
-        constexpr float least_entries = 4;  // where what is above takes all the room
+        constexpr float least_entries = 4;  // the list has at least so many, even where the groups take all the room
         ImGui::BeginChild("##defects", {0, std::max(ImGui::GetContentRegionAvail().y, least_entries * entry_height())},
                           true);
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) keys_.list = ListKeys::List::defects;
@@ -170,7 +176,7 @@ class ProblemList {
         ImGui::EndChild();
     }
 
-    // As far as keys have asked for; the entry comes into sight.
+    // Goes on in the list as far as keys have asked for, and brings the entry into sight.
     void take_steps() {
         const int steps = listed_.empty() ? 0 : keys_.take(ListKeys::List::defects);
         if (steps == 0) return;

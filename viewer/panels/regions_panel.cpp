@@ -1,4 +1,7 @@
-// The regions of several: which are shown, which are glass, and whether they move as wholes.
+// The list of regions of a body that has several. Each row shows the colour of a region (where the scene is coloured by
+// regions), switches that hide it, isolate it or make it glass, its name and its tetrahedra, which are summed over its
+// parts once a frame. The view state knows regions by name, as files and options do, not by number. The panel is
+// disabled at steps that do not show parts, because regions are drawn as parts.
 #include <algorithm>
 
 #include <fmt/format.h>

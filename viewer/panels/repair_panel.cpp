@@ -1,4 +1,8 @@
-// Repairs of the surface that is open: levels and steps of the ladder, what they did and where, before and after.
+// Repairs of the open surface: buttons for the levels of the ladder and for single steps, a field for any plan, the
+// report of the repairs that were done, with their places, and the way on (save, mesh). A plan is the text of --repair,
+// so that a command does the same as a button. A button adds its steps to the plan of the document, and the whole plan
+// is done again, always from the file; so a second press of a button would do nothing, and it is disabled. Places of
+// the report are facets of the file: facets_of_file() leads to them, also while the repaired surface is shown.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -31,7 +35,7 @@ const char* explanation_of(RepairLevel level) {
     return "";
 }
 
-// What is wrong with a plan; empty: nothing is.
+// The error in a plan; empty: there is none.
 std::string error_of_plan(const std::string& plan) {
     try {
         parse_repair_plan("repair", plan);
@@ -47,7 +51,7 @@ void repair_by(UiContext& context, const std::string& plan) {
     context.actions.repairs.repair(options);
 }
 
-// Adds steps to those that were done. They always start from the file.
+// Draws a button that adds steps to those that were done. All of them start from the file.
 void draw_step_button(UiContext& context, const std::string& label, const std::string& words, const std::string& what) {
     const std::string& plan = context.session.document().options.input_options.repair;
     const std::string more = with_repairs(plan, words);
@@ -118,7 +122,7 @@ void draw_before_and_after(UiContext& context) {
         context.state.color = colored ? ColorBy::deviation : ViewState().color;
 }
 
-// What was done, an action a line; the places of the one that was clicked follow.
+// The list of actions that repairs did, a line each; the places of the one that was clicked follow.
 class ActionList {
  public:
     ActionList(UiContext& context, RepairMemory& memory, const RepairReport& report)
@@ -137,7 +141,7 @@ class ActionList {
     }
 
  private:
-    // What the report says of it: "stitch: 12 borders joined, ...".
+    // The line of the report about an action: "stitch: 12 borders joined, ...".
     std::string words_of(const StepReport& step, const RepairAction& action) const {
         const std::string step_name = name(step.kind);
         const std::string text = to_text({report_.diagonal, report_.bound, {StepReport{step.kind, {action}}}}, "");

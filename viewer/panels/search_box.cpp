@@ -18,7 +18,7 @@ int note_arrows(ImGuiInputTextCallbackData* data) {
     return 0;
 }
 
-// Whether Enter was pressed.
+// Draws the field of text, and returns whether Enter was pressed.
 bool draw_field(Widgets& widgets, SearchBox& search) {
     int moved = 0;
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
@@ -33,7 +33,7 @@ bool draw_field(Widgets& widgets, SearchBox& search) {
     return entered;
 }
 
-// Whether it was clicked.
+// Draws a command that was found, and returns whether it was clicked.
 bool draw_found(const Command& command, bool is_chosen, UiContext& context) {
     const Palette& colors = palette(context.state.theme);
     const bool enabled = is_enabled(command, context), is_on = command.is_on && command.is_on(context);

@@ -4,7 +4,7 @@ namespace kerf::view {
 
 namespace {
 
-// "facet: 12" with what stands before the colon in the colour of explanations.
+// Draws "facet: 12" with the words before the colon in the colour of explanations.
 void draw_line(const std::string& line, const Palette& colors) {
     const std::size_t colon = line.find(": ");
     if (colon == std::string::npos || colon > 24) return show_wrapped(line, colors.text);

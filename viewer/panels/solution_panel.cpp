@@ -11,7 +11,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr double most_of_good = 4;  // the slider ends at so many times what is well seen
+constexpr double most_of_good = 4;  // the slider ends at so many times the deformation that is well seen
 
 void draw_cases(UiContext& context, const Solution& solution) {
     ViewState& state = context.state;

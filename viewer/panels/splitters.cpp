@@ -1,4 +1,4 @@
-// Panels as wide, and the timeline as high, as the user wants them.
+// Handles at the borders of the panels, by which a user makes columns as wide and the timeline as high as he wants.
 #include <algorithm>
 
 #include "viewer/panels/parts.h"
@@ -11,9 +11,9 @@ struct Splitter {
     const char* label;
     Rectangle place;
     bool moves_sideways;
-    float& size;      // of the panel, in ems
-    float shown;      // that it has now, in pixels
-    float direction;  // 1: it grows with x or y
+    float& size;      // size of the panel, in ems
+    float shown;      // size that it has now, in pixels
+    float direction;  // 1: the panel grows with x or y; -1: against it
 };
 
 void draw_splitter(UiContext& context, const Splitter& splitter) {

@@ -1,3 +1,7 @@
+// The status bar: the most urgent message at the left, the progress of a run at the right. Messages are taken in order
+// of urgency: a notice of the app, an error of the document, the end of a run, a failed background job, and last the
+// sizes of the open document. The time left is that of the load left (1 - Progress::load_done) at the rate so far, and
+// is told from 3 per cent on.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -20,7 +24,7 @@ struct Message {
     ImVec4 color;
 };
 
-// The most urgent thing.
+// The most urgent message.
 Message left_message(UiContext& context) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
@@ -35,7 +39,7 @@ Message left_message(UiContext& context) {
     return {facts.empty() ? document.title : document.title + ": " + facts, colors.text};
 }
 
-// Of the work that is left, if it goes on as so far.
+// The time that the rest of the work takes at the rate so far; empty before 3 per cent are done.
 std::string time_left(const Progress& progress) {
     if (progress.load_done < 0.03 || progress.load_done >= 1) return "";
     return ", about " + duration(progress.seconds * (1 - progress.load_done) / progress.load_done) + " left";

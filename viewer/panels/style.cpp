@@ -1,3 +1,8 @@
+// The palettes of both themes, ImGui's style, and the fonts. Colours are given once by their meaning (Palette), and
+// ImGui's own colours are made of them, so that no panel names a colour. Lengths here are in pixels at scale 1; panels
+// measure in em(), the height of the font, which scales with the screen. Two fonts are loaded, the usual one first and
+// then one for titles; the usual one has Latin, Greek and Cyrillic letters, as names of files and patches may be in any
+// European language. Without any font file ImGui's own font is taken, as ImGui would abort.
 #include "viewer/panels/style.h"
 
 #include "viewer/panels/font_file.h"

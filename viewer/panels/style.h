@@ -1,4 +1,4 @@
-// Colours, sizes and fonts of the user interface. Colours have a meaning: it is in their names.
+// Colours, sizes and fonts of the user interface. Colours are named by their meaning.
 #pragma once
 
 #include <imgui.h>
@@ -10,15 +10,15 @@ namespace kerf::view {
 
 /// Colours of one theme.
 struct Palette {
-    ImVec4 text, dim;          ///< dim: what explains, units, what is switched off
-    ImVec4 accent, on_accent;  ///< what is chosen, and text on it
+    ImVec4 text, dim;          ///< dim: explanations, units, items that are switched off
+    ImVec4 accent, on_accent;  ///< the choice, and text on it
     ImVec4 good, busy, warning, bad, waiting;
     ImVec4 panel, frame, border;
-    ImVec4 backdrop;  ///< behind text in the scene
+    ImVec4 backdrop;  ///< ground of text in the scene
 };
 const Palette& palette(Theme theme);
 
-/// Sizes and colours of ImGui's style.
+/// Sets the sizes and colours of ImGui's style.
 void set_style(Theme theme, float scale);
 
 inline ImU32 packed(const ImVec4& color) { return ImGui::ColorConvertFloat4ToU32(color); }
@@ -28,12 +28,12 @@ inline ImVec4 faded(ImVec4 color, float alpha) {
     return color;
 }
 
-/// Of items with a label to the left: where the item begins, of the width of the panel.
+/// The place where an item with a label to its left begins, as a fraction of the width of the panel.
 inline constexpr float value_place = 0.42f;
 
-/// The font's size, in which all sizes are given; also before the first frame.
+/// Returns the font's size in pixels, the unit of all sizes; also before the first frame.
 float em();
-/// For titles in the scene; the usual font if there is no other.
+/// Returns the font of titles in the scene; the usual font if there is no other.
 ImFont* large_font();
 
 }  // namespace kerf::view

@@ -1,3 +1,7 @@
+// Numbers and texts as panels show them. Large numbers have three significant digits and the largest unit that leaves a
+// digit before the point; limits like 999.5 and 9.995 are where rounding to three digits would carry into a fourth.
+// Texts are cut at the characters of UTF-8, never within one, and are measured in the current font, so that these
+// functions need an ImGui frame. Ticks are i * step for whole i, not sums, so that they carry no rounding errors along.
 #include "viewer/panels/text.h"
 
 #include <array>
@@ -10,7 +14,7 @@ namespace kerf::view {
 
 namespace {
 
-// Three digits with the largest of the units that leaves one before the point.
+// Three digits with the largest unit that leaves at least one of them before the point.
 std::string with_unit(double value, double step, const std::array<const char*, 5>& units) {
     std::size_t unit = 0;
     while (value >= 999.5 && unit + 1 < units.size()) {
@@ -24,7 +28,7 @@ std::string with_unit(double value, double step, const std::array<const char*, 5
 constexpr std::array<const char*, 5> thousands = {"", "k", "M", "G", "T"};
 constexpr std::array<const char*, 5> bytes_units = {"B", "kB", "MB", "GB", "TB"};
 
-// The bytes that continue a character of UTF-8.
+// Whether a byte continues a character of UTF-8.
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
 }  // namespace

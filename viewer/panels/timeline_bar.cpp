@@ -1,3 +1,8 @@
+// The timeline of a node: buttons that go through steps and nodes, the text of the present step, and a row of steps. A
+// stage is a button as wide as its words, a refused try a red tick between its neighbours. Where words and ticks do not
+// fit, ticks lie in a strip above, which may make them narrower than a pixel; where the words alone do not fit, they
+// are broken into two rows of about equal length. During a guided tour the bar shows the tour's text and buttons, and
+// the steps only if they fit into one row; a click on a step is then a stop of the tour.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -22,7 +27,7 @@ class TimelineBar {
     void draw() {
         if (dialogs_.tour.node != 0) {
             draw_tour(context_, dialogs_);
-            const bool has_room = width_of_buttons() <= ImGui::GetContentRegionAvail().x;  // for them in one row
+            const bool has_room = width_of_buttons() <= ImGui::GetContentRegionAvail().x;  // for the steps in one row
             if (has_room) draw_steps();
             return;
         }
@@ -68,7 +73,7 @@ class TimelineBar {
         ImGui::SameLine(0, 0.6f * em());
     }
 
-    // Beside the buttons: what is shown, and what more can be done with it.
+    // Draws the title of the step beside the buttons, and buttons for places of a refused try and for missing stages.
     void draw_heading() {
         ImGui::AlignTextToFramePadding();
         if (steps_.empty()) return show("This node has not been cut.", colors_.dim);
@@ -84,7 +89,7 @@ class TimelineBar {
             record_stages(context_);
     }
 
-    // From one place to the next where a try has failed.
+    // Draws buttons that go from place to place where a try has failed.
     void draw_places() {
         const Step& step = steps_[current_];
         const std::vector<FailurePlace> places = failure_places(context_.session.document(), context_.state.node, step);
@@ -126,13 +131,13 @@ class TimelineBar {
         return width;
     }
 
-    // The steps of a row: as wide as their words, and wider where there is room.
+    // A row of steps: as wide as their words, and wider where there is room.
     struct StepRow {
-        std::size_t first = 0, last = 0;  // of `steps_`
-        float words = 0;
-        float stages = 0;
+        std::size_t first = 0, last = 0;  // indices in `steps_`, `last` one behind the end
+        float words = 0;                  // their width without additional room, in pixels
+        float stages = 0;                 // number of steps that are no refused tries
     };
-    // One row, or two where the words need more room. `tick`: of each refused try that lies among them.
+    // The steps in one row, or in two where the words need more room. `tick`: width of each refused try between them.
     std::vector<StepRow> rows_of_steps(float room, float tick) const {
         std::vector<StepRow> rows(1);
         float all = 0;
@@ -149,7 +154,8 @@ class TimelineBar {
         return rows;
     }
 
-    // Refused tries lie between their neighbours as long as there is room, else in a strip of their own above.
+    // Draws the steps. Refused tries lie between their neighbours as long as there is room, else in a strip of their
+    // own above.
     void draw_steps() {
         const auto tries = static_cast<float>(
             std::count_if(steps_.begin(), steps_.end(), [](const Step& step) { return step.refused_try >= 0; }));
@@ -197,7 +203,7 @@ class TimelineBar {
         explain(title(step) + "\n" + describe_step(context_.session.document(), context_.state.node, step));
     }
 
-    // A red tick, taller if it is the current one.
+    // Draws a refused try: a red tick, taller if it is the current one.
     void draw_try(const ImVec2& from, const ImVec2& to, bool current, bool hovered) {
         ImDrawList& list = *ImGui::GetWindowDrawList();
         const float x = (from.x + to.x) / 2, inset = (current || hovered ? 0.05f : 0.28f) * (to.y - from.y);
@@ -206,7 +212,7 @@ class TimelineBar {
                            packed(current ? colors_.bad : faded(colors_.bad, hovered ? 0.8f : 0.55f)), half);
     }
 
-    // Steps up to the current one are tinted, as of a progress bar.
+    // Draws a stage. Those up to the current one are tinted, as in a progress bar.
     void draw_stage(const Step& step, const ImVec2& from, const ImVec2& to, std::size_t index, bool hovered) {
         ImDrawList& list = *ImGui::GetWindowDrawList();
         const bool current = index == current_;
@@ -232,7 +238,7 @@ class TimelineBar {
 
 }  // namespace
 
-// Every run that is started here leaves a trace. The folder that is open stays as it is.
+// Every run that is started here leaves a trace. The open folder stays as it is.
 void record_stages(UiContext& context) {
     RunOptions options = context.session.document().options;
     options.output.clear();

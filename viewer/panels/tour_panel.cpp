@@ -1,4 +1,9 @@
-// The guided tour of a cut, in the place of the timeline: what happens at a stage, and buttons to go on.
+// The guided tour of one cut, in the place of the timeline: the text of a stage (model/tour.h) and buttons to go on. A
+// tour waits until there is a cut with recorded stages; if none comes by itself, it starts one run, and gives up if
+// that leaves none either. A stop takes over the whole view, and the view of before comes back at the end, except for
+// theme and panels. Buttons and keys only ask for a stop (Tour::go_to); follow_tour() shows it at the start of the next
+// frame, when the layout of the scene, into which the camera fits the stop, is known. A tour ends by itself when
+// another node is shown or the cut is gone.
 #include <algorithm>
 #include <utility>
 
@@ -11,7 +16,7 @@ namespace kerf::view {
 
 namespace {
 
-// Where what was open has no cuts to show, and none are on the way, they are made.
+// Begins the tour as soon as there is a cut, and starts a run that makes one if none is on the way.
 void await_cut(UiContext& context, Tour& tour) {
     const Session& session = context.session;
     const Document& document = session.document();

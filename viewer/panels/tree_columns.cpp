@@ -1,3 +1,7 @@
+// The choice and the widths of the tree's columns. A column is shown if a row has a number in it; those about cuts only
+// where the user has chosen them. Then columns go, in the order of `first_to_go`, until the rest has room: those chosen
+// go last, and the tooltip of a row has all numbers anyway. Sorting puts rows that deserve a look first, which are the
+// largest numbers but for angles; it is stable, and rows without a number come last also in reverse. Widths are in ems.
 #include "viewer/panels/tree_columns.h"
 
 #include <algorithm>
@@ -31,17 +35,18 @@ constexpr std::array<ColumnFacts, column_count> column_facts = {{
 }};
 constexpr float widest_state = 4.6f, narrowest_state = 3.6f;  // in ems; a longer word may be shortened
 
-// What there is no room for is in the tooltip of a row. What was chosen goes last.
+// The columns that go first where there is no room for all: the tooltip of a row has their numbers, too. Those that the
+// user has chosen go last.
 constexpr std::array<TreeColumn, 9> first_to_go = {load_column,   seconds_column,  rank_column,
                                                    facets_column, tets_column,     ratio_column,
                                                    tries_column,  dihedral_column, angle_column};
 
-// Of these the largest deserve a look, of others the smallest.
+// Whether the largest numbers of a column deserve a look; of the others the smallest do.
 bool is_large_first(TreeColumn column) { return column != angle_column && column != dihedral_column; }
 
 std::optional<double> if_known(double value) { return value >= 0 ? std::optional(value) : std::nullopt; }
 
-// Where nothing was measured it is negative, or a straight angle.
+// An angle, or none where nothing was measured and it is negative or a straight angle.
 std::optional<double> if_measured(double angle_deg) {
     return angle_deg >= 0 && angle_deg < 180 ? std::optional(angle_deg) : std::nullopt;
 }
@@ -108,7 +113,7 @@ void TreeColumns::find_known(const std::vector<const TreeRow*>& rows, bool times
             shown[static_cast<std::size_t>(i)] |= number_in(*row, static_cast<TreeColumn>(i)).has_value();
         if (row->leaf() && row->load > 0) total_load += row->load;
     }
-    // Of a single rank there is nothing to say.
+    // A run on a single rank needs no column of ranks.
     shown[rank_column] = std::any_of(rows.begin(), rows.end(), [](const TreeRow* row) { return row->rank > 0; });
     shown[seconds_column] &= times;
     shown[load_column] = total_load > 0;

@@ -1,4 +1,4 @@
-// The columns of the tree: those that have something to show and that there is room for.
+// The columns of the tree: those that have values and for which there is room.
 #pragma once
 
 #include <array>
@@ -25,33 +25,35 @@ enum TreeColumn {
     ratio_column,
 };
 inline constexpr int column_count = ratio_column + 1;
-inline constexpr float tree_indent = 0.5f;  ///< of a level, in ems
+inline constexpr float tree_indent = 0.5f;  ///< indent of a level, in ems
 
 const char* title(TreeColumn column);
-/// What the head of the column explains.
+/// Returns the explanation of a column, which its head shows.
 const char* meaning(TreeColumn column);
 
-/// The number of a row in a column; none if it has none, or is not known.
+/// Returns the number of a row in a column; none if there is none, or it is not known.
 std::optional<double> number_in(const TreeRow& row, TreeColumn column);
-/// Which column a list is sorted by, the rows that deserve a look first, or in reverse; none: as a tree.
+/// The column by which the list of nodes is sorted, the rows that deserve a look first, or last if `reversed`; none: it
+/// is a tree.
 struct TreeOrder {
     std::optional<TreeColumn> by;
     bool reversed = false;
 
-    /// After a click on the head of a column: sorted by it, in reverse, as a tree again.
+    /// Returns the order after a click on the head of a column: sorted by it, then in reverse, then as a tree again.
     TreeOrder after_click(TreeColumn column) const;
 };
-/// Sorts; rows without a number come last, rows alike stay in their order.
+/// Sorts the rows; those without a number come last, equal ones stay in their order.
 void sort_rows(std::vector<const TreeRow*>& rows, const TreeOrder& order);
 
 struct TreeColumns {
     std::array<bool, column_count> shown = {};
-    float node_width = 0, state_width = 0;  ///< ems; of the widest text
-    double total_load = 0;                  ///< of all parts
+    float node_width = 0, state_width = 0;  ///< width of the widest text, in ems
+    double total_load = 0;                  ///< sum of the loads of all parts
 
-    /// For rows in a table of this width. `chosen`: of those about cuts.
+    /// Chooses the columns for these rows in a table of width `room`, in pixels. `times`: seconds are shown. `chosen`:
+    /// the columns about cuts that may be shown.
     TreeColumns(const std::vector<const TreeRow*>& rows, bool times, const std::set<int>& chosen, float room);
-    /// After ImGui::BeginTable(): the columns.
+    /// Sets up the columns of ImGui's table. Call it after ImGui::BeginTable().
     void set_up() const;
 
  private:

@@ -1,3 +1,8 @@
+// The tree of nodes as a table, a row for each node in depth-first order, or sorted by a column, which makes it a plain
+// list without indents and folds. Rows have one height and only those in sight are drawn (ImGuiListClipper), so that
+// trees of many thousand nodes cost no more. A node comes into sight when it is chosen elsewhere, by keys or in the
+// scene, and then only once, so that the wheel stays free. The table's id holds the shown columns: ImGui keeps widths
+// that a user has changed by it, for as long as the columns are the same.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +23,7 @@ bool is_shown(const ViewState& state, const Document& document, NodeId node) {
     return shows_node(state, document, node) || (state.isolated && lies_below(*state.isolated, node));
 }
 
-// Two digits behind the point as long as they mean anything.
+// Seconds with two digits behind the point, or fewer where they would be more than three in all.
 std::string short_seconds(double seconds) {
     return seconds < 0 ? "" : fmt::format("{:.{}f}", seconds, seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0);
 }
@@ -31,7 +36,7 @@ void set_in(std::set<T>& set, const T& item, bool is_in) {
         set.erase(item);
 }
 
-constexpr float fold_size = 0.85f;  // of the button before a node, in ems
+constexpr float fold_size = 0.85f;  // size of the button before a node, in ems
 
 class TreeTable {
  public:
@@ -78,7 +83,7 @@ class TreeTable {
         });
     }
 
-    // A click sorts.
+    // Draws the heads of the columns; a click sorts.
     void draw_heads() {
         ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
         for (int i = 0; i < column_count; ++i) {
@@ -104,7 +109,7 @@ class TreeTable {
         }
         const ImVec4& color = chosen ? colors_.accent : colors_.dim;
         column >= facets_column ? show_right(title(column), color) : show(title(column), color);
-        // Down: what deserves a look is at the top.
+        // An arrow down: the rows that deserve a look are at the top.
         if (chosen)
             draw_icon(*ImGui::GetWindowDrawList(), memory_.order.reversed ? Icon::up : Icon::down,
                       {at.x - 0.1f * em(), at.y + line_height() / 2}, 0.5f * em(), packed(colors_.accent));
@@ -119,7 +124,7 @@ class TreeTable {
         return all.x - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
     }
 
-    // Keys change the node too: it comes into sight, but the wheel stays free.
+    // Brings the node into sight once when it changes, as it does by keys, too; the wheel stays free.
     void scroll_to_node() {
         if (memory_.scrolled_to == context_.state.node) return;
         memory_.scrolled_to = context_.state.node;
@@ -166,7 +171,8 @@ class TreeTable {
                               {0, line_height()}))
             choose(row.id);
         const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
-        const float number = cell.x + tree_indent * em() * static_cast<float>(level) + em();  // right of what folds it
+        const float number =
+            cell.x + tree_indent * em() * static_cast<float>(level) + em();  // right of the button that folds it
         context_.widgets.record(fmt::format("node {}", row.id), {number, from.y},
                                 {from.x + width, ImGui::GetItemRectMax().y});
         if (ImGui::IsItemHovered()) explain(details(row, region_of(context_.session.document(), row.id)));
@@ -180,7 +186,7 @@ class TreeTable {
         show(fmt::format("{}", row.id), text_);
     }
 
-    // A line for each level above, from row to row.
+    // Draws a line for each level above, from row to row.
     void draw_guides(const ImVec2& cell, int level) const {
         const float padding = ImGui::GetStyle().CellPadding.y;
         const ImU32 color = packed(faded(colors_.dim, 0.4f));

@@ -9,7 +9,7 @@ namespace kerf::view {
 
 namespace {
 
-// Numbers of any kind, a line each.
+// Text of numbers of any kind, a line each.
 class Lines {
  public:
     void add(const char* what, const std::string& value) {

@@ -1,4 +1,4 @@
-// What a row of the tree says in words.
+// The text of a row of the tree, in words.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace kerf::view {
 
-/// The state of a part, or how an inner node was cut.
+/// Returns the state of a part, or the way in which an inner node was cut.
 std::string word_of(const TreeRow& row, bool running);
-/// Of that word: what went well, is under way, or deserves a look.
+/// Returns the colour of that word, by whether the row went well, is under way, or deserves a look.
 ImVec4 color_of(const TreeRow& row, const Palette& colors);
-/// All that is known, a line each. `region`: in which all of it lies; null where that has no name.
+/// Returns all that is known of the row, a line each. `region`: the region in which all of it lies; null where that has
+/// no name.
 std::string details(const TreeRow& row, const std::string* region);
 
 }  // namespace kerf::view

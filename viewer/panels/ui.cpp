@@ -1,4 +1,9 @@
-// The order in which panels are drawn, and what they share.
+// One frame of the user interface, and the helpers that panels share. Order matters: the tour may exchange the view, so
+// it comes first; splitters come before the panels, because the first of windows that stay where they are is in front;
+// overlays are drawn into ImGui's background list, which lies behind all windows; dialogs come last. Dear ImGui keeps
+// no state of Kerf's, so that each panel has its memory in Ui::Impl. Keys reach commands only here (Ui::press()), and
+// not while a popup, a dialog or a text field has the keyboard. Steps that keys have asked of a list which no panel has
+// drawn are forgotten at the end of the frame, and the list is left.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,7 +16,7 @@
 
 namespace kerf::view {
 
-// What ImGui does not keep for the panels.
+// The state of the panels, which ImGui does not keep.
 struct Ui::Impl {
     Dialogs dialogs;
     TreeMemory tree;
@@ -51,7 +56,7 @@ void Ui::Impl::draw_problems_or_tree(UiContext& context) {
 
 namespace {
 
-// Lines of the selection as it will wrap; about.
+// The height of the selection's text, about: lines may wrap.
 float selection_height(const std::string& text) {
     const float lines = 1 + static_cast<float>(std::count(text.begin(), text.end(), '\n'));
     return std::min(lines + 3, 16.f) * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeight();
@@ -91,7 +96,7 @@ namespace {
 
 float label_pad() { return 0.2f * em(); }
 
-// In discs on the faces.
+// Draws the numbers of patches in discs on the faces.
 void draw_numbers(const UiContext& context) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const Palette& colors = palette(context.state.theme);
@@ -114,7 +119,7 @@ void draw_label(const UiContext& context, const ValueLabel& label) {
     list.AddText({r.x + label_pad(), r.y}, packed(colors.text), label.text.c_str());
 }
 
-// What has popped up last, unless it is a dialog; false: there is none.
+// Closes the menus that have popped up, but no dialog; false: there are none.
 bool close_menu() {
     const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
     int dialogs = 0;
@@ -174,7 +179,7 @@ void Ui::draw(UiContext& context, float width, float height) {
     draw_browser(context, dialogs.browser);
     draw_search(context, dialogs);
     if (std::exchange(dialogs.list.steps, 0) != 0)
-        dialogs.list.list = ListKeys::List::none;  // it is not shown any more
+        dialogs.list.list = ListKeys::List::none;  // the list is not shown any more
 }
 
 void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {

@@ -1,4 +1,7 @@
-// The start page: what was open before, what can be opened, and surfaces to try.
+// The start page: files opened before, kinds of files that can be opened, and surfaces to try. It is drawn in the place
+// of the scene while there is no body, which includes the time that a file takes to open and the case that it cannot be
+// opened. Opening a file changes the list of recent files, and with it the document, so that lists are copied before
+// buttons are drawn. Pictures of examples show only the middle of a screenshot (seen_from, seen_to).
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +26,8 @@ constexpr const char* what_can_be_opened[] = {
 // The example whose cut the tour shows.
 constexpr const char* example_of_tour = "Bearing cap 14k";
 
-// Of an example's picture: its caption and gizmo lie above, its borders are empty.
+// The part of an example's picture that is shown, as fractions of its size: caption and gizmo lie above, the borders
+// are empty.
 const ImVec2 seen_from = {0.21f, 0.19f}, seen_to = {0.79f, 0.95f};
 
 void show_centered(const std::string& text, const ImVec4& color) {
@@ -32,7 +36,7 @@ void show_centered(const std::string& text, const ImVec4& color) {
     show(text, color);
 }
 
-// A ground that shows when the mouse is over it; true: it was clicked.
+// Draws a ground that lights up under the mouse, and returns whether it was clicked.
 bool draw_tile_ground(UiContext& context, const std::string& label, const ImVec2& size) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const bool clicked = ImGui::InvisibleButton(("##" + label).c_str(), size);

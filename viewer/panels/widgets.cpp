@@ -1,3 +1,8 @@
+// Wrappers of ImGui's items that record the rectangle of each under its label. A rectangle counts as visible if its
+// middle lies within the clip rectangle of its window and no dialog covers it, so that a test clicks only items that a
+// user could click. Labels of fields stand to the left (label_left()), as ImGui would put them to the right; the id of
+// the item is "##" and the label then, so that only the name before any "##" is shown and recorded. Disabled items show
+// their tips, too, as these say why.
 #include "viewer/panels/widgets.h"
 
 #include <algorithm>
@@ -18,7 +23,8 @@ std::string name_of(const std::string& label) {
     return end == 0 || end == std::string::npos ? label : label.substr(0, end);
 }
 
-// The label to the left, the item beside it as wide as there is room: items of a panel line up. Returns the item's id.
+// Draws the label to the left and makes the item beside it as wide as there is room, so that items of a panel line up.
+// Returns the item's id.
 std::string label_left(const char* label) {
     const std::string name = name_of(label);
     if (name.starts_with("##")) return name;
@@ -42,7 +48,7 @@ void explain(const char* tip) {
     ImGui::PopStyleVar();
 }
 
-// Nothing behind an open dialog can be clicked; its own menus lie above it.
+// Whether a dialog covers the window: nothing behind an open dialog can be clicked, but its own menus lie above it.
 bool covered_by_dialog() {
     const ImGuiWindow* dialog = ImGui::GetTopMostPopupModal();
     const ImGuiWindow* window = ImGui::GetCurrentWindowRead()->RootWindow;
@@ -139,7 +145,7 @@ bool Widgets::menu_item(const char* label, const char* shortcut, bool* value) {
 }
 
 bool Widgets::header(const char* label, bool open_at_first) {
-    // What is chosen has the usual colour of headers.
+    // The usual colour of headers is that of the choice.
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
     const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     ImGui::PopStyleColor();

@@ -1,4 +1,4 @@
-// Dear ImGui's items with a memory of where they are, so that a test, or a script, can click them by name.
+// Dear ImGui's items with a memory of their places, so that a test, or a script, can click them by name.
 #pragma once
 
 #include <map>
@@ -10,19 +10,19 @@
 
 namespace kerf::view {
 
-/// Where an item was drawn, in pixels of the window.
+/// The rectangle in which an item was drawn, in pixels of the window.
 struct ItemRect {
     float left = 0, top = 0, right = 0, bottom = 0;
     bool enabled = true;
-    bool visible = true;  ///< not scrolled away or covered by the border of its panel
+    bool visible = true;  ///< its middle is not scrolled away, nor its window covered by a dialog
 };
 
-/// Thin wrappers: each draws the item with ImGui and records its rectangle under its label, the part of it before any
-/// "##" or, if that is empty, all of it. Labels are unique among what is drawn at one time.
+/// Thin wrappers of ImGui's items. Each draws the item and records its rectangle under its label, the part of it before
+/// any "##" or, if that is empty, all of it. Labels are unique among the items drawn at one time.
 class Widgets {
  public:
     void begin_frame() { items_.clear(); }
-    /// Items of the last frame.
+    /// Returns the items drawn since begin_frame().
     const std::map<std::string, ItemRect>& items() const { return items_; }
     std::optional<ItemRect> find(const std::string& label) const;
 
@@ -33,11 +33,11 @@ class Widgets {
     bool slider(const char* label, double* value, double low, double high, const char* format = "%.2f");
     bool combo(const char* label, int* index, const std::vector<std::string>& names);
     bool menu_item(const char* label, const char* shortcut = nullptr, bool* value = nullptr);
-    bool header(const char* label, bool open_at_first);  ///< a collapsing section
+    bool header(const char* label, bool open_at_first);  ///< draws the head of a collapsing section
     bool input_text(const char* label, std::string* text);
     bool input_number(const char* label, double* value);
     bool input_number(const char* label, std::int64_t* value);
-    /// For what is drawn by ImGui directly: the last item.
+    /// Records the last item, which was drawn by ImGui directly, or a rectangle.
     void record(const std::string& label);
     void record(const std::string& label, const ImVec2& from, const ImVec2& to);
 

@@ -1,4 +1,8 @@
-// The cuts whose interfaces have the smallest angles.
+// The list of cuts whose interfaces have the smallest angles: dihedral angles between interface and surface along the
+// contour, or angles of the interface's triangles. The numbers are those of the tree's rows, and the sorting is that of
+// the tree's columns, so that both agree. A click shows the cut and flies to the place of the smallest angle. The
+// dihedral needs the surface of the node, which may have to be made in the background first: the flight waits
+// (WorstInterfacesMemory::awaited) and is given up when another node is shown.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -88,7 +92,7 @@ class WorstInterfaces {
     std::vector<const TreeRow*> rows_;
 };
 
-// The angle with the surface needs the surface, which may have to be made first.
+// Flies to the awaited interface once its node's surface is there, which may have to be made first.
 void fly_when_there(UiContext& context, WorstInterfacesMemory& memory) {
     if (memory.awaited == 0) return;
     const NodeId node = memory.awaited;
