@@ -1,3 +1,10 @@
+// One frame of the viewer. A frame takes data that have arrived, lays the panels out and builds the scene; painting is
+// a step of its own, because it is most of a frame's time where the CPU draws. The scene is built twice in a frame:
+// before the panels, which show facts about it, and after them, so that a change by a panel is in the same picture; the
+// second is free if nothing has changed. A scene is built anew only when data or the state have changed (built_for_,
+// without camera and panels, on which it does not depend). Frames are drawn on demand: wake() asks for three of them,
+// and App::settled() tells when the picture will not change any more, which is how a screenshot knows that it is
+// complete.
 #include "viewer/app/app.h"
 
 #include <imgui.h>
@@ -12,7 +19,7 @@ namespace {
 
 constexpr float nearby_pixels = 6;  // how far the hand may tremble at a double click
 
-// What the scene depends on.
+// The state without the members that the scene does not depend on.
 ViewState of_scene(ViewState state) {
     state.camera.reset();
     state.panels = {};
@@ -103,7 +110,7 @@ void App::lay_out(bool panels) {
     else
         ui_.draw_overlays(context, view_.area);
     ImGui::Render();
-    // What the panels have changed is part of this picture.
+    // Changes by the panels are part of this picture.
     view_.steps = steps_of(view_.session.document(), view_.shown().node);
     build_scene();
     navigation_.project_scene();
@@ -123,7 +130,7 @@ Image App::picture() {
 
 void App::frame(const FrameSize& size, bool panels) {
     view_.size = size;
-    // Else it is iconified.
+    // A window of one pixel is iconified.
     if (panels && size.width > 1) view_.settings.window = {size.width, size.height, size.scale};
     scale_mouse(size.pixels_per_unit_x, size.pixels_per_unit_y);
     if (view_.frames_wanted > 0) --view_.frames_wanted;
@@ -131,13 +138,13 @@ void App::frame(const FrameSize& size, bool panels) {
     desk_.clear_notice();
     if (desk_.wants_picture()) {
         lay_out(false);
-        // What a run has not made yet is not waited for, as it may take long.
+        // The picture does not wait for data that a run has not made yet, as it may take long.
         if (!view_.built.pending || !view_.session.pending()) desk_.save_picture(picture());
         wake();
     }
     lay_out(panels);
     if (panels) navigation_.remember();
-    // What was asked for is mostly there at once: better than a picture without it.
+    // Data that were asked for are mostly there at once: better than a picture without them.
     if (view_.built.pending) wait(0.04);
 }
 

@@ -1,5 +1,5 @@
 // The viewer without its window: state, session, scene and panels, a frame at a time. The window, the screenshots and
-// the tests run the same one.
+// the tests drive the same App.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace kerf::view {
 
 class App {
  public:
-    /// The context of `gl` is current, and an ImGuiOwner lives.
+    /// Requires that the context of `gl` is current and that an ImGuiOwner lives.
     App(const Gl& gl, AppOptions options);
     ~App();
 
@@ -34,21 +34,24 @@ class App {
     /// Takes ImGui's input and lays out the next picture: with the panels, or only the scene with its legend. Requires
     /// io.DeltaTime to be set, and the mouse to be put anew before every frame, in the window's units.
     void frame(const FrameSize& size, bool panels);
-    /// Paints what the last frame has laid out: most of a frame's time where the CPU draws, so only if it is looked at.
+    /// Paints the layout of the last frame. That is most of a frame's time where the CPU draws, so call it only if the
+    /// picture is looked at.
     void paint();
-    Image picture();  ///< painted
+    Image picture();  ///< paints and returns the picture
     Renderer& renderer() { return view_.renderer; }
 
-    /// Of the window, or a test; the next frame with panels takes them in the order in which they came.
+    /// Takes a key event of the window, or of a test. The next frame with panels acts on events in the order in which
+    /// they came.
     void press(const KeyEvent& event) { input_.press(event); }
 
-    /// The next frame would look like the last: nothing arrives, plays, or is being moved.
+    /// Returns whether the next frame would look like the last: nothing arrives, plays, or is being moved.
     bool settled() const;
-    /// Waits until something arrives from files or runs, at most `seconds`; false if nothing did.
+    /// Waits until data arrive from files or runs, at most `seconds`, and returns whether any did.
     bool wait(double seconds);
-    /// Looks at what has arrived from files and runs. False: the picture on the screen is still right.
+    /// Takes data that have arrived from files and runs, and returns whether a new frame is wanted; false: the picture
+    /// on the screen is still right.
     bool wants_frame();
-    /// Something has happened outside: the next frames are wanted.
+    /// Asks for the next frames, because something has happened outside.
     void wake() { view_.wake(); }
 
     const Widgets& widgets() const { return widgets_; }
@@ -77,7 +80,7 @@ class App {
     Actions actions_{opening_, navigation_, playing_, opening_, opening_, desk_};
     Widgets widgets_;
     SceneBuilder builder_;
-    ViewState built_for_;                                     // as far as the scene depends on it
+    ViewState built_for_;  // the state that the scene was built for, as far as the scene depends on it
     std::optional<std::pair<Theme, float>> styled_for_ = {};  // theme and scale
     std::chrono::steady_clock::time_point last_frame_;
 };

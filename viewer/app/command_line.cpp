@@ -1,3 +1,8 @@
+// The command line of kerf-view: two commands of one parser, view and screenshot, which share the options of the scene
+// (scene_options.h). Options are applied in two steps: those that stand by themselves after parsing (apply_options()),
+// those that need the document, such as a plane at the cut of a node, when it is there (apply_document());
+// depends_on_document() tells whether there are any. apply_document() fits the camera last, once nothing is refused any
+// more. Every error becomes a text and an exit code in the command, so that parsing never throws.
 #include "viewer/app/command_line.h"
 
 #include <algorithm>
@@ -41,7 +46,7 @@ bool read_number(std::string_view text, Number& number) {
                             text));
 }
 
-// "x", "-z", "1,1,0".
+// Reads a normal from "x", "-z" or "1,1,0".
 bool parse_normal(std::string_view text, Vec3& normal, bool& flipped) {
     flipped = text.size() == 2 && text[0] == '-';
     if (flipped) text.remove_prefix(1);
@@ -60,7 +65,7 @@ bool parse_normal(std::string_view text, Vec3& normal, bool& flipped) {
 void read_run_config(const std::string& path, RunOptions& run) {
     if (path.empty()) return;
     std::vector<ConfigEntry> given = read_config(path);
-    // What the run would write beside its folder is not for a picture.
+    // Files that the run would write beside its folder are not for a picture.
     static const std::set<std::string> not_taken = {"output", "quiet", "verbose", "report", "trace", "events", "stl"};
     std::erase_if(given, [](const OptionText& o) { return not_taken.contains(o.name); });
     const std::int32_t parts = run.decompose.parts;
@@ -109,7 +114,7 @@ void add_view_options(CLI::App& app, ViewCommand& command, SceneOptions& options
     put_help_last(app, "Run", common_options);
 }
 
-// Sets what the options say of the scene, and of a run for it. Throws Error.
+// Sets the scene, and a run for it, by the options. Throws Error.
 void apply_options(const SceneOptions& options, ViewCommand& command) {
     if (!options.inputs.empty()) command.input = options.inputs.front();
     apply(options, command);

@@ -14,7 +14,7 @@ namespace kerf::view {
 
 namespace {
 
-// The file with the view that a picture shows.
+// The file with the view of a picture.
 std::string view_of(const std::string& picture) {
     return std::filesystem::path(picture).replace_extension(".json").string();
 }

@@ -1,4 +1,4 @@
-// What lies beside the scene: pictures that are kept, notices, the clipboard, and the wish to quit.
+// The desk beside the scene: pictures that are saved, notices, the clipboard, and the wish to quit.
 #pragma once
 
 #include <string>
@@ -19,9 +19,9 @@ class Desk : public WindowActions {
 
     bool wants_to_quit() const { return quit_; }
     bool wants_picture() const { return capture_; }
-    /// That was wanted, with its view beside it; what fails is a notice.
+    /// Saves the picture that was wanted, with its view as JSON beside it, and notes either success or the error.
     void save_picture(const Image& picture);
-    /// Takes away what was read: a notice after some seconds, an error by a click.
+    /// Takes the notice away: a message after some seconds, an error by a click.
     void clear_notice();
 
  private:

@@ -31,7 +31,7 @@ void* picture_of(const std::filesystem::path& file, Renderer& renderer) {
 }
 
 // The STL files of a folder by their names, with the pictures gallery/surfaces/NAME.png there, which the renderer
-// keeps. What cannot be read is left out; an empty path has none.
+// keeps. Files that cannot be read are left out; an empty path has none.
 std::vector<Example> read_examples(const std::string& folder, Renderer& renderer) {
     std::vector<Example> examples;
     std::error_code error;

@@ -1,4 +1,4 @@
-// Surfaces to try that come with the program, for the start page.
+// The surfaces to try that come with the program, for the start page.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ class Gallery {
  public:
     explicit Gallery(View& view) : view_(view) {}
 
-    /// Read once, when the start page is first shown.
+    /// Returns the examples, which are read once, when the start page is first shown; none before.
     const std::vector<Example>& examples();
 
  private:

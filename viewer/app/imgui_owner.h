@@ -1,9 +1,9 @@
-// Dear ImGui, for as long as a viewer lives.
+// The lifetime of Dear ImGui.
 #pragma once
 
 namespace kerf::view {
 
-/// Dear ImGui's global context, for as long as it lives. Keys are numbered as in app/keys.h; nothing is saved.
+/// Owns Dear ImGui's global context. Keys are numbered as in app/keys.h; ImGui saves no file.
 class ImGuiOwner {
  public:
     ImGuiOwner();

@@ -1,9 +1,10 @@
-// Ctrl-C, and whoever else ends the program politely.
+// A polite end of the program by Ctrl-C and other signals.
 #pragma once
 
 namespace kerf::view {
 
-/// From now on SIGINT, SIGTERM and SIGHUP only set a mark, so that runs are ended and folders removed as at any end.
+/// Makes SIGINT, SIGTERM and SIGHUP only set a mark from now on, so that runs are ended and folders removed as at any
+/// end.
 void watch_for_interruption();
 bool was_interrupted();
 

@@ -1,4 +1,4 @@
-// Numbers of keys as GLFW has them, for code that knows no window.
+// The numbers of keys, which are those of GLFW, for code that knows no window.
 #pragma once
 
 namespace kerf::view {

@@ -1,3 +1,8 @@
+// The places of the numbers in the scene, in pixels of the window. Numbers of patches and of isolines must lie where
+// the patch or line is really seen: the renderer draws the scene once more with numbers for colours
+// (places_of_patches(), seen_isolines()), which costs another frame, so that they are kept for as long as NumberedView
+// is the same. The order matters: numbers of extremes are placed before those of isolines, which must not overlap them.
+// The value under the mouse is read from the same kind of drawing of a single pixel.
 #include "viewer/app/labels.h"
 
 #include <algorithm>
@@ -14,7 +19,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float line_spacing = 11;  // between two numbers of one value, in heights of the font
+constexpr float line_spacing = 11;  // least distance of two numbers of one value, in heights of the font
 
 }  // namespace
 
@@ -38,7 +43,7 @@ void Labels::place(bool held) {
     numbered_ = view;
 }
 
-// Of patches, where there is room for them on what is seen of their faces.
+// Places the numbers of patches where there is room for them on the visible part of their faces.
 void Labels::place_numbers() {
     const auto has_numbers = [](const Layer& layer) { return layer.patch != nullptr; };
     const std::vector<Layer>& layers = view_.built.scene.layers;

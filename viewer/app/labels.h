@@ -1,4 +1,4 @@
-// Numbers in the scene: of patches, of isolines, of the least and the largest value, and the value under the mouse.
+// Numbers in the scene: patches, isolines, the least and the largest value, and the value under the mouse.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@ class Labels {
  public:
     explicit Labels(View& view) : view_(view) {}
 
-    /// While the hand turns it (`held`), or it moves, a picture has none: they would jump, and each takes another
-    /// drawing.
+    /// Places the numbers in the picture. Those of isolines are left out while the hand turns the scene (`held`) or the
+    /// deformation moves: they would jump. Patches and isolines take another drawing of the scene each, so that in a
+    /// scene at rest numbers stay as long as the view does.
     void place(bool held);
-    /// Of what is drawn already: a pixel is drawn again when mouse or view have moved, and no scene is built. A picture
-    /// to be kept has none (`wanted`).
+    /// Finds the value under the mouse in the scene as it is drawn, if `wanted`, which is false for pictures to be
+    /// saved. It draws one pixel, only when mouse or view have moved, and builds no scene.
     void probe(bool wanted);
 
  private:
-    // Of a picture with numbers: the matrix, the viewport, and which scene it is of.
+    // The view that the numbers were placed for: its matrix, viewport, and the number of its scene.
     struct NumberedView {
         Eigen::Matrix4f matrix;
         std::array<int, 4> viewport;
@@ -28,7 +29,7 @@ class Labels {
 
         bool operator==(const NumberedView&) const = default;
     };
-    // What the probe is of: a view, and a place of the mouse in it.
+    // The view, and the place of the mouse in it, that the probe was made for.
     struct Probed {
         NumberedView view;
         float x, y;

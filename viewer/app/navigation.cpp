@@ -1,3 +1,9 @@
+// The camera's moves. view_.camera is the camera in use; view_.state.camera is the one that somebody has chosen, and
+// none means that everything fits, whatever is shown, so that the camera follows a body that grows. `area` is the
+// rectangle of the scene and `body` the part that the legend leaves: the projection covers the area, its centre is
+// moved into the middle of the body's part, and fit_body() fits into that part. A zoom first sets the camera's depth to
+// the point under the cursor, so that it goes towards that point and not through it. A turn to a cell waits until the
+// cells around it have been read (resolve_turn()).
 #include "viewer/app/navigation.h"
 
 #include <algorithm>
@@ -75,7 +81,7 @@ void Navigation::clip_through_selection(bool faces_eye) {
         return view_.notify("Select something to clip through first.");
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
-    // What lies towards the eye is cut away.
+    // The side towards the eye is cut away.
     const Vec3 normal = faces_eye ? view_.camera.back() : view_.state.clip.normal;
     if (faces_eye) view_.state.clip.flipped = false;
     snap_to(view_.state.clip, Plane(middle, normal), view_.session.document().box);
@@ -126,14 +132,14 @@ void Navigation::show_again(const std::optional<ViewState>& view) {
     if (view) view_.state = *view;
 }
 
-// Into what the legend leaves of the scene.
+// Fits a box into the part of the scene that the legend leaves.
 void Navigation::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const {
     const float height = std::max(view_.body.height, 1.f);
     fit(camera, box, view_.body.width / height);
     camera.height *= view_.area.height / height;
 }
 
-// Towards what is seen under the cursor, and not through it.
+// Zooms towards the point that is seen under the cursor, and not through it.
 void Navigation::zoom(float x, float y, float notches) {
     Camera camera = view_.camera;
     const double diagonal = view_.diagonal();
@@ -145,7 +151,7 @@ void Navigation::zoom(float x, float y, float notches) {
     view_.state.camera = camera;
 }
 
-// Where it is on the picture, parts pulled apart.
+// The point that was hit as the picture shows it, with parts pulled apart.
 Vec3 Navigation::seen_point(const PickHit& hit) const {
     const std::array<float, 3>& offset = view_.built.scene.layers[hit.layer].ranges[hit.range].offset;
     const Eigen::Vector3f moved = hit.point + Eigen::Vector3f(offset[0], offset[1], offset[2]);

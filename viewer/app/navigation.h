@@ -1,4 +1,4 @@
-// Where the camera stands: what it frames, flies to and turns to, and what of the scene fits beside the legend.
+// The camera: it frames, flies to and turns to parts of the scene, and fits the body beside the legend.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,14 @@ class Navigation : public CameraActions {
     void show_earlier() override { show_again(view_.history.go_back(view_.state)); }
     void show_later() override { show_again(view_.history.go_on(view_.state)); }
 
-    /// Towards what is seen under the cursor, and not through it.
+    /// Zooms towards the point that is seen under the cursor, and not through it.
     void zoom(float x, float y, float notches);
-    /// From now on the camera turns about what was hit.
+    /// Makes the camera turn about the point that was hit from now on.
     void center(const PickHit& hit);
-    void resolve_turn();  ///< once the cells have arrived
-    /// The camera and its projection, of the scene as it was built.
+    void resolve_turn();  ///< turns to the selection once its cells have arrived
+    /// Sets the camera and its projection for the scene as it was built.
     void project_scene();
-    /// The view, once nothing moves it, to come back to.
+    /// Notes the view in the history once nothing moves it.
     void remember();
 
  private:
@@ -37,7 +37,7 @@ class Navigation : public CameraActions {
     Vec3 seen_point(const PickHit& hit) const;
 
     View& view_;
-    std::optional<Selection> turning_to_;  // a cell that is being read
+    std::optional<Selection> turning_to_;  // a selected cell whose part is being read
 };
 
 }  // namespace kerf::view

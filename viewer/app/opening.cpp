@@ -1,3 +1,9 @@
+// Opening, runs and repairs, and the view that suits them. A document is read in the background, so that all that
+// depends on it is done in follow(), each once: a clean surface is run if the options say so, and members of the view
+// that nobody has chosen (ChosenView) are set by the kind of document. The path in `opened_` marks that the run was
+// decided: a run or repair that a user starts sets it, too, so that his surface is not run once more behind his back.
+// Numbers of cells, facets and defects mean others in another run or a repaired surface, so a selection by number is
+// dropped there; a selected place stays.
 #include "viewer/app/opening.h"
 
 #include "viewer/app/settings.h"
@@ -6,7 +12,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr double usual_explosion = 0.4;  // of parts that are nothing but surfaces
+constexpr double usual_explosion = 0.4;  // ViewState::explode of parts that are nothing but surfaces
 
 }  // namespace
 
@@ -54,7 +60,7 @@ void Opening::open_again(const RunOptions& options) {
 
 void Opening::start_run(const RunOptions& options, bool volume) {
     opened_ =
-        view_.session.document().path;  // what a user runs is not run once more when its repairs have made it clean
+        view_.session.document().path;  // a run by the user is not repeated when repairs have made the surface clean
     view_.session.start_run(options, volume);
 }
 
@@ -62,7 +68,8 @@ void Opening::redo_cut(NodeId node, const RunOptions& options, const std::option
     view_.session.pair().redo_cut(node, options, plane);
 }
 
-// Under the same camera, so that what is alike stays where it is. Numbers of cells mean others there.
+// Exchanges the runs under the same camera, so that equal parts stay where they are. Numbers of cells mean others
+// there.
 void Opening::swap_runs() {
     if (!view_.session.pair().can_swap()) return;
     view_.session.pair().swap();
@@ -98,7 +105,7 @@ void Opening::show_before_repair(bool before) {
     view_.wake();
 }
 
-// The key that goes from what was before to what is after.
+// Goes between the states before and after a run or repair, by key B.
 void Opening::show_other() {
     if (view_.session.other_document())
         swap_runs();

@@ -1,4 +1,4 @@
-// What is opened, run and repaired, and the view that suits it.
+// Files opened, runs started and surfaces repaired, and the view that suits each.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ class Opening : public FileActions, public RunActions, public RepairActions {
     void show_before_repair(bool before) override;
 
     void show(const ViewState& state, const ChosenView& chosen);
-    /// After something has arrived: runs what is to be run, and completes the view.
+    /// Starts the run of a surface that was opened, and completes the view, as far as data have arrived.
     void follow();
 
  private:
@@ -37,14 +37,14 @@ class Opening : public FileActions, public RunActions, public RepairActions {
     void follow_repairs();
 
     View& view_;
-    std::string opened_;                          // what auto_run has been decided for
-    std::shared_ptr<const CheckedSoup> checked_;  // of the document as it was last looked at
+    std::string opened_;                          // path for which the automatic run was decided
+    std::shared_ptr<const CheckedSoup> checked_;  // checked surface of the document when it was last looked at
     struct KeptScale {
         ColorBy color = ColorBy::part;
-        std::optional<ValueRange> range = {};  // that somebody has given to values of a solution
+        std::optional<ValueRange> range = {};  // range of colours that somebody has given to values of a solution
     };
-    KeptScale kept_scale_;           // of what was open before
-    bool is_view_complete_ = false;  // what nobody has chosen is
+    KeptScale kept_scale_;           // scale of the document before
+    bool is_view_complete_ = false;  // the choices that nobody has made are made
 };
 
 }  // namespace kerf::view

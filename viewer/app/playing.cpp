@@ -12,7 +12,7 @@ namespace kerf::view {
 namespace {
 
 constexpr double seconds_per_step = 0.8;
-constexpr double pictures_per_period = 32;  // of a motion: each is made once
+constexpr double pictures_per_period = 32;  // phases of a motion; the picture of each is made once
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void Playing::move_node(int direction) {
     view_.state.step.refused_try = -1;
 }
 
-// Where the deformation is now.
+// Moves the deformation to its present phase.
 void Playing::move() {
     view_.facts.moving &= view_.state.motion != Motion::still && view_.state.deform != 0;
     if (!view_.facts.moving) return;
@@ -49,7 +49,7 @@ void Playing::move() {
     view_.state.phase = std::floor(motion_ * pictures_per_period) / pictures_per_period;
 }
 
-// Through the steps of the node, then on to the next node.
+// Goes through the steps of the node, then on to the next node.
 void Playing::play() {
     if (!view_.facts.playing || ImGui::GetTime() < played_until_) return;
     played_until_ = ImGui::GetTime() + seconds_per_step;

@@ -1,3 +1,8 @@
+// Mouse and keys of the scene. A press belongs to the scene or to a panel by the place where it began
+// (pressed_in_scene_), whatever the mouse crosses until it is let go. It is a drag once it has moved further than
+// click_pixels, and else a click when it is let go. A drag turns or moves the camera; a click selects the primitive
+// under the cursor, whose cell may have to be read first: the click then waits (View::unresolved) and is tried again
+// when data have arrived. Keys become words, "Ctrl+Shift+Z", as the table of commands has them.
 #include "viewer/app/scene_input.h"
 
 #include <string>
@@ -20,7 +25,7 @@ bool is_of_facets(LayerKind kind) {
            kind == LayerKind::part;
 }
 
-// As keys are called in menus: "Ctrl+Shift+Z".
+// The name of a key as menus have it: "Ctrl+Shift+Z".
 std::string words_of(const KeyEvent& event) {
     constexpr std::pair<int, const char*> named[] = {
         {key_space, "Space"}, {key_escape, "Escape"}, {key_right, "Right"}, {key_left, "Left"},
@@ -70,7 +75,7 @@ void SceneInput::take_drag() {
     view_.state.camera = camera;
 }
 
-// Selects what is under the cursor, or turns about it from now on.
+// Selects the primitive under the cursor, or makes the camera turn about it from now on.
 void SceneInput::take_click(bool centers) {
     const ImVec2& mouse = ImGui::GetIO().MousePos;
     const auto found = view_.pick(mouse.x, mouse.y);
@@ -78,7 +83,7 @@ void SceneInput::take_click(bool centers) {
     if (centers) return found ? navigation_.center(*found) : void();
     view_.state.selection = {};
     if (!found) return;
-    const Vec3 point = view_.built.frame.to_file(found->rest.cast<double>());  // where vertices have their places
+    const Vec3 point = view_.built.frame.to_file(found->rest.cast<double>());  // place in the file, before deformation
     const LayerKind kind = view_.built.scene.layers[found->layer].kind;
     if (is_of_cells(kind) || is_of_facets(kind)) {
         view_.unresolved = Hit{is_of_cells(kind), found->owner, found->element, point};
@@ -90,7 +95,8 @@ void SceneInput::take_click(bool centers) {
     }
 }
 
-// The cells behind a facet may have to be read first: then it is tried again when something has arrived.
+// Makes the waiting click a selection. The cells behind a facet may have to be read first: then it is tried again when
+// something has arrived.
 void SceneInput::resolve_click() {
     if (!view_.unresolved) return;
     const auto selection = select(view_.session, *view_.unresolved, view_.state.pick);

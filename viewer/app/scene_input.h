@@ -1,4 +1,4 @@
-// Keys and mouse of the scene; panels take theirs first.
+// Keys and mouse of the scene. Panels take theirs first.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ class SceneInput {
     SceneInput(View& view, Ui& ui, Navigation& navigation) : view_(view), ui_(ui), navigation_(navigation) {}
 
     void press(const KeyEvent& event) { key_events_.push_back(event); }
-    void take(UiContext& context);  ///< keys and mouse, as they are in this frame
-    void resolve_click();           ///< once the cells have arrived
+    void take(UiContext& context);  ///< acts on keys and mouse as they are in this frame
+    void resolve_click();           ///< makes the click a selection once its cells have arrived
     bool is_dragging() const { return dragging_; }
     bool is_pressed() const { return pressed_in_scene_; }
 
@@ -26,7 +26,7 @@ class SceneInput {
     View& view_;
     Ui& ui_;
     Navigation& navigation_;
-    std::vector<KeyEvent> key_events_;  // that no frame has taken yet
+    std::vector<KeyEvent> key_events_;  // events that no frame has taken yet
     bool dragging_ = false, pressed_in_scene_ = false;
 };
 

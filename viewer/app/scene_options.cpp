@@ -1,3 +1,9 @@
+// The options of the scene: groups of add_...() functions for the parser, and apply(), which turns the texts into a
+// ViewState. Order in apply() is precedence: a file of --state is the base, --camera and --view replace its camera, and
+// every single option wins over the file, so that an option may only write if it was given. Options that only cells can
+// show (a measure, a filter, a deformation) choose the stage of tetrahedra unless --stage is given, lest they be asked
+// for in vain. ChosenView records which members somebody has chosen; the app fills the others by the document. A new
+// option of the scene is a member of SceneOptions, a line in an add_...() and one in apply().
 #include "viewer/app/scene_options.h"
 
 #include <algorithm>
@@ -32,7 +38,7 @@ void parse_resolution(const std::string& text, ViewCommand& command) {
     command.height = *height;
 }
 
-// In the order of Direction.
+// The names of --view, in the order of Direction.
 constexpr std::array<const char*, 7> view_names = {"front", "back", "right", "left", "top", "bottom", "iso"};
 
 std::string names_of_views() { return fmt::format("{}", fmt::join(view_names, ",")); }
@@ -173,7 +179,7 @@ bool is_seen_on_surfaces(const std::string& color) {
     return color == "patch" || (!color.empty() && is_of_surface(color_by_from_name(color)));
 }
 
-// What the command line says itself wins; options of a run are of use for its own input only.
+// Takes the origin of a state. The command line wins over it; options of a run are of use for its own input only.
 void take_origin(ViewCommand& command) {
     const ViewOrigin& origin = command.origin;
     if (command.input.empty()) {
@@ -189,7 +195,7 @@ void take_origin(ViewCommand& command) {
     command.scale = static_cast<float>(origin.scale);
 }
 
-// A side that is named turns the camera, whose place follows from what is shown.
+// Turns the camera to the side that is named; its place follows from the scene.
 void apply_view(const SceneOptions& options, ViewCommand& command) {
     if (options.view.empty() && options.up.empty()) return;
     const auto* name = std::find(view_names.begin(), view_names.end(), options.view.empty() ? "iso" : options.view);
@@ -259,7 +265,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
         state.camera = camera_from_json(read_file(options.camera_file), options.camera_file);
     apply_view(options, command);
     if (options.node > 0) state.node = options.node;
-    // What only cells have is not to be asked for in vain.
+    // Values that only cells have are not to be asked for in vain.
     const bool is_of_cells = !options.color.empty() || options.explode > 0 || options.shrink > 0 ||
                              !options.filter.empty() || !options.deform.empty() || options.vectors;
     if (!options.stage.empty())

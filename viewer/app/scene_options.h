@@ -1,4 +1,4 @@
-// The options of `kerf view` and `kerf screenshot` that say what is shown and how.
+// The options of `kerf view` and `kerf screenshot` for the content and the look of the scene.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ class App;
 
 namespace kerf::view {
 
-/// Options as they are given, in the order in which they are applied.
+/// The values of these options as they are given, in the order in which they are applied.
 struct SceneOptions {
     std::string state_file, camera_file, view, up, stage, color, clip_style, resolution, theme, surface, repair,
         input_scale, config, deform, motion;
@@ -29,10 +29,11 @@ struct SceneOptions {
     std::vector<double> filter, range;
 };
 
-/// Adds them. Values go into `options` and `command`, which have to live as long as the parser.
+/// Adds the options to a parser. Values go into `options` and `command`, which have to live as long as the parser.
 void add_scene_options(CLI::App& app, ViewCommand& command, SceneOptions& options);
 
-/// Sets what they say, after parsing. Reads the files that they name. Throws Error(usage) for values that are none.
+/// Applies the options to the command after parsing, and reads the files that they name. Throws Error(usage) for
+/// invalid values.
 void apply(const SceneOptions& options, ViewCommand& command);
 
 }  // namespace kerf::view

@@ -1,3 +1,9 @@
+// Pictures without a display: the App of the window in a loop that ends when it has settled. The document is awaited
+// first, because the picture may depend on all of it; a surface is run, cut or meshed, only as far as the wanted stage
+// and colours need it (needs_run()), and with no window nobody else starts that run. A wish that cannot be met is an
+// error here, and only a wish in the window (check_wishes()); the cause is told rather than the symptom: if a run has
+// ended with an error, that error. Every frame takes the same time (frame_seconds), so that pictures do not depend on
+// the speed of the computer. Antialiasing draws so many times as large and averages.
 #include "viewer/app/screenshot.h"
 
 #include <algorithm>
@@ -57,7 +63,7 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
         deadline.check();
     }
     if (session.document().kind != Document::Kind::surface || session.document().has_problems()) return;
-    // What was repaired is shown as it is then, unless somebody has asked for more.
+    // A repaired surface is shown as it is then, unless somebody has asked for more.
     const bool is_told = !session.document().unrepaired || command.run.remeshing != RunOptions().remeshing;
     const bool is_remeshed = command.run.remeshing != Remeshing::never && is_told;
     if (!needs_run(session.document(), command.state) && !is_remeshed && !command.clip.starts_with("node=")) return;
@@ -70,7 +76,7 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
     }
 }
 
-// What ended the run is the reason why something is missing.
+// Throws the error that ended the run if one did, as it is the reason why something is missing, else this message.
 [[noreturn]] void refuse(const Document& document, const std::string& message) {
     const Progress& progress = document.progress;
     if (!progress.message.empty() && progress.exit_code > 0)

@@ -1,3 +1,7 @@
+// The settings as viewer.json in the config folder. Reading takes a default for all that is missing or out of range,
+// and for a damaged file as a whole; writing goes to a file .partial that is renamed when it is complete, and fails in
+// silence, as settings are never worth an error. Files of older versions are read: their recent files are paths alone.
+// The list of recent files has ten entries, absolute paths, each once, the last opened first.
 #include "viewer/app/settings.h"
 
 #include <algorithm>
@@ -17,9 +21,9 @@ namespace {
 
 constexpr std::size_t most_recent = 10;
 
-constexpr double smallest_side = 100, largest_side = 16384;  // of a window, in pixels at scale 1
+constexpr double smallest_side = 100, largest_side = 16384;  // limits of a window's sides, in pixels at scale 1
 
-// The default for what no window can be.
+// The size of the window, or the default if no window can have it.
 WindowSize window_from(const nlohmann::json& settings) {
     const nlohmann::json window = settings.value("window", nlohmann::json::object());
     const auto number = [&](const char* name) {
@@ -33,7 +37,7 @@ WindowSize window_from(const nlohmann::json& settings) {
     return {static_cast<int>(width), static_cast<int>(height), scale};
 }
 
-// Paths alone, as they were written once, are fine.
+// The recent files. Paths alone, as older versions have written them, are fine.
 std::vector<RecentFile> recent_from(const nlohmann::json& settings) {
     std::vector<RecentFile> recent;
     for (const nlohmann::json& file : settings.value("recent", nlohmann::json::array()))

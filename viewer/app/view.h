@@ -1,4 +1,4 @@
-// What is open, how it is looked at, and the picture of it: what the parts of the app share.
+// The open document, the way in which it is looked at, and its picture: all that the parts of the app share.
 #pragma once
 
 #include <algorithm>
@@ -21,55 +21,56 @@ struct Gl;
 struct AppOptions {
     std::string shader_folder;
     std::string kerf_program;
-    std::string config_folder;   ///< of the settings; empty: none are read or kept
-    std::string example_folder;  ///< surfaces for the start page; empty: none
+    std::string config_folder;   ///< folder of the settings; empty: none are read or kept
+    std::string example_folder;  ///< folder of surfaces for the start page; empty: none
     std::string screenshot_folder = ".";
-    /// Surfaces that are opened are cut, and meshed if `volume`, with these options; `auto_run` false: only shown.
+    /// `auto_run`: a surface that is opened is cut, and meshed if `volume`, with the options `run`; else it is only
+    /// shown.
     bool auto_run = true, volume = true;
     RunOptions run;
 };
 
-/// What somebody has asked for of the view; the rest suits what is opened.
+/// The parts of the view that somebody has asked for; all others suit the document.
 struct ChosenView {
     bool color = false, stage = false, explode = false;
-    bool faces_clip = false;  ///< without a camera the clip plane is looked at, and what it leaves fits
-    std::optional<Eigen::Quaterniond> turn = {};  ///< of a camera without a place: it is where all fits
+    bool faces_clip = false;  ///< without a camera the clip plane is looked at, and the part that it leaves fits
+    std::optional<Eigen::Quaterniond> turn = {};  ///< direction of a camera whose place is where all fits
 };
 
 struct View {
-    /// The context of `gl` is current.
+    /// Requires that the context of `gl` is current.
     View(const Gl& gl, AppOptions given);
 
     AppOptions options;
     Settings settings;
     Session session;
-    bool session_changed = true;  ///< since the scene was built
+    bool session_changed = true;  ///< the session has new data since the scene was built
     ViewState state;
     ViewHistory history;
     ChosenView chosen;
-    std::vector<Step> steps;        ///< of the node
+    std::vector<Step> steps;        ///< steps of the node shown
     std::optional<Hit> unresolved;  ///< a click whose cells are being read
 
     Renderer renderer;
     BuiltScene built;
     std::int64_t scenes_built = 0;
     SceneFacts facts;
-    double notice_until = 0;  ///< that of the facts
-    Camera camera;            ///< that is in use, also where the state has none
+    double notice_until = 0;  ///< time until which the notice of the facts is shown
+    Camera camera;            ///< the camera in use, also where the state has none
     Projection projection;
     FrameSize size;
-    Rectangle area;  ///< of the scene
-    Rectangle body;  ///< what the legend leaves of it
-    int frames_wanted = 0;
+    Rectangle area;         ///< rectangle of the scene
+    Rectangle body;         ///< the part of it that the legend leaves
+    int frames_wanted = 0;  ///< frames to be drawn even if nothing else changes
 
-    /// Something has happened outside: the next frames are wanted.
+    /// Asks for the next frames, because something has happened outside.
     void wake() { frames_wanted = 3; }
     void notify(const std::string& text);
-    ViewState shown() const;  ///< the state as the tree that is known allows
+    ViewState shown() const;  ///< returns the state with a node that the tree, as far as it is known, has
     double diagonal() const { return session.document().box.diagonal().norm(); }
-    /// Of the scene, as large as something to divide by has to be.
+    /// Returns the height of the scene in pixels, at least 1, so that it can be divided by.
     float height() const { return std::max(area.height, 1.f); }
-    std::optional<PickHit> pick(float x, float y);  ///< at a pixel
+    std::optional<PickHit> pick(float x, float y);  ///< returns the primitive at a pixel; none: the background
 };
 
 }  // namespace kerf::view

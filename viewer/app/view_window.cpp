@@ -11,7 +11,7 @@ namespace kerf::view {
 
 namespace {
 
-// How long to sleep for events: what plays, runs or is being read is looked at in between.
+// The seconds to sleep for events: changes that play, run or are being read are looked at in between.
 double seconds_to_wait(App& app) {
     if (app.facts().playing || app.session().busy() || app.session().document().progress.running) return 0.05;
     return app.settled() ? 0.5 : 0;
@@ -21,7 +21,7 @@ std::string title_of(const Document& document) { return document.title.empty() ?
 
 int at_scale_1(int pixels, double scale) { return static_cast<int>(std::lround(pixels / scale)); }
 
-// Once the document tells what is asked for; false if it does not yet.
+// Applies the options that need the document, and returns whether the document could tell them.
 bool apply_when_known(App& app, const ViewCommand& command) {
     try {
         const Document& document = app.session().document();

@@ -5,7 +5,7 @@
 
 namespace kerf::view {
 
-/// Until the user closes it. Throws Error(io) without a display.
+/// Shows the viewer until the user closes it. Throws Error(io) without a display.
 void view_in_window(const ViewCommand& command, const AppOptions& options);
 
 }  // namespace kerf::view
