@@ -16,9 +16,10 @@ namespace kerf::view {
 
 namespace {
 
-// Ends with the program: Mesa keeps it, and other contexts of the process may use it, too.
+// The display of Mesa's software. It ends with the program: Mesa keeps it, and other contexts of the process may use
+// it, too.
 EGLDisplay software_display() {
-    // A graphics card would draw other pictures. Who wants it all the same sets the variable to 0.
+    // A graphics card would draw other pictures. A user who wants it all the same sets the variable to 0.
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
     return eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
 }

@@ -8,8 +8,8 @@ namespace kerf::view {
 
 class Framebuffer {
  public:
-    /// `color_format`: GL_RGBA8, GL_RGBA32UI, ... Depth has 24 bits, stencil 8. It is bound afterwards. Throws
-    /// Error(usage) beyond the largest size of the driver, Error(internal) if it cannot make one.
+    /// Makes a framebuffer with 24 bits of depth and 8 of stencil, and binds it. `color_format`: GL_RGBA8, GL_RGBA32UI,
+    /// ... Throws Error(usage) beyond the largest size of the driver, Error(internal) if the driver cannot make one.
     Framebuffer(const Gl& gl, GLenum color_format, int width, int height);
 
     void bind() const { gl_->BindFramebuffer(GL_FRAMEBUFFER, object_.id()); }

@@ -81,24 +81,25 @@ namespace kerf::view {
     X(PFNGLVIEWPORTPROC, Viewport)
 // clang-format on
 
-/// gl.Clear(...) is glClear(...). Valid while the context that it was loaded from exists.
+/// The functions of OpenGL: gl.Clear(...) is glClear(...). They are valid while the context that they were loaded from
+/// exists.
 struct Gl {
 #define KERF_GL_MEMBER(type, name) type name = nullptr;
     KERF_GL_FUNCTIONS(KERF_GL_MEMBER)
 #undef KERF_GL_MEMBER
 };
 
-/// How OpenGL takes a place in the bound buffer.
+/// Returns a place in the bound buffer in the form that OpenGL takes.
 inline const void* buffer_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
-/// Address of an OpenGL function of the current context, or null.
+/// A function that returns the address of an OpenGL function of the current context, or null.
 using GlLoader = std::function<void*(const char* name)>;
 
-/// Throws Error(internal) naming a function that the driver does not have.
+/// Loads all functions. Throws Error(internal) naming a function that the driver does not have.
 Gl load_gl(const GlLoader& loader);
 
-/// Throws Error(internal) with the error codes that OpenGL has noted since the last call, if any; `where` names what
-/// was done.
+/// Throws Error(internal) with the error codes that OpenGL has noted since the last call, if any; `where` names the
+/// operation.
 void check_gl(const Gl& gl, const char* where);
 
 }  // namespace kerf::view

@@ -7,7 +7,7 @@
 
 namespace kerf::view {
 
-/// A buffer, vertex array, texture, framebuffer or renderbuffer. Its context must be current when it dies.
+/// A buffer, vertex array, texture, framebuffer or renderbuffer of OpenGL. Its context must be current when it dies.
 class GlObject {
  public:
     GlObject() = default;
@@ -27,7 +27,7 @@ class GlObject {
     static GlObject framebuffer(const Gl& gl) { return {gl.GenFramebuffers, gl.DeleteFramebuffers}; }
     static GlObject renderbuffer(const Gl& gl) { return {gl.GenRenderbuffers, gl.DeleteRenderbuffers}; }
 
-    GLuint id() const { return id_; }  ///< 0: none
+    GLuint id() const { return id_; }  ///< OpenGL's name of the object; 0: none
 
  private:
     using Create = PFNGLGENBUFFERSPROC;

@@ -1,3 +1,9 @@
+// Upload of geometry to the GPU. A corner goes up as it is in memory (struct Corner is the vertex format); the normals
+// of triangles are computed here and go into a buffer of their own, 16 bits a component, because the scene does not
+// keep them. A segment or point is copied six times, all alike: the vertex shader opens the copies to a rectangle by
+// their number. The cache is keyed by the address of a geometry, which may be used again for another one, so that each
+// entry holds a weak pointer and is made anew when that is not the same geometry. A copy dies with its geometry or
+// after `patience` pictures without use.
 #include "viewer/render/gpu_geometry.h"
 
 #include <algorithm>
@@ -10,7 +16,7 @@ namespace {
 
 Eigen::Vector3f to_eigen(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
-// Of the four, the shader reads three as a direction.
+// A normal of 16 bits a component; the shader reads three of the four as a direction.
 struct PackedNormal {
     std::int16_t x, y, z, unused;
 };
@@ -20,7 +26,7 @@ PackedNormal pack(const Eigen::Vector3f& normal) {
     return {part(0), part(1), part(2), 0};
 }
 
-// In double, since the corners of small triangles differ in their last digits only.
+// The normal of a triangle, in double, since the corners of small triangles differ in their last digits only.
 Eigen::Vector3f normal_of(const Corner* corners) {
     const Eigen::Vector3d a = to_eigen(corners[0].position).cast<double>();
     const Eigen::Vector3d b = to_eigen(corners[1].position).cast<double>();

@@ -19,18 +19,21 @@ constexpr GLuint position = 0, triangle_normal = 1, corner_normal = 2, edges = 3
 constexpr GLuint from = 0, to = 1, center = 0;
 }  // namespace attribute
 
-/// Vertex arrays of one geometry.
+/// The vertex array of one geometry.
 class GpuGeometry {
  public:
     GpuGeometry(const Gl& gl, const Geometry& geometry);
 
-    /// Triangle i has the vertices 3 i, 3 i + 1 and 3 i + 2.
+    /// Binds the array of triangles: triangle i has the vertices 3 i, 3 i + 1 and 3 i + 2.
     void bind_triangles() const { gl_.BindVertexArray(array_.id()); }
-    /// Segment or point i has the vertices 6 i to 6 i + 5, all alike: two triangles, which the shader opens to a
-    /// rectangle. Instances would need less memory, but OpenGL 3.3 cannot draw some out of the middle of a buffer.
+    /// Binds the array of strokes: segment or point i has the vertices 6 i to 6 i + 5, all alike. They are two
+    /// triangles, which the shader opens to a rectangle. Instances would need less memory, but OpenGL 3.3 cannot draw
+    /// some out of the middle of a buffer.
     void bind_strokes() const { gl_.BindVertexArray(array_.id()); }
 
-    const Eigen::AlignedBox3f& box() const { return box_; }  ///< of triangles
+    const Eigen::AlignedBox3f& box() const {
+        return box_;
+    }  ///< box of the triangles, in draw coordinates; empty: there are none
 
  private:
     void upload_triangles(const Geometry& geometry);
@@ -42,21 +45,21 @@ class GpuGeometry {
     Eigen::AlignedBox3f box_;
 };
 
-/// Finds the copy of a geometry or makes it.
+/// The copies of geometries, each made when it is first asked for.
 class GpuGeometryCache {
  public:
     explicit GpuGeometryCache(const Gl& gl) : gl_(gl) {}
 
     const GpuGeometry& get(const std::shared_ptr<const Geometry>& geometry);
 
-    /// Call once per picture. Copies go whose geometry is gone or was not asked for during `patience` pictures.
+    /// Removes copies whose geometry is gone or was not asked for during `patience` pictures. Call it once per picture.
     void sweep();
 
  private:
     static constexpr std::int64_t patience = 60;
 
     struct Entry {
-        std::weak_ptr<const Geometry> source;  // an address may be used again, this cannot
+        std::weak_ptr<const Geometry> source;  // tells whether the key, an address, belongs to another geometry by now
         std::unique_ptr<GpuGeometry> copy;
         std::int64_t last_use = 0;
     };

@@ -1,3 +1,7 @@
+// PNG files by stb_image and stb_image_write, compiled here alone and as static functions. Compression is zlib's best,
+// which makes files a quarter smaller than stb's own; stb frees the result, so that it must come from malloc(). A
+// written file has a text chunk "Software: Kerf" behind its header, by which io/output_kind.h knows that it may be
+// written over. Pixels are RGB, 8 bits, without alpha.
 #include "viewer/render/image.h"
 
 #include <cstdlib>
@@ -13,7 +17,7 @@
 
 namespace {
 
-// For stb, which frees the result. zlib's best makes files a quarter smaller than stb's own compression.
+// Compresses for stb, which frees the result. zlib's best makes files a quarter smaller than stb's own compression.
 unsigned char* compress_best(unsigned char* data, int size, int* compressed_size, int /*quality*/) {
     uLongf length = compressBound(static_cast<uLong>(size));
     auto* bytes = static_cast<unsigned char*>(std::malloc(length));
@@ -49,7 +53,7 @@ struct Free {
 };
 using Bytes = std::unique_ptr<unsigned char, Free>;
 
-// With a chunk behind the header that says whose picture it is (io/output_kind.h).
+// The PNG with a chunk behind its header that says whose picture it is (io/output_kind.h).
 std::string marked(std::string png) {
     using namespace std::string_literals;
     constexpr std::size_t end_of_header = 33;

@@ -14,13 +14,15 @@ struct Image {
     const std::uint8_t* pixel(int x, int y) const { return &rgb[3 * (static_cast<std::size_t>(y) * width + x)]; }
 };
 
-/// Smaller by a factor: the mean of factor x factor pixels, which must divide the size.
+/// Returns the image smaller by a factor: each pixel is the mean of factor x factor pixels. The factor must divide the
+/// size.
 Image averaged(const Image& image, int factor);
 
-/// Throws Error(io) naming the file if it cannot be read or is none.
+/// Reads a PNG file. Throws Error(io) naming the file if it cannot be read or is none.
 Image read_png(const std::string& path);
 
-/// Throws Error(io) naming the file if it cannot be written; an older file is replaced only by a complete one.
+/// Writes a PNG file; an older file is replaced only by a complete one. Throws Error(io) naming the file if it cannot
+/// be written.
 void write_png(const std::string& path, const Image& image);
 
 }  // namespace kerf::view

@@ -10,17 +10,17 @@ namespace kerf::view {
 
 namespace {
 
-constexpr float least_length = 1.5f;  // of a line beside its text
-constexpr float gap_share = 0.35f;    // of the height of a text: between two texts
+constexpr float least_length = 1.5f;  // least length of a line, in widths of its text
+constexpr float gap_share = 0.35f;    // least gap between two texts, in heights of a text
 constexpr std::size_t most_labels = 80;
 
-// What is seen of the line of a value in a square of the picture.
+// The visible part of the line of a value in a square of the picture.
 struct Piece {
     float value = 0, length = 0;
-    Eigen::Vector2f sum = {0, 0};  // of middles, by length
-    Eigen::Vector2f place = {0, 0};
+    Eigen::Vector2f sum = {0, 0};    // sum of the segments' middles, weighted by length
+    Eigen::Vector2f place = {0, 0};  // the middle of a segment nearest to the centre of mass
     float nearest = std::numeric_limits<float>::infinity();
-    std::size_t rank = 0;  // among those of the value, the longest first
+    std::size_t rank = 0;  // number among the pieces of the value, the longest first
 };
 
 std::vector<Piece> pieces_of(std::span<const SeenSegment> segments, float side) {

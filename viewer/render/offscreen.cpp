@@ -28,7 +28,7 @@ std::vector<OffscreenLibrary> offscreen_libraries() {
 
 namespace {
 
-// The first whose library is there.
+// The first library that is installed.
 OffscreenLibrary usual_library() {
 #if defined(KERF_HAS_OSMESA) && defined(KERF_HAS_EGL)
     if (!has_osmesa()) return OffscreenLibrary::egl;

@@ -13,14 +13,14 @@ struct Gl;
 
 enum class OffscreenLibrary { osmesa, egl };
 
-/// "osmesa", "egl".
+/// Returns "osmesa" or "egl".
 std::string name(OffscreenLibrary library);
-/// Throws Error(usage).
+/// Returns the library of this name. Throws Error(usage) for another name.
 OffscreenLibrary offscreen_library_from_name(const std::string& name);
-/// Those that this program was built with, the default first; at least one.
+/// Returns the libraries that this program was built with, the default first; at least one.
 std::vector<OffscreenLibrary> offscreen_libraries();
 
-/// Current from when it is made. One at a time in a process.
+/// A context that is current from its making on. There is one at a time in a process.
 class OffscreenContext {
  public:
     OffscreenContext() = default;
@@ -31,10 +31,10 @@ class OffscreenContext {
     virtual const Gl& gl() const = 0;
 };
 
-/// Without a library: the default, or EGL where OSMesa is not installed. EGL sets the variable LIBGL_ALWAYS_SOFTWARE to
-/// 1 where it is not set, so that it is to be called before there are threads. Throws Error(usage) for a library that
-/// the program was built without, Error(io) for OSMesa where it is not installed, Error(internal) if it cannot make
-/// a 3.3 core context.
+/// Makes a context by a library; without one by the default, or by EGL where OSMesa is not installed. EGL sets the
+/// variable LIBGL_ALWAYS_SOFTWARE to 1 where it is not set, so that this is to be called before there are threads.
+/// Throws Error(usage) for a library that the program was built without, Error(io) for OSMesa where it is not
+/// installed, Error(internal) if the library cannot make a 3.3 core context.
 std::unique_ptr<OffscreenContext> make_offscreen_context(std::optional<OffscreenLibrary> library = {});
 
 }  // namespace kerf::view

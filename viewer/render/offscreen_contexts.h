@@ -7,7 +7,7 @@
 
 namespace kerf::view {
 
-/// Whether its library is there, which is loaded when it is asked for.
+/// Returns whether the library OSMesa is there; loads it.
 bool has_osmesa();
 std::unique_ptr<OffscreenContext> make_osmesa_context();
 std::unique_ptr<OffscreenContext> make_egl_context();

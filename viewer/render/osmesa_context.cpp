@@ -19,7 +19,7 @@ namespace {
 // The renderer draws into a framebuffer of its own, so that the one that OSMesa asks for need not be large.
 constexpr int buffer_size = 16;
 
-// What is called of it. Once loaded it stays so until the program ends.
+// The functions of OSMesa that are called. Once loaded, the library stays until the program ends.
 struct Osmesa {
     void* library = ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
     decltype(&OSMesaCreateContextAttribs) create = find<decltype(create)>("OSMesaCreateContextAttribs");

@@ -1,4 +1,4 @@
-// What the painters are told.
+// The task of a painter.
 #pragma once
 
 #include "viewer/model/camera.h"
@@ -7,21 +7,22 @@
 
 namespace kerf::view {
 
-/// One layer of a scene, its copy on the GPU, and where it goes.
+/// One layer of a scene, its copy on the GPU, and the projection to draw it by.
 struct PaintJob {
     const Layer& layer;
     const GpuGeometry& geometry;
     const Scene& scene;
     const Projection& projection;
-    bool shows_fronts = false;  ///< of glass: backs and fronts are drawn one after the other
+    bool shows_fronts =
+        false;  ///< of glass, whose backs and fronts are drawn one after the other: these are the fronts
 
     const std::array<float, 4>& clip_plane() const {
         static const ClipPlane everything;
         return layer.clipped ? scene.clip.plane : everything.plane;
     }
 
-    /// Whether no back of a triangle can be seen: the bodies are closed, and neither the clip plane nor the near plane
-    /// of the projection cuts one open. Errs on the side of false.
+    /// Returns whether no back of a triangle can be seen, because the bodies are closed and neither the clip plane nor
+    /// the near plane of the projection cuts one open. Errs on the side of false.
     bool hides_backs() const;
 };
 

@@ -1,5 +1,9 @@
-// The point that is hit comes from the geometry, not from the depth buffer, whose 24 bits are too coarse for close
-// looks.
+// Picking by an id buffer: the shaders write numbers (layer + 1, primitive, range, 0) instead of colours into a target
+// of 32-bit integers, so that the answer is exact whatever is drawn over the primitive. Layers that are opaque but
+// cannot be picked write layer 0: they hide others and are not hit. For a single pixel the projection is narrowed to a
+// viewport of 1 x 1, so that the GPU rasters one pixel. The point that is hit is the intersection of the line of sight
+// with the triangle, in double: the depth buffer's 24 bits are too coarse for close looks. Value and place at rest are
+// interpolated by barycentric coordinates; `offset` is the range's, by which a part is pulled away when it is drawn.
 #include "viewer/render/picker.h"
 
 #include <cmath>
@@ -21,14 +25,14 @@ Vec3d to_double(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
 bool is_pickable(const Layer& layer) { return layer.geometry && !layer.geometry->element.empty(); }
 
-// In draw coordinates, through the middle of the only pixel of a narrowed projection.
+// The line of sight, in draw coordinates, through the middle of the only pixel of a narrowed projection.
 Ray ray_of(const Projection& pixel) {
     const Eigen::Matrix4d back = (pixel.projection.cast<double>() * pixel.view.cast<double>()).inverse();
     const auto unproject = [&](double depth) { return Vec3d((back * Eigen::Vector4d(0, 0, depth, 1)).hnormalized()); };
     return {unproject(-1), unproject(1)};
 }
 
-// On the plane of the triangle; its centre where the plane holds the line of sight.
+// The point of the triangle's plane on the line of sight; the triangle's centre where the plane holds that line.
 Vec3d point_on_triangle(const Corner* corners, const Ray& ray) {
     const Vec3d a = to_double(corners[0].position);
     const Vec3d b = to_double(corners[1].position), c = to_double(corners[2].position);
@@ -45,7 +49,7 @@ Eigen::Vector3f point_of(const Geometry& geometry, std::uint32_t primitive, cons
     return point_on_triangle(&geometry.corners[3 * std::size_t{primitive}], ray).cast<float>();
 }
 
-// Of a point of a triangle at its corners; thirds where it has no area.
+// The barycentric coordinates of a point of a triangle; thirds where the triangle has no area.
 Vec3d shares_of_corners(const Corner* corners, const Vec3d& point) {
     const Vec3d a = to_double(corners[0].position);
     const Vec3d ab = to_double(corners[1].position) - a, ac = to_double(corners[2].position) - a;
@@ -104,7 +108,7 @@ Projection narrow_to_pixel(const Projection& projection, int x, int y) {
     return pixel;
 }
 
-// What the shaders write for each pixel: layer + 1, primitive, range, 0.
+// Draws the numbers of each pixel: layer + 1, primitive, range, 0.
 std::vector<GLuint> Picker::draw(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
                                  TrianglePainter& triangles, StrokePainter& strokes) {
     if (target_.width() != projection.width || target_.height() != projection.height)

@@ -1,4 +1,4 @@
-// Finds what lies under a pixel, or under each of them, by drawing numbers instead of colours.
+// The primitive under a pixel, or under each pixel, found by drawing numbers instead of colours.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,26 @@
 
 namespace kerf::view {
 
-/// `projection` narrowed to the pixel at (x, y) of its viewport, from its lower left corner: a viewport of 1 x 1.
+/// Returns `projection` narrowed to the pixel at (x, y) of its viewport, counted from the lower left corner: its
+/// viewport is 1 x 1.
 Projection narrow_to_pixel(const Projection& projection, int x, int y);
 
 class Picker {
  public:
     explicit Picker(const Gl& gl) : gl_(gl), target_(gl, GL_RGBA32UI, 1, 1) {}
 
-    /// See Renderer::pick; (x, y) counts from the lower left corner of the viewport. Leaves another framebuffer bound.
+    /// Returns the foremost primitive at a pixel (see Renderer::pick); (x, y) counts from the lower left corner of the
+    /// viewport. Leaves another framebuffer bound.
     std::optional<PickHit> pick(const Scene& scene, const Projection& projection, int x, int y, GpuGeometryCache& cache,
                                 TrianglePainter& triangles, StrokePainter& strokes);
 
-    /// Of each pixel of the viewport four numbers: layer + 1 or 0, triangle or point, range, 0; rows from the bottom to
-    /// the top. Leaves another framebuffer bound.
+    /// Returns four numbers for each pixel of the viewport: layer + 1 or 0, triangle or point, range, 0; rows from the
+    /// bottom to the top. Leaves another framebuffer bound.
     std::vector<GLuint> ids(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
                             TrianglePainter& triangles, StrokePainter& strokes);
 
-    /// The number in Layer::patch of what is seen at each pixel of the viewport, or -1; rows from the bottom to the
-    /// top. Leaves another framebuffer bound.
+    /// Returns for each pixel of the viewport the number in Layer::patch of the triangle seen there, or -1; rows from
+    /// the bottom to the top. Leaves another framebuffer bound.
     std::vector<std::int32_t> patches(const Scene& scene, const Projection& projection, GpuGeometryCache& cache,
                                       TrianglePainter& triangles, StrokePainter& strokes);
 

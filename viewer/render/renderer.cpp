@@ -1,5 +1,10 @@
-// A picture is: background; opaque triangles; what shines through of lines and points; lines and points; triangles that
-// are not opaque, backs before fronts. OpenGL's state is at its default between calls.
+// A picture is drawn in this order: background; opaque triangles; the parts of lines and points that shine through;
+// lines and points; triangles that are not opaque, backs before fronts, without writing depth. Backs before fronts is
+// the right order within a convex body and needs no sorting. Closed bodies that nothing cuts open are drawn without
+// their backs (PaintJob::hides_backs()), which is up to twice as fast. The picture is in a framebuffer of its own, so
+// that it is the same with and without a window. A Projection's viewport counts pixels from the lower left corner as
+// OpenGL does; places that callers give and get count from the top left. OpenGL's state is at its default between
+// calls.
 #include "viewer/render/renderer.h"
 
 #include <algorithm>
@@ -30,7 +35,7 @@ const Gl& checked_version(const Gl& gl) {
     return gl;
 }
 
-// In developer builds only: asking waits for the driver.
+// Checks OpenGL's errors in developer builds only: asking waits for the driver.
 void check_in_debug([[maybe_unused]] const Gl& gl, [[maybe_unused]] const char* where) {
 #ifndef NDEBUG
     check_gl(gl, where);

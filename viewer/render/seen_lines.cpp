@@ -31,7 +31,7 @@ class SeenLines {
     std::vector<SeenSegment> seen;
 
  private:
-    // Far outside for what lies behind the eye.
+    // The place of a point on the picture; far outside if it lies behind the eye.
     Eigen::Vector2f pixel_of(const std::array<float, 3>& p, const Eigen::Vector3f& offset) const {
         const Eigen::Vector3f moved = Eigen::Vector3f(p[0], p[1], p[2]) + offset;
         const Eigen::Vector4f clip = matrix_ * moved.homogeneous();

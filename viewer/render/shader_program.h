@@ -16,8 +16,9 @@ namespace kerf::view {
 /// A vertex and a fragment shader, linked.
 class ShaderProgram {
  public:
-    /// The files, in `folder`, have no #version line; `defines` are switched on for #ifdef in both. Throws Error(io)
-    /// if a file is missing, Error(internal) with the file and the driver's words if one does not compile.
+    /// Compiles and links the two files in `folder`, which have no #version line; `defines` are switched on for #ifdef
+    /// in both. Throws Error(io) if a file is missing, Error(internal) with the file and the driver's words if one does
+    /// not compile.
     ShaderProgram(const Gl& gl, const std::string& folder, const std::string& vertex_file,
                   const std::string& fragment_file, const std::vector<std::string>& defines = {});
     ~ShaderProgram();
@@ -26,7 +27,7 @@ class ShaderProgram {
 
     void use() const { gl_.UseProgram(id_); }
 
-    // The program must be in use. Uniforms that the driver has optimised away are passed over.
+    // Sets a uniform of the program, which must be in use. Uniforms that the driver has optimised away are passed over.
     void set(const char* uniform, int value) { gl_.Uniform1i(location(uniform), value); }
     void set(const char* uniform, unsigned value) { gl_.Uniform1ui(location(uniform), value); }
     void set(const char* uniform, float value) { gl_.Uniform1f(location(uniform), value); }

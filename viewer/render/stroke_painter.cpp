@@ -1,7 +1,10 @@
-// Borders are soft, and the strokes of a line overlap where they join. Opaque strokes therefore write depth first,
-// where they cover half of a pixel or more; then their colour is blended from a little nearer, so that the joint of two
-// strokes is not cut by the depth of the first. Where strokes are see-through, the stencil lets every pixel be drawn
-// once: first what they cover, then their borders around it.
+// Strokes: lines and points of a width in pixels, with soft borders. Strokes of a line overlap where they join. Opaque
+// strokes therefore write depth first, where they cover half of a pixel or more; then their colour is blended from a
+// little nearer, so that the joint of two strokes is not cut by the depth of the first. See-through strokes must not
+// add up where they overlap: the stencil lets every pixel be drawn once, first the pixels that they cover, then their
+// borders around these. Each such drawing takes the next of 255 stencil values, so that the stencil is cleared only
+// when they are used up. "Coverage" is the share of a pixel that a stroke covers; "nearer" the distance by which it is
+// drawn before its place.
 #include "viewer/render/stroke_painter.h"
 
 #include <algorithm>
@@ -16,7 +19,7 @@ constexpr float least_coverage = 1.f / 512;  // less does not change 8 bits of c
 
 float radius_of(const PaintJob& job) { return 0.5f * job.layer.pixels * job.projection.pixel_ratio; }
 
-// Small discs are all rim: they get none.
+// The width of the dark rim of a disc; small discs, which would be all rim, get none.
 float rim_of(const PaintJob& job) {
     const float radius = radius_of(job), ratio = job.projection.pixel_ratio;
     return radius < 2 * ratio ? -1 : std::min(0.35f * radius, 1.5f * ratio);

@@ -1,4 +1,4 @@
-// Draws layers of lines and points.
+// The painter of lines and points, which are strokes of a width in pixels.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,30 @@
 
 namespace kerf::view {
 
-/// The framebuffer and its viewport are the caller's. Before and after each call the depth test is on with GL_LESS and
-/// depth is written; blending and the stencil test are off.
+/// A painter of layers of lines and points. The framebuffer and its viewport are the caller's. Before and after each
+/// call the depth test is on with GL_LESS and depth is written; blending and the stencil test are off.
 class StrokePainter {
  public:
     StrokePainter(const Gl& gl, const std::string& shader_folder);
 
-    /// The stencil has been cleared to 0.
+    /// Begins a picture, whose stencil has been cleared to 0.
     void begin_picture() { stencil_ = 0; }
 
-    /// Opaque lines and points write depth, others do not.
+    /// Draws the layer. Opaque lines and points write depth, others do not.
     void draw(const PaintJob& job);
 
-    /// Where something lies before them, faintly. Call it before draw(), lest they hide themselves.
+    /// Draws the parts of the layer before which something lies, faintly. Call it before draw(), lest lines and points
+    /// hide themselves.
     void draw_hidden(const PaintJob& job);
 
-    /// Points into a framebuffer of unsigned integers: (`id`, number of the point, of the range, 0).
+    /// Draws points into a framebuffer of unsigned integers, as the numbers (`id`, point, range, 0).
     void draw_ids(const PaintJob& job, std::uint32_t id);
 
  private:
     struct Pass {
-        float least = 0;  // coverage of a pixel that is drawn: from `least` to below `below`
+        float least = 0;  // pixels are drawn whose coverage is in [`least`, `below`)
         float below = 2;
-        float nearer = 0;  // how far before its place a stroke is drawn, in units of its radius and a pixel
+        float nearer = 0;  // distance before its place at which a stroke is drawn, in units of its radius and a pixel
         float alpha = 1;
     };
     void draw_opaque(ShaderProgram& program, const PaintJob& job);

@@ -1,4 +1,8 @@
-// A program per combination of fill, edges and shading: a driver that computes on the CPU pays for every unused line.
+// Triangles by a program for each combination of fill, edges and shading, twelve in all: a driver that computes on the
+// CPU pays for every unused line of a shader. Colours come from a texture of one row: a scale is subdivided into 1024
+// steps, finer than 8 bits of colour show, and a palette is taken as it is; a row is uploaded again only when its bytes
+// change. Nearest filtering keeps categories apart. Lights are fixed to the eye, so that the side that is looked at is
+// lit. Edges fade where triangles are only a few pixels high, as they would blacken a fine mesh.
 #include "viewer/render/triangle_painter.h"
 
 #include <algorithm>
@@ -48,19 +52,19 @@ std::vector<std::uint8_t> to_bytes(const std::vector<Color>& colors) {
     return bytes;
 }
 
-// What a layer really gets: without colours to choose from, those of the ranges.
+// The fill that a layer really gets: without colours to choose from, those of the ranges.
 Fill fill_of(const Layer& layer, const Scene& scene) {
     if (layer.fill == Fill::scale && scene.scale.colors.size() < 2) return Fill::plain;
     if (layer.fill == Fill::categories && scene.palette.empty()) return Fill::plain;
     return layer.fill;
 }
 
-// A direction in eye coordinates, in draw coordinates.
+// Turns a direction from eye coordinates to draw coordinates.
 Eigen::Vector3f from_eye(const Projection& projection, const Eigen::Vector3f& direction) {
     return (projection.view.topLeftCorner<3, 3>().transpose() * direction).normalized();
 }
 
-// The point that it looks from (w = 1) or the direction towards it (w = 0), in draw coordinates.
+// The point of the eye (w = 1), or the direction towards it (w = 0), in draw coordinates.
 std::array<float, 4> eye_of(const Projection& projection) {
     const bool perspective = projection.projection(3, 2) != 0;
     const Eigen::Vector4f in_eye(0, 0, perspective ? 0 : 1, perspective ? 1 : 0);

@@ -1,4 +1,4 @@
-// Draws layers of triangles.
+// The painter of triangles.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,15 @@
 
 namespace kerf::view {
 
-/// The framebuffer and its viewport, the depth test, blending and culling are the caller's.
+/// A painter of layers of triangles. The framebuffer and its viewport, the depth test, blending and culling are the
+/// caller's.
 class TrianglePainter {
  public:
     TrianglePainter(const Gl& gl, const std::string& shader_folder);
 
     void draw(const PaintJob& job);
 
-    /// Into a framebuffer of unsigned integers: (`id`, number of the triangle, of the range, 0).
+    /// Draws triangles into a framebuffer of unsigned integers, as the numbers (`id`, triangle, range, 0).
     void draw_ids(const PaintJob& job, std::uint32_t id);
 
  private:
@@ -39,7 +40,7 @@ class TrianglePainter {
     void bind_row(ColorRow& row, const std::vector<Color>& colors);
 
     const Gl& gl_;
-    std::map<int, std::unique_ptr<ShaderProgram>> programs_;  // by fill, edges and smooth
+    std::map<int, std::unique_ptr<ShaderProgram>> programs_;  // programs by fill, edges and smooth (key_of())
     ShaderProgram ids_;
     ColorRow scale_, palette_;
 };

@@ -1,3 +1,9 @@
+// Dear ImGui's draw lists by OpenGL 3.3: each list is uploaded and drawn command by command, with the command's clip
+// rectangle as the scissor and its texture bound. ImTextureID holds OpenGL's name of a texture. The font atlas is a
+// texture of one channel, swizzled to white with the font's coverage as alpha, so that one shader serves text and
+// pictures. An atlas whose pixels are there has been built since its last upload, and is uploaded again; its pixels are
+// freed then. Lists that were laid out before the first upload have no texture yet and get the atlas. The scissor
+// counts from the lower left, ImGui from the upper left.
 #include "viewer/render/ui_painter.h"
 
 #include <algorithm>
@@ -62,7 +68,7 @@ void UiPainter::update_fonts(ImFontAtlas& fonts) {
     gl_.BindTexture(GL_TEXTURE_2D, fonts_.id());
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    // White, with what the font covers as alpha: the same shader serves pictures.
+    // White, with the font's coverage as alpha: the same shader serves pictures.
     for (GLenum part : {GL_TEXTURE_SWIZZLE_R, GL_TEXTURE_SWIZZLE_G, GL_TEXTURE_SWIZZLE_B})
         gl_.TexParameteri(GL_TEXTURE_2D, part, GL_ONE);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_A, GL_RED);
@@ -111,7 +117,7 @@ void UiPainter::draw_command(const ImDrawCmd& command, const ImDrawData& ui, int
     const int bottom = pixel(clip.w, ui.DisplayPos.y, ui.FramebufferScale.y, height);
     if (right <= left || bottom <= top) return;
     gl_.Scissor(left, height - bottom, right - left, bottom - top);
-    // What was laid out before the fonts were uploaded for the first time does not know their texture yet.
+    // A list that was laid out before the fonts were first uploaded does not know their texture yet.
     const GLuint texture = from_imgui(command.GetTexID());
     gl_.BindTexture(GL_TEXTURE_2D, texture != 0 ? texture : fonts_.id());
     gl_.DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),

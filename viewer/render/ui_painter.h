@@ -1,5 +1,5 @@
-// Draws the user interface that Dear ImGui has laid out. Its own OpenGL renderer does not start without a window
-// system, therefore this one.
+// The painter of the user interface that Dear ImGui has laid out. ImGui's own OpenGL renderer does not start without a
+// window system, therefore this one.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ class UiPainter {
  public:
     UiPainter(const Gl& gl, const std::string& shader_folder);
 
-    /// Into the framebuffer that is bound, of `width` x `height` pixels. `fonts` is uploaded when it has been built
-    /// anew, and loses its copy of the pixels then.
+    /// Draws into the framebuffer that is bound, of `width` x `height` pixels. `fonts` is uploaded when it has been
+    /// built anew, and loses its copy of the pixels then.
     void draw(const ImDrawData& ui, ImFontAtlas& fonts, int width, int height);
-    /// A picture as ImGui's ImTextureID. It stays as long as this.
+    /// Returns a picture as ImGui's ImTextureID, which is valid as long as the painter lives.
     void* add_picture(const Image& picture);
 
  private:

@@ -1,5 +1,5 @@
-// The distance to the nearest pixel of another number, by a pass over the rows in each direction (Rosenfeld and
-// Pfaltz).
+// The distance to the nearest pixel of another number, along rows and columns, by a pass over the rows in each
+// direction (Rosenfeld and Pfaltz 1966).
 #include "viewer/render/widest_places.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class Distances {
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
-    // What a neighbour knows; 0 if it is another number's.
+    // The distance of a neighbour; 0 if it has another number or lies outside.
     int from(int x, int y, int nx, int ny) const {
         const bool is_inside = nx >= 0 && ny >= 0 && nx < width_ && ny < height_;
         return is_inside && image_[index(nx, ny)] == image_[index(x, y)] ? distance_[index(nx, ny)] : 0;
@@ -40,7 +40,7 @@ class Distances {
 
 std::vector<NumberPlace> widest_places(std::span<const std::int32_t> image, int width, int height) {
     Distances distances(image, width, height);
-    std::map<std::int32_t, std::vector<NumberPlace>> widest;  // all that have as much room
+    std::map<std::int32_t, std::vector<NumberPlace>> widest;  // by number, all pixels with the most room
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const std::int32_t number =

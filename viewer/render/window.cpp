@@ -1,5 +1,9 @@
-// GLFW calls back; a callback notes what happened and ImGui's own ones, which are installed after these and call them,
-// note it for the panels.
+// The window by GLFW, which calls back while events are taken. Our callbacks note that something happened; ImGui's own
+// are installed after them and call them. Keys and characters are different: ImGui looks at the state of keys once a
+// frame, so that a key pressed and let go between two frames would be missed. They are queued, and handed over frame by
+// frame, as many as do not hide one another; the rest waits and asks for another frame. The window's framebuffer has no
+// depth and no samples, as pictures are copied into it. GLFW's places and sizes are in units of the window
+// (frame_size.h).
 #include "viewer/render/window.h"
 
 #include <algorithm>
@@ -25,7 +29,7 @@ std::string glfw_reason() {
     return reason != nullptr ? reason : "no reason is given";
 }
 
-// Ends GLFW when it goes.
+// The lifetime of GLFW.
 class Glfw {
  public:
     Glfw() {
@@ -48,7 +52,8 @@ FrameSize frame_size_of(GLFWwindow* window) {
     return frame_size_of_window(pixel_width, pixel_height, width, height, scale);
 }
 
-// Not so small that it could not be read, and no larger than the largest screen: it may have been made for another one.
+// Limits the window: not so small that it could not be read, and no larger than the largest screen, as its size may
+// come from another one.
 void fit_to_screens(GLFWwindow* window) {
     const FrameSize size = frame_size_of(window);
     int least_width = static_cast<int>(900 * size.scale / size.pixels_per_unit_x);
@@ -117,7 +122,7 @@ struct Window::Impl {
         int key = -1, scancode = 0, action = 0, mods = 0;
         unsigned character = 0;
     };
-    std::deque<KeyChange> for_imgui;  // that it has not seen yet
+    std::deque<KeyChange> for_imgui;  // changes that ImGui has not seen yet
     std::vector<KeyEvent> key_events;
     bool happened = true;  // the first picture is due
     std::vector<std::string> dropped;
@@ -155,7 +160,7 @@ void Window::Impl::install_callbacks() {
     });
 }
 
-// These take the place of ImGui's own, which are called frame by frame.
+// Installs callbacks of keys in the place of ImGui's own, which are called frame by frame.
 void Window::Impl::install_key_callbacks() {
     glfwSetKeyCallback(window.get(), [](GLFWwindow* source, int key, int scancode, int action, int mods) {
         Impl& impl = impl_of<Impl>(source);
@@ -174,8 +179,8 @@ void Window::Impl::install_key_callbacks() {
     });
 }
 
-// ImGui looks at the state of keys once a frame, after the characters: what would hide from it an earlier change waits
-// for the next frame.
+// Hands changes of keys to ImGui, which looks at the state of keys once a frame, after the characters: a change that
+// would hide an earlier one from it waits for the next frame.
 void Window::Impl::hand_keys_to_imgui() {
     std::set<int> changed;
     for (; !for_imgui.empty(); for_imgui.pop_front()) {

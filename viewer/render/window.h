@@ -1,4 +1,4 @@
-// A window with an OpenGL context, and its events on their way to Dear ImGui. The only place that knows GLFW.
+// A window with an OpenGL context, and its events on their way to Dear ImGui. This is the only place that knows GLFW.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ struct Gl;
 
 class Window {
  public:
-    /// Opens the window and makes its context current. Width and height are pixels of a screen of scale 1: a HiDPI
-    /// screen has more for it. It becomes no larger than the largest screen. An ImGui context must exist. Throws
-    /// Error(io) where there is no display, saying so and naming `kerf screenshot`; Error(internal) if the display
-    /// offers no OpenGL 3.3.
+    /// Opens the window and makes its context current. Width and height are pixels of a screen of scale 1; a HiDPI
+    /// screen takes more pixels. The window becomes no larger than the largest screen. An ImGui context must exist.
+    /// Throws Error(io) where there is no display, saying so and naming `kerf screenshot`; Error(internal) if the
+    /// display offers no OpenGL 3.3.
     Window(const std::string& title, int width, int height);
     ~Window();
     Window(const Window&) = delete;
@@ -30,16 +30,16 @@ class Window {
     void close();
     void set_title(const std::string& title);
 
-    /// Hands what has happened to ImGui's input (ImGui_ImplGlfw_NewFrame included). Sleeps until something happens, at
-    /// most `wait_seconds`. Returns whether anything did; the first call does, at once, since nothing is drawn yet.
+    /// Takes the events of the window. Sleeps until something happens, at most `wait_seconds`, and returns whether
+    /// anything did; the first call does at once, since nothing is drawn yet.
     bool take_events(double wait_seconds);
-    /// Hands it to ImGui's input, and the time since the last call. Before every frame.
+    /// Hands the events to ImGui's input, with the time since the last call. Call it before every frame.
     void begin_frame();
-    /// Keys that were pressed since the last call.
+    /// Returns the keys that were pressed since the last call.
     std::vector<KeyEvent> take_key_events();
-    /// Files that were dropped onto the window since the last call.
+    /// Returns the files that were dropped onto the window since the last call.
     std::vector<std::string> take_dropped_files();
-    /// Shows what was drawn.
+    /// Shows the picture that was drawn.
     void swap();
 
  private:
