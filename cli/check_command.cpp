@@ -1,4 +1,4 @@
-// kerf check: what is wrong with a surface.
+// kerf check: the defects of a surface, or its patches or regions.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 struct CheckRequest {
     std::vector<std::string> files;
-    std::string path;  // the first of them
+    std::string path;  // the first of the files
     InputOptions options;
     double needle_angle_deg = 1;
     bool json = false;

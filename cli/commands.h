@@ -15,7 +15,7 @@ AddCommand add_check_command, add_decompose_command, add_export_command, add_hel
     add_mesh_command, add_quality_command, add_remesh_command, add_repair_command, add_report_command,
     add_verify_command, add_wrap_command;
 
-/// In the order of the help.
+/// The functions that add these commands, in the order of the help.
 inline constexpr AddCommand* own_commands[] = {
     add_mesh_command,   add_decompose_command, add_check_command,   add_verify_command,
     add_export_command, add_merge_command,     add_quality_command, add_report_command,

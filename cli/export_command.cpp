@@ -1,4 +1,8 @@
-// kerf export: a finished run in the formats of solvers, also on the ranks of a job.
+// kerf export: a finished run in the formats of solvers, also on the ranks of a job. The line goes into an
+// ExportRequest, and export_run() (run/export_run.h) does all else; formats, their names and their help come from the
+// table of export/formats.cpp, so that a new format needs no code here. The request lives in a shared pointer that the
+// callback of the parsed command keeps, as all commands have it: the function that adds the command has returned when
+// it runs.
 #include <memory>
 
 #include <fmt/format.h>
@@ -32,7 +36,7 @@ std::string summary_text(const ExportRequest& request, const ExportSummary& summ
                        summary.files.size(), static_cast<double>(bytes) * 1e-6);
 }
 
-// Collective. Returns the exit code, the same on every rank.
+// Exports the run. Collective. Returns the exit code, the same on every rank.
 int export_on_ranks(ExportRequest request, bool quiet) {
     const Ranks ranks = join_ranks();
     const bool root = ranks.communicator->rank() == 0;

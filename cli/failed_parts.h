@@ -1,11 +1,11 @@
-// What a user has to know of parts that could not be meshed.
+// Messages about parts that could not be meshed.
 #pragma once
 
 #include "report/report.h"
 
 namespace kerf {
 
-/// Prints for each of them where it lies, why it failed and how to repeat that, and what is left to do.
+/// Prints for each failed part its place, the reason and the way to repeat the failure, and then the way to go on.
 void tell_failed_parts(const RunReport& report);
 
 }  // namespace kerf

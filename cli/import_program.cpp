@@ -1,3 +1,8 @@
+// The main function of kerf-cad and kerf-3mf: a file becomes a CadAnswer (io/cad_body.h), body or error, which kerf
+// reads from standard output. The libraries print to standard output, too, so that it is moved away first: its
+// descriptor is kept for the answer alone, and prints go to standard error. Nothing is written to a terminal, where the
+// answer would be of no use. An error is in the answer as well as in a message and the exit code, so that kerf can tell
+// its kind and elements. The process ends by _exit(), as the library's own end would take longer.
 #include "cli/import_program.h"
 
 #include <algorithm>
@@ -18,7 +23,7 @@ namespace {
 
 CadAnswer failed(ErrorCode code, const std::string& message) { return {static_cast<std::int32_t>(code), message, {}}; }
 
-// What somebody has written for this process.
+// Reads standard input, which kerf writes, to its end.
 Bytes read_input_stream() {
     Bytes bytes;
     std::array<char, 65536> buffer;
@@ -27,7 +32,7 @@ Bytes read_input_stream() {
     return bytes;
 }
 
-// `projector`: null to import the file.
+// Makes the answer for a file. `projector`: null to import the file.
 CadAnswer answer_for(const std::string& path, std::span<const std::string> arguments, ImportFunction importer,
                      ProjectFunction projector) {
     try {
@@ -64,7 +69,7 @@ std::string take_output(std::vector<std::string>& arguments) {
     return path;
 }
 
-// Takes `--project` out of the arguments; whether it was there.
+// Takes `--project` out of the arguments, and returns whether it was there.
 bool take_project(std::vector<std::string>& arguments) { return std::erase(arguments, "--project") > 0; }
 
 void write_all(int descriptor, std::span<const char> bytes) {

@@ -1,5 +1,9 @@
-// kerf-solve: linear elasticity on a surface, which is meshed first, or on the parts of a run, in a program of its own.
-// Started by `kerf solve`, also under mpirun.
+// kerf-solve: linear elasticity on a surface, which is meshed first, or on the parts of a run. It is a program of its
+// own, because only it links PETSc, and `kerf solve` starts it, also under mpirun. Alone it starts as many ranks of
+// itself as are of use (run_as_ranks()) and only hands their exit code on. An input that is a folder is a run, all else
+// a surface; options that shape a mesh are refused for a run. Errors are of two kinds: an Error meets all ranks alike
+// and each ends by itself with its code; any other, and a failure of PETSc, may meet one rank in the middle of a
+// collective operation, which then ends all of them, as the others would wait for ever.
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -36,10 +40,11 @@ struct SolveLine {
     bool meshes = false;
     MeshAndSolveRequest request;
     bool list_patches = false, quiet = false;
-    int ranks = 0;  // processes; 0: as many as are of use
+    int ranks = 0;  // number of processes; 0: as many as are of use
 };
 
-// Facets stay as they are unless they are remeshed, and cells beside them are as coarse.
+// Checks the options of the mesh against the input. With --adapt a surface is remeshed unless --surface is given,
+// because facets that stay keep the cells beside them coarse.
 void check_mesh_options(const CLI::App& solve, SolveLine& line) {
     RunOptions& mesh = line.request.mesh;
     if (solve.get_option("--order")->count() > 0) line.request.solve.order = mesh.order;
@@ -107,7 +112,7 @@ void add_options(CLI::App& command, SolveLine& line) {
                    "size", "surface", "feature-angle", "workers", "quiet"});
 }
 
-// Fills the line, or has an answer that takes the place of a run.
+// Fills the line, or returns an answer that takes the place of a run.
 std::optional<Answer> parse_solve_line(int argc, const char* const* argv, SolveLine& line) {
     CLI::App app(
         "Kerf: linear elasticity on a surface or on the parts of a finished run.\n"
@@ -133,7 +138,8 @@ std::optional<Answer> parse_solve_line(int argc, const char* const* argv, SolveL
     return std::nullopt;
 }
 
-// As many as there are workers or processors, if they are of use. What lists patches does no work.
+// The number of ranks to start: that of the workers or processors, as far as these are of use; 1 for a list of patches,
+// which is no work.
 int wanted_ranks(const SolveLine& line) {
     if (line.ranks > 0 || line.list_patches) return std::max(1, line.ranks);
     const int useful = line.meshes ? useful_ranks_of_surface(line.input, line.request.mesh.decompose.parts)
@@ -143,7 +149,7 @@ int wanted_ranks(const SolveLine& line) {
     return std::clamp(most, 1, std::max(1, useful));
 }
 
-// Of those that were asked for, the share of each rank that this program has started itself.
+// Divides the workers that were asked for among the ranks that this program has started itself.
 void share_workers(SolveLine& line, int ranks) {
     int& workers = line.request.mesh.workers;
     if (workers > 0 && line.ranks == 0 && is_own_launch()) workers = std::max(1, workers / ranks);
@@ -206,8 +212,8 @@ int mesh_and_solve_on_ranks(const SolveLine& line, const Ranks& ranks, EventLog*
     return report.exit_code;
 }
 
-// An error that all ranks meet ends them alike. What only one of them meets, in the middle of what they do together,
-// has to end the others.
+// Runs the solver and returns the exit code. An error that all ranks meet ends them alike; an error of a single rank,
+// in the middle of an operation of all, has to end the others.
 int run_solver(int argc, char** argv) {
     SolveLine line;
     if (const auto answer = parse_solve_line(argc, argv, line)) return tell_answer(*answer);
@@ -250,7 +256,7 @@ int run_solver(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     kerf::prepare_standard_streams();
-    ::unsetenv("PETSC_OPTIONS");  // the case says what PETSc is told
+    ::unsetenv("PETSC_OPTIONS");  // the case alone sets options of PETSc
     try {
         return kerf::run_solver(argc, argv);
     } catch (const kerf::Error& e) {

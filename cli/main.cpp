@@ -1,4 +1,6 @@
-// kerf: the headless program. Root rank prints; data goes to files, except for --json and --print-config.
+// kerf: the program without windows. Commands of other programs (other_programs.h) replace this process; the others
+// have a file each (commands.h). Messages go to standard error, from the first rank of a job; data goes to files, or to
+// standard output where the user has asked for it there.
 #include <cstring>
 #include <exception>
 
@@ -42,7 +44,7 @@ int run_program(int argc, char** argv) {
     app.require_subcommand(1);
     int exit_code = 0;
     for (AddCommand* add : own_commands) add(app, exit_code);
-    // Only for the list of commands: they have been passed on.
+    // Commands of other programs are here only for the list: they have been passed on.
     for (const OtherProgram& other : other_programs) app.add_subcommand(other.command, other.help)->disabled();
     if (const auto answer = answer_before_parsing(app, argc, argv, version, [](const std::string& shell) {
             return output_of_other_programs({"--completion", shell});

@@ -1,3 +1,9 @@
+// The request of a run, settled from command line, config file and interrupted run. The command line wins over a config
+// file, so that an entry is applied only where its option was not given. A config file may come from anybody and must
+// not write anything but a run: options that name files to be written are refused in it. A resumed run takes its
+// options from the interrupted one; options of the line may change only those that do not shape the parts that are
+// finished. An output with the ending of a merged format is one file: the run goes into a folder beside it
+// (run_folder_beside()) and is merged at the end, and options whose result that file cannot hold are refused.
 #include "cli/mesh_request.h"
 
 #include <algorithm>
@@ -17,7 +23,7 @@ namespace kerf {
 
 namespace {
 
-// What a config file may say. It may come from anybody, and write nothing but a run.
+// The options that a config file may set. It may come from anybody, and write nothing but a run.
 std::vector<OptionField> config_fields(MeshRequest& request) {
     std::vector<OptionField> fields = option_fields(request.options);
     std::erase_if(fields, [](const OptionField& field) { return names_output(field.name); });
@@ -29,7 +35,7 @@ bool is_given(const CLI::App& command, const std::string& option) {
     return command.get_option("--" + option)->count() > 0;
 }
 
-// Sets what the command line has not given.
+// Sets the options of the config file that the command line has not given.
 void apply_config(const CLI::App& command, MeshRequest& request) {
     const std::vector<OptionField> fields = config_fields(request);
     std::vector<std::string> names;
@@ -47,14 +53,14 @@ void apply_config(const CLI::App& command, MeshRequest& request) {
     }
 }
 
-// part-mesh for parts/part.stl.gz. Cuts have another name, so that they do not replace a mesh.
+// The usual output: part-mesh for parts/part.stl.gz. Cuts have another name, so that they do not replace a mesh.
 std::string usual_output(const RunOptions& options) {
     std::filesystem::path name = std::filesystem::path(options.input).filename();
     if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
     return name.stem().string() + (options.volume ? "-mesh" : "-cut");
 }
 
-// What a run folder has beside the mesh would be lost with it.
+// Refuses options whose result a run folder holds beside the mesh: with one file it would be lost.
 void refuse_what_no_file_holds(const RunOptions& options, const std::string& file, const Format& format) {
     const auto refuse = [&](const std::string& why) {
         throw Error(ErrorCode::usage,
@@ -71,7 +77,7 @@ void refuse_what_no_file_holds(const RunOptions& options, const std::string& fil
         refuse(fmt::format("--format {} asks for other files", options.formats));
 }
 
-// A mesh in one file is that of a run in a folder beside it.
+// Chooses the places of the result. A mesh in one file is that of a run in a folder beside it.
 void settle_output(MeshRequest& request) {
     RunOptions& options = request.options;
     if (options.dry_run) return;
@@ -85,7 +91,7 @@ void settle_output(MeshRequest& request) {
     options.output = run_folder_beside(request.merged_file);
 }
 
-// The interrupted run's options, and those of this command line that change nothing of the result.
+// Takes the interrupted run's options, and those of this command line that change nothing of the result.
 void resume_run(const CLI::App& command, MeshRequest& request) {
     std::error_code ignored;
     if (find_merged_format(request.resume) && !std::filesystem::is_directory(request.resume, ignored))

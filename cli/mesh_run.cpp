@@ -1,3 +1,9 @@
+// kerf mesh and kerf decompose on the ranks of a job: checks of outputs, the log of events, the run (run/pipeline.h),
+// the merge into one file, and the messages. Every step that only the first rank does and that may fail is done
+// in_agreement(), so that an error of it ends all ranks alike; run_together() does the same for the whole. Outputs are
+// checked before the run, as an error after hours would be late. If the merge fails, the run's folder stays, because it
+// holds the whole mesh. The log of events outlives an error, which is its last line. Messages go to standard error,
+// from the first rank.
 #include "cli/mesh_run.h"
 
 #include <cstdlib>
@@ -36,14 +42,14 @@ std::unique_ptr<EventLog> open_event_log(const MeshRequest& request, Communicato
     return log;
 }
 
-// Where TetGen's .poly and .smesh may have their nodes; empty for other files.
+// The file in which TetGen's .poly and .smesh may have their nodes; empty for other files.
 std::string node_file_of(const std::string& input) {
     std::filesystem::path file = input;
     const std::string ending = file.extension().string();
     return ending == ".poly" || ending == ".smesh" ? file.replace_extension(".node").string() : "";
 }
 
-// Before the run: outputs that would be lost, or would take the place of what was read. Collective.
+// Refuses outputs that would be lost, or would take the place of files that are read. Before the run; collective.
 void check_outputs(const MeshRequest& request, Communicator& ranks) {
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
@@ -63,7 +69,7 @@ void check_outputs(const MeshRequest& request, Communicator& ranks) {
     });
 }
 
-// The one file in place of the run's folder. Collective.
+// Merges the run into one file in the place of its folder. Collective.
 void merge_result(const MeshRequest& request, const RunReport& report, Communicator& ranks) {
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
@@ -89,7 +95,7 @@ bool can_be_measured(const std::string& file) {
     return ending == ".msh" || ending == ".mesh" || ending == ".vtu" || ending == ".node";
 }
 
-// What one does next with the result; empty if that is the business of another program.
+// The command that a user is likely to run next; empty if another program takes the result.
 std::string next_command(const MeshRequest& request, const RunReport& report) {
     if (!request.merged_file.empty())
         return can_be_measured(request.merged_file) ? "kerf quality " + shell_word(request.merged_file) : "";
@@ -111,7 +117,7 @@ void tell_result(const MeshRequest& request, const RunReport& report) {
     if (request.verbose && report.reference) tell(report.reference->comparison);
 }
 
-// Returns the exit code. The log of events outlives an error.
+// Runs the request and returns the exit code. The log of events outlives an error.
 int run_on_ranks(const MeshRequest& request, const Ranks& ranks, std::unique_ptr<EventLog>& events) {
     const bool root = ranks.communicator->rank() == 0;
     const RunOptions& options = request.options;

@@ -39,7 +39,7 @@ CLI::Option* add_option_field(CLI::App& app, const OptionField& field) {
 
 void add_input_options(CLI::App& app, InputOptions& options) {
     for (const OptionField& field : input_option_fields(options)) add_option_field(app, field);
-    // What commands have with few other options is too long for one heading.
+    // A command with few other options has too many of these for one heading.
     for (const char* mends :
          {"--weld", "--fill-holes", "--repair", "--gap", "--offset", "--cap", "--thicken", "--keep-largest"})
         app.get_option(mends)->group("Repairs");
@@ -58,7 +58,8 @@ void add_run_options(CLI::App& app, RunOptions& options) {
     heed_unit(app, options.input_options);
     app.get_option("--format")->check(suggest_formats());
     app.get_option("--fields")->check(suggest_cell_fields());
-    // Another name, which the help does not list. At once, so that who asks for the option finds it given.
+    // Another name, which the help does not list. It takes effect at once, so that code that asks for the option finds
+    // it given.
     app.add_option_function<std::string>("--tetgen", [switches = app.get_option("--tetgen-switches")](
                                                          const std::string& text) { switches->add_result(text); })
         ->trigger_on_parse()

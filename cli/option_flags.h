@@ -1,4 +1,4 @@
-// The table of options as flags of a command.
+// The options of the kernel's table as flags of a command.
 #pragma once
 
 #include "request/options.h"
@@ -11,20 +11,22 @@ class Validator;
 
 namespace kerf {
 
-/// Adds --NAME, and -N where it has a short name. Values go through OptionField::set_text(), as those of config files
-/// do.
+/// Adds --NAME, and -N where the option has a short name. Values go through OptionField::set_text(), as those of config
+/// files do.
 CLI::Option* add_option_field(CLI::App& app, const OptionField& field);
 
-/// Adds input_option_fields() of a command that has no others. `options` learns whether --unit was given, too.
+/// Adds input_option_fields() to a command that has no other options of the table. `options` learns whether --unit was
+/// given, too.
 void add_input_options(CLI::App& app, InputOptions& options);
 
-/// Has `options` learn whether --unit, which the command has by now, is given.
+/// Makes `options` learn whether --unit is given, an option that the command has to have already.
 void heed_unit(CLI::App& app, InputOptions& options);
 
-/// Adds all that shapes a mesh and how it is made (option_fields()), and --tetgen, another name of --tetgen-switches.
+/// Adds all options that shape a mesh and its making (option_fields()), and --tetgen, another name of
+/// --tetgen-switches.
 void add_run_options(CLI::App& app, RunOptions& options);
 
-/// Names of all formats, and of the qualities that vtu files may have, as values that are suggested.
+/// Returns the names of all formats, or of the qualities that vtu files may have, as suggested values.
 CLI::Validator suggest_formats();
 CLI::Validator suggest_cell_fields();
 

@@ -7,20 +7,20 @@
 namespace kerf {
 
 struct OtherProgram {
-    const char* command;  ///< of kerf
-    const char* program;  ///< that lies beside it
-    const char* help;     ///< for the list of commands
-    const char* advice;   ///< where the program is missing: how to build it, and what to do without
+    const char* command;  ///< command of kerf
+    const char* program;  ///< program that lies beside kerf
+    const char* help;     ///< text for the list of commands
+    const char* advice;   ///< advice where the program is missing: the way to build it, and a way without it
 };
 
-/// The program of a command; null if it is kerf's own.
+/// Returns the program of a command; null if the command is kerf's own.
 const OtherProgram* find_other_program(const std::string& command);
 
-/// What those that are there print with these arguments, each once.
+/// Returns the output of all programs that are installed, run with these arguments, each once.
 std::string output_of_other_programs(const std::vector<std::string>& arguments);
 
 /// Replaces this program by another one, with the same arguments. Throws Error(usage), saying how to build it, if it is
-/// not there. `argv` ends with a null pointer.
+/// not installed. `argv` ends with a null pointer.
 [[noreturn]] void become(const OtherProgram& other, char** argv);
 
 inline constexpr const char* viewer_advice =

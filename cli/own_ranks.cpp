@@ -1,3 +1,10 @@
+// A program that starts mpirun of itself and waits for it. The ranks know by KERF_OWN_RANKS that this was so and how
+// many there should be: an mpirun of another MPI starts as many processes that each believe to be alone, which
+// require_own_ranks() notices. mpirun gets a process group of its own, so that Ctrl-C on the terminal reaches this
+// process alone: it passes the wish on as SIGUSR1, which mpirun hands to its ranks, and only a second wish as SIGTERM,
+// by which mpirun kills them. mpirun ends with this process, even if that is killed (PR_SET_PDEATHSIG, with a check of
+// the parent for the moment before it is set). Variables of Open MPI that it would need from the user are set unless
+// they are.
 #include "cli/own_ranks.h"
 
 #include <fcntl.h>
@@ -23,12 +30,12 @@ namespace kerf {
 namespace {
 
 constexpr const char* terminal_variable = "KERF_ON_TERMINAL";
-constexpr const char* ranks_variable = "KERF_OWN_RANKS";  // how many this program has asked for
+constexpr const char* ranks_variable = "KERF_OWN_RANKS";  // number of ranks that this program has asked for
 
-volatile std::sig_atomic_t launcher = 0;   // its process
+volatile std::sig_atomic_t launcher = 0;   // process of mpirun; 0: none
 volatile std::sig_atomic_t cancelled = 0;  // how often the user has wished for the end
 
-// Whoever is in a hurry and asks again has mpirun end the ranks.
+// Passes the wish for the end on. A second wish makes mpirun end the ranks at once.
 void pass_on(int) {
     cancelled = cancelled + 1;
     if (launcher > 0) ::kill(launcher, cancelled > 1 ? SIGTERM : SIGUSR1);
@@ -42,9 +49,9 @@ std::string find_program(const std::string& name) {
     return "";
 }
 
-// What Open MPI would refuse or add. Its mpirun runs nothing here but this program, which the user has started: as
-// root in most containers. On a machine whose processors are threads of fewer cores, ranks may share these. An exit
-// code that is not 0 has been explained by the program already.
+// Sets variables without which Open MPI would refuse to start the ranks, or add messages. Its mpirun runs nothing here
+// but this program, which the user has started: as root in most containers. On a machine whose processors are threads
+// of fewer cores, ranks may share these. An exit code that is not 0 has been explained by the program already.
 void permit_ranks() {
     for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
                              "OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_orte_execute_quiet"})
@@ -53,7 +60,8 @@ void permit_ranks() {
     if (::isatty(STDERR_FILENO) == 1) ::setenv(terminal_variable, "1", 1);
 }
 
-// In a group of its own, so that the terminal's signals reach this process alone; it ends with this one.
+// Becomes mpirun, in a group of its own, so that the terminal's signals reach the parent alone. It ends with the
+// parent.
 [[noreturn]] void become_launcher(std::vector<char*>& arguments, pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -1,3 +1,10 @@
+// Progress of a run on standard error. On a terminal one line is rewritten (\r and the code that clears to its end); in
+// a log there is a line for each tenth of the work and, after tell_each_second(), for each second. line_open_ tells
+// that the line has to be cleared before anything else is printed. A signal only sets a mark, which the run asks for by
+// cancelled(), so that it ends at a place where its folder is whole; an alarm ends the process two seconds later if the
+// run is deaf, after which the folder can be continued, too. A mutex guards all members that the second thread uses.
+// The time left of parts is the report's, by load; that of a solution follows from the residual, which falls by about
+// the same factor in each iteration.
 #include "cli/progress.h"
 
 #include <unistd.h>
@@ -46,7 +53,7 @@ std::string time_left(double left) {
                           : fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-// "[=====     ]  ", as long as the line has room beside a text of so many characters; nothing where that is little.
+// A bar "[===== ] " that fills the line beside a text of so many characters; empty where there is little room.
 std::string bar(double done, std::size_t beside) {
     constexpr int longest = 30, shortest = 5, around = 8 + 4 + 1;  // "volume  ", brackets and blanks, the cursor
     const int length = std::min(longest, terminal_columns() - static_cast<int>(beside) - around);
@@ -133,7 +140,7 @@ void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t 
     text_ = state_text();
 }
 
-// With what has been done, which is told as long as nothing new is.
+// The stage with its progress, which is told as long as there is nothing new.
 std::string ProgressLine::state_text() const {
     return total_ < 2 ? stage_ + unknowns_ : fmt::format("{}{}  {}/{}", stage_, unknowns_, done_, total_);
 }

@@ -12,15 +12,16 @@
 
 namespace kerf {
 
-/// One line with a bar that is rewritten on a terminal; a line per 10 % otherwise. Writes to standard error. While it
-/// lives, SIGINT, SIGTERM and SIGUSR1 cancel the run.
+/// A line with a bar that is rewritten on a terminal; elsewhere a line for each tenth of the work. Writes to standard
+/// error. While it lives, SIGINT, SIGTERM and SIGUSR1 cancel the run.
 class ProgressLine : public SolveListener {
  public:
-    /// `events`, unless null, is told of everything, too. `shows_plan`: what is ahead is said before it begins.
+    /// `events`, unless null, is told of everything, too. `shows_plan`: the plan of the parts is told before they are
+    /// meshed.
     ProgressLine(bool quiet, EventLog* events, bool shows_plan = true);
     ~ProgressLine() override;
-    /// From now on each stage is told, and each second that it goes on, whether somebody calls or not: by a second
-    /// thread. Without a terminal these are lines of their own.
+    /// Tells each stage from now on, and each second that it goes on, by a second thread, so that it does not depend on
+    /// calls. Without a terminal these are lines of their own.
     void tell_each_second();
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
@@ -28,7 +29,7 @@ class ProgressLine : public SolveListener {
     void on_iteration(int iteration, double residual, double wanted) override;
     void on_equations(std::int64_t unknowns) override;
     bool cancelled() const override;
-    /// Says what stays, in the place of the line.
+    /// Tells a text that stays, in the place of the line.
     void say(const std::string& text);
 
  private:
@@ -42,15 +43,15 @@ class ProgressLine : public SolveListener {
     bool quiet_, terminal_, shows_plan_, line_open_ = false;
     EventLog* events_;
     std::string stage_;
-    double last_seconds_ = 0;  // of the stage, that were printed
+    double last_seconds_ = 0;  // seconds of the stage that were printed last
     int last_tenth_ = 0;
-    std::string text_;                  // what is told again as long as nothing new is
-    std::string unknowns_;              // for the stages of a solution
-    std::size_t done_ = 0, total_ = 0;  // of the stage
+    std::string text_;                  // the text that is told again as long as there is nothing new
+    std::string unknowns_;              // text of the number of unknowns, for the stages of a solution
+    std::size_t done_ = 0, total_ = 0;  // progress of the stage
     bool each_second_ = false;
-    std::int64_t tets_at_start_ = 0;  // made by an interrupted run
+    std::int64_t tets_at_start_ = 0;  // tetrahedra made by an interrupted run
     Stopwatch of_stage_;
-    std::mutex mutex_;  // of all above, where there is the second thread, which comes last: it ends first
+    std::mutex mutex_;  // guards all above from the second thread, which is the last member, so that it ends first
     std::condition_variable_any end_;
     std::jthread each_second_thread_;
 };

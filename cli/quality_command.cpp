@@ -1,4 +1,4 @@
-// kerf quality: how good the cells of a mesh are, alone or beside another one.
+// kerf quality: the quality of the cells of a mesh, alone or beside another one.
 #include <memory>
 
 #include <fmt/format.h>

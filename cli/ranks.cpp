@@ -21,14 +21,15 @@ namespace kerf {
 
 namespace {
 
-// All of the machine where the system tells of none.
+// The number of processors; all of the machine where the system tells of none.
 int count_of(const std::vector<int>& processors) {
     return processors.empty() ? machine_processors() : static_cast<int>(processors.size());
 }
 
 #ifdef KERF_WITH_MPI
 
-// Others are told by an agreement within moments, unless they are deaf or wait for what never comes.
+// The seconds that a failed rank waits for the others: they are told by an agreement within moments, unless they are
+// deaf or wait for a message that never comes.
 constexpr unsigned seconds_for_others = 5;
 
 // The launcher ends the other ranks when one has gone like this.
@@ -38,8 +39,9 @@ void end_failed_rank_now(int code, std::string_view message) {
     ::_exit(code);
 }
 
-// What the launcher may use itself is what it could have given to its ranks: not all of the machine within the limits
-// of a batch system. Where a shell lies between, that is bound like the rank, and nothing is known.
+// Finds the processors of the ranks. Those that the launcher may use itself it could have given to its ranks: not all
+// of the machine within the limits of a batch system. Where a shell lies between, that is bound like the rank, and
+// nothing is known.
 Ranks find_processors(MpiRanks& ranks) {
     Ranks joined;
     joined.launched = true;

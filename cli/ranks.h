@@ -1,4 +1,4 @@
-// The ranks of a program, as a launcher has started them.
+// The ranks of a program as a launcher has started them.
 #pragma once
 
 #include <memory>
@@ -14,24 +14,25 @@ class MpiRanks;
 /// found, because that takes 0.3 s.
 struct Ranks {
     std::unique_ptr<Communicator> communicator;
-    MpiRanks* mpi = nullptr;  ///< the same, for who calls MPI itself; null for a process without MPI
-    int cores_of_rank = 1;    ///< processors that it may use, divided by the ranks of this host that share them
+    MpiRanks* mpi = nullptr;  ///< the same ranks, for code that calls MPI itself; null for a process without MPI
+    int cores_of_rank = 1;    ///< processors that the rank may use, divided by the ranks of this host that share them
     int bound_to = 1;         ///< processors that the rank with the fewest of all ranks may use
-    int unbound_share = 1;    ///< what cores_of_rank would be if the launcher had bound no rank
+    int unbound_share = 1;    ///< cores_of_rank as it would be if the launcher had bound no rank
     bool launched = false;
 };
 enum class MpiUse {
     if_launched,  ///< a process alone does without MPI, which takes 0.3 s to initialise
-    always,       ///< for who calls MPI itself
+    always,       ///< for a program that calls MPI itself
 };
-/// Collective. Throws Error(internal) if the MPI library does not allow the threads that a rank has beside its first.
+/// Returns the ranks. Collective. Throws Error(internal) if the MPI library does not allow the threads that a rank has
+/// beside its first.
 Ranks join_ranks(MpiUse use = MpiUse::if_launched);
 
-/// A line for the user if the ranks are bound to fewer processors than there are for the workers: `workers` of each
-/// rank, 0 for the default. It says what lifts that. Empty if all is well, or nothing would lift it.
+/// Returns a line for the user, with a remedy, if the ranks are bound to fewer processors than there are for the
+/// workers; empty if all is well, or nothing would lift it. `workers` of each rank; 0: the default.
 std::string binding_note(const Ranks& ranks, int workers);
 
-/// Whether this process speaks for the job, told from the launcher's environment without starting MPI.
+/// Returns whether this process speaks for the job, told from the launcher's environment without starting MPI.
 bool is_first_rank();
 
 }  // namespace kerf

@@ -24,7 +24,7 @@ struct RemeshRequest {
     bool quiet = false;
 };
 
-// Options that say what the surface is, how fine, and how far it may be off.
+// Whether an option says how the surface is read, how fine it is to be, or how far it may be off.
 bool shapes_surface(const std::string& name) {
     InputOptions of_input;
     SizeOptions of_sizes;

@@ -1,4 +1,4 @@
-// kerf repair: what can be mended of a surface is, and is said.
+// kerf repair: a surface with all repairs that were asked for, and a report of each.
 #include <memory>
 
 #include <CLI/CLI.hpp>

@@ -30,7 +30,8 @@ void refuse_inside(const ReportRequest& request) {
                                            request.output, request.folder));
 }
 
-// What lies there is replaced: a surface that was meant to be read must not be.
+// The output must be named as a page: the file there is replaced, which must not happen to a surface that was meant to
+// be read.
 void require_page(const std::string& output) {
     const std::string suffix = std::filesystem::path(output).extension().string();
     if (suffix == ".html" || suffix == ".htm") return;

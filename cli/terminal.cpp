@@ -21,7 +21,7 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
-// A label fills eleven columns, and a value follows.
+// A line of a report in colours: a label of eleven columns, and a value.
 std::string coloured_line(std::string_view line) {
     constexpr std::size_t value_place = 12;
     if (line.size() <= value_place || line.front() == ' ' || line[value_place - 1] != ' ') return std::string(line);

@@ -1,6 +1,6 @@
-// kerf-worker: one mesher call in its own process. Started by kerf; see work/part_job.h for the protocol. Standard
-// input and output are a message channel, so whatever meshers print to standard output is sent to standard error
-// instead.
+// kerf-worker: one call of a mesher in a process of its own, started by kerf; work/part_job.h has the protocol.
+// Standard input and output are a message channel, so that all that meshers print to standard output goes to standard
+// error instead.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
