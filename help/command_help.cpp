@@ -7,7 +7,7 @@ namespace kerf {
 
 namespace {
 
-// "LIST:{a,b}" or "N:INT in [1 - 4]" of CLI11, which appends what it checks.
+// The parts of "LIST:{a,b}" or "N:INT in [1 - 4]", as CLI11 has the name of a value with its check appended.
 struct TypeText {
     std::string value;
     std::vector<std::string> choices;

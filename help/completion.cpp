@@ -1,3 +1,9 @@
+// Completion scripts for bash, fish and zsh. kerf knows the options of its own commands alone, so that a script is put
+// together from parts: each program beside kerf prints the parts of its commands, and kerf adds the function that
+// chooses between them by the word behind "kerf". In bash the parts fill two maps, words by command and values by
+// command and option; the value "/" means a file and "*" anything else. In zsh a part is a function _kerf_COMMAND for
+// _arguments, in fish lines of complete. Texts are in single quotes, whose escape differs from shell to shell
+// (quoted()); brackets and colons are special in zsh.
 #include "help/completion.h"
 
 #include <fmt/format.h>
@@ -6,7 +12,7 @@ namespace kerf {
 
 namespace {
 
-// In single quotes, for all three shells; `special` gets a backslash before it.
+// The text in single quotes; characters of `special` get a backslash before them, and a quote becomes `quote`.
 std::string quoted(const std::string& text, const std::string& special, const std::string& quote) {
     std::string result = "'";
     for (const char c : text) {
@@ -18,7 +24,7 @@ std::string quoted(const std::string& text, const std::string& special, const st
 
 std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
 
-// A value that may be anything, but no file.
+// Marks of the bash script for a value that may be anything but a file, and for a file.
 constexpr const char* free_value = "*";
 constexpr const char* path_value = "/";
 
@@ -40,7 +46,7 @@ std::string bash_part(const CommandHelp& command) {
     return fmt::format("_kerf_words['{}']='{}'\n{}", command.name, words, values);
 }
 
-// Bash takes --cut=in for three words.
+// The function of bash, which takes --cut=in for three words.
 constexpr const char* bash_function = R"script(
 _kerf() {
     local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=kerf

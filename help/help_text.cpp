@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t text_column = 24;
 
-// The text stands beside its heading, or below where that is long.
+// An entry of the help. Its text stands beside its heading, or below a long one.
 std::string entry(const std::string& heading, const std::string& text) {
     const std::string gap(text_column, ' ');
     std::string line = "  " + heading;

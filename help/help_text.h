@@ -8,10 +8,12 @@
 
 namespace kerf {
 
-/// At most help_columns wide: usage, what the command does, its options under their headings, the footer.
+/// Returns the help of a command, at most help_columns wide: usage, description, options under their headings, the
+/// footer.
 std::string help_text(const CommandHelp& command);
 
-/// The same with the options of these names (the last ones, without dashes) and help alone, in this order.
+/// Returns the help with the options of these names alone (the last of their names, without dashes) and that of help,
+/// in this order.
 std::string short_help_text(CommandHelp command, const std::vector<std::string>& common);
 
 }  // namespace kerf

@@ -10,7 +10,7 @@ namespace kerf {
 
 namespace {
 
-// As roff shows it: backslashes and dashes as they are, and no line that begins with a request.
+// The text in roff's spelling: backslashes and dashes show as they are, and no line begins with a request.
 std::string roff(const std::string& text) {
     std::string result;
     bool at_start = true;
@@ -32,7 +32,7 @@ std::string page_name(std::string name) {
     return name;
 }
 
-// Lines that are indented stay as they are.
+// The text as paragraphs; lines that are indented stay as they are.
 std::string paragraphs(const std::string& text) {
     std::string result;
     for (const std::string& line : CLI::detail::split(text, '\n'))

@@ -6,7 +6,7 @@ namespace kerf {
 
 namespace {
 
-// Distance of Damerau and Levenshtein, in which no letters are swapped twice (optimal string alignment).
+// The distance of Damerau and Levenshtein in which no letters are swapped twice (optimal string alignment).
 std::size_t distance(const std::string& a, const std::string& b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i)

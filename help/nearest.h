@@ -1,4 +1,4 @@
-// What a word that nobody knows may have been meant to be.
+// The known word that an unknown one may have been meant to be.
 #pragma once
 
 #include <string>
@@ -6,11 +6,12 @@
 
 namespace kerf {
 
-/// The candidate into which the fewest letters turn that are added, left out, changed or swapped with the next one; the
-/// first of several. If that is more than one letter in three, the first one that begins with the word; else empty.
+/// Returns the candidate that is the fewest changes away from the word, the first of several; a change adds, leaves out
+/// or replaces a letter or swaps it with the next one. More than max(1, letters / 3) changes are too many: then it
+/// returns the first candidate that begins with the word, or nothing.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// " Did you mean X?", or nothing.
+/// Returns " Did you mean X?", or nothing.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace kerf

@@ -11,7 +11,7 @@
 
 namespace kerf {
 
-/// "into" of "--into", "parts" of "-n,--parts".
+/// Returns "into" of "--into", "parts" of "-n,--parts".
 inline std::string long_name(const std::string& names) { return names.substr(names.rfind("--") + 2); }
 
 template <class Value>

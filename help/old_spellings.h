@@ -1,4 +1,4 @@
-// Options that had other names before, which are answered with the new ones.
+// Options that had other names in older versions. They are answered with the new ones.
 #pragma once
 
 #include <string_view>
@@ -6,10 +6,10 @@
 namespace kerf {
 
 struct OldSpelling {
-    std::string_view commands;  ///< that had it, with spaces between
-    std::string_view option;    ///< with its dashes
-    std::string_view value;     ///< that alone is spelled otherwise now; empty: the option itself is
-    std::string_view now;       ///< option and value that mean the same
+    std::string_view commands;  ///< commands that had it, with spaces between
+    std::string_view option;    ///< option with its dashes
+    std::string_view value;     ///< value that alone is spelled otherwise now; empty: the option itself is
+    std::string_view now;       ///< option and value that mean the same now
 };
 
 inline constexpr OldSpelling old_spellings[] = {

@@ -1,4 +1,4 @@
-// What the programs of Kerf answer when they are asked for help or asked wrongly.
+// The answers of Kerf's programs to a request for help or a wrong command line.
 #pragma once
 
 #include <functional>
@@ -18,22 +18,22 @@ struct Answer {
     std::string text;
 };
 
-/// To be called before commands are added, which take it over: --help answers with help_text().
+/// Makes --help answer with help_text(). Call it before commands are added, which take it over.
 void use_help_text(CLI::App& app);
 
-/// Puts the command's --help behind its other options, under this heading. Where there are options that are more common
-/// than the others, named without their dashes, -h lists them alone, in this order.
+/// Puts the command's --help behind its other options, under this heading. If some options are more `common` than the
+/// others, named without their dashes, -h lists them alone, in this order.
 void put_help_last(CLI::App& command, const std::string& group, const std::vector<std::string>& common = {});
 
-/// What to say after parsing has ended with this error: the help or version that was asked for, or what is wrong (exit
-/// code 2), with the command or option that may have been meant.
+/// Returns the answer after parsing has ended with this error: the help or version that was asked for, or the mistake
+/// (exit code 2), with the command or option that may have been meant.
 Answer answer_to(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
 
-/// The completion of commands that are other programs', for a shell.
+/// A function that returns the completion of the commands of other programs for a shell.
 using OtherCompletions = std::function<std::string(const std::string& shell)>;
 
-/// What is answered without a look at the options: who packages Kerf asks for manual and completion (--man COMMAND or
-/// --man kerf, --completion SHELL), and an old spelling gets the new one. Nothing for all else. With `others`, the
+/// Returns the answers that need no parsing, or nothing: the manual and the completion, for those who package Kerf
+/// (--man COMMAND or --man kerf, --completion SHELL), and the new spelling of an old option. With `others`, the
 /// completion is a whole script, else the part of this program's commands. Commands of `app` that are disabled are
 /// those of other programs.
 std::optional<Answer> answer_before_parsing(const CLI::App& app, int argc, const char* const* argv,

@@ -1,5 +1,9 @@
-// CLI11 says which option is wrong and why in the text of its errors alone: "--size: 1 required H missing". The class
-// of the error and the option that its text begins with are what is used here.
+// Usage errors in words of Kerf. CLI11 tells the wrong option and the reason in the text of its errors alone, as in
+// "--size: 1 required H missing", so that sentences are made from the class of an error and the option that its text
+// begins with; another version of CLI11 may word its errors otherwise. Unknown and old options are found in the command
+// line itself (written_options()), because CLI11 may trip over something else first. For that, arguments are read as
+// CLI11 reads them: "-qn4" is the flag q and the option n with its value, and the value of an option is no option even
+// if it looks like one.
 #include "help/usage_error.h"
 
 #include <algorithm>
@@ -63,12 +67,12 @@ bool is_option_like(const std::string& argument) {
 }
 
 struct WrittenOption {
-    std::string name;                     // with its dashes
-    std::string value;                    // the first one
-    const CLI::Option* option = nullptr;  // of the command; null: it has none of this name
+    std::string name;                     // name with its dashes
+    std::string value;                    // the first value
+    const CLI::Option* option = nullptr;  // option of the command; null: it has none of this name
 };
 
-// What looks like an option and is not the value of one.
+// The arguments that look like an option and are not the value of one.
 std::vector<WrittenOption> written_options(const CLI::App& command, int first, int argc, const char* const* argv) {
     std::vector<WrittenOption> written;
     for (int i = first; i < argc; ++i) {
@@ -86,7 +90,7 @@ std::vector<WrittenOption> written_options(const CLI::App& command, int first, i
     return written;
 }
 
-// The first one that is no option; or empty.
+// The first of these that the command does not have; empty if it has all.
 std::string unknown_option(const std::vector<WrittenOption>& written) {
     const auto unknown =
         std::find_if(written.begin(), written.end(), [](const WrittenOption& one) { return !one.option; });
@@ -119,14 +123,14 @@ std::string unknown_command(const CLI::App& app, const std::string& word) {
 
 namespace {
 
-// What stands before the first of these words.
+// The text before the first of these words.
 std::string before(const std::string& text, std::initializer_list<const char*> words) {
     std::size_t end = text.npos;
     for (const char* word : words) end = std::min(end, text.find(word));
     return text.substr(0, end);
 }
 
-// "--size H", or "INPUT".
+// The option as the help has it: "--size H", or "INPUT".
 std::string word_for(const CLI::Option& option, const CLI::App& command) {
     if (option.get_positional()) return option.get_type_name();
     for (const OptionGroup& group : describe(command).groups)
@@ -136,7 +140,7 @@ std::string word_for(const CLI::Option& option, const CLI::App& command) {
     return option.get_name();
 }
 
-// A positional is called what the usage line calls it.
+// The name of an option; a positional is called as in the usage line.
 std::string name_for(const std::string& name, const CLI::App& command) {
     const CLI::Option* option = command.get_option_no_throw(name);
     return option && option->get_positional() ? option->get_type_name() : name;

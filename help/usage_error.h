@@ -1,4 +1,4 @@
-// What is wrong with a command line, and what would be right.
+// Messages about a wrong command line, with a right one.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@ class Validator;
 
 namespace kerf {
 
-/// The command of this name; null if there is none.
+/// Returns the command of this name; null if there is none.
 const CLI::App* find_command(const CLI::App& app, const std::string& name);
 
-/// What to say of a word that is no command: the file, folder or command that may have been meant.
+/// Returns the message about a word that is no command, with the file, folder or command that may have been meant.
 std::string unknown_command(const CLI::App& app, const std::string& word);
 
-/// One line that says what is wrong, with the command or option that may have been meant, and one with an example or
-/// where to read on; without a line end.
+/// Returns a line that tells the mistake, with the command or option that may have been meant, and a line with an
+/// example or the place to read on; without a line end.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
 
-/// What to say where an option is spelled as it was once (help/old_spellings.h); else empty.
+/// Returns the message about an option of an old spelling (help/old_spellings.h); empty if there is none.
 std::string old_spelling(const CLI::App& app, int argc, const char* const* argv);
 
-/// Choices as suggest() has them; others are refused.
+/// Returns a validator of choices as suggest() has them, which refuses other values.
 CLI::Validator one_of(const std::string& choices);
 
 }  // namespace kerf
