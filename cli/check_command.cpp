@@ -22,7 +22,7 @@ struct CheckRequest {
     InputOptions options;
     double needle_angle_deg = 1;
     bool json = false;
-    bool list_patches = false, list_regions = false;  // in place of the diagnosis
+    bool list_patches = false, list_regions = false;  // printed in place of the diagnosis
     std::string offenders_file;                       // empty: none
 };
 

@@ -1,8 +1,10 @@
 // The main function of kerf-cad and kerf-3mf: a file becomes a CadAnswer (io/cad_body.h), body or error, which kerf
-// reads from standard output. The libraries print to standard output, too, so that it is moved away first: its
-// descriptor is kept for the answer alone, and prints go to standard error. Nothing is written to a terminal, where the
-// answer would be of no use. An error is in the answer as well as in a message and the exit code, so that kerf can tell
-// its kind and elements. The process ends by _exit(), as the library's own end would take longer.
+// reads from standard output. These are programs of their own, because OpenCASCADE takes longer to load than a small
+// mesh takes, may crash, and need not be installed, nor need lib3mf. The libraries print to standard output, too, so
+// that it is moved away first: its descriptor is kept for the answer alone, and prints go to standard error. Nothing is
+// written to a terminal, where the answer would be of no use. An error is in the answer as well as in a message and the
+// exit code, so that kerf can tell its kind and elements. The process ends by _exit(), as the library's own end would
+// take longer.
 #include "cli/import_program.h"
 
 #include <algorithm>

@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
     try {
         return kerf::run_program(argc, argv);
     } catch (const kerf::Error& e) {
-        // All ranks meet it; where they do not, this one says so later.
+        // All ranks meet this error, and the first one tells it; where they do not, this rank tells it at the deadline.
         if (kerf::is_first_rank()) kerf::tell_error(e.what());
         kerf::begin_failure_deadline(static_cast<int>(e.code()), kerf::is_first_rank() ? "" : e.what());
         return static_cast<int>(e.code());

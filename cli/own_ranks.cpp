@@ -109,7 +109,7 @@ std::optional<int> run_as_ranks(int ranks, char** argv) {
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     permit_ranks();
-    std::signal(SIGCHLD, SIG_DFL);  // else nobody would learn how mpirun has ended
+    std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, nobody learns how mpirun has ended
     const pid_t parent = ::getpid();
     ::setenv(ranks_variable, std::to_string(ranks).c_str(), 1);
     const pid_t process = ::fork();

@@ -28,8 +28,8 @@ namespace {
 
 volatile std::sig_atomic_t stop_signal = 0;
 
-// The run ends by itself as soon as it notices. Where it is deaf, in a long computation or a slow disk, it is ended:
-// whatever it was doing, its folder can be continued.
+// The run ends by itself as soon as it notices the signal. Where it is deaf, in a long computation or a slow disk, it
+// is ended: whatever it was doing, its folder can be continued.
 constexpr unsigned seconds_to_end = 2;
 
 constexpr double seconds_between_lines = 0.2, seconds_between_logged_lines = 1, seconds_of_silence = 0.9;
@@ -69,7 +69,7 @@ ProgressLine::ProgressLine(bool quiet, EventLog* events, bool shows_plan)
     stop_signal = 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
-    std::signal(SIGUSR1, note_signal);  // of own ranks
+    std::signal(SIGUSR1, note_signal);  // sent to ranks that this program has started
     std::signal(SIGALRM, end_now);
 }
 
@@ -131,7 +131,7 @@ void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t 
     done_ = done;
     total_ = total;
     if (stage_ != stage) {
-        if (std::string_view(stage) == "read") unknowns_.clear();  // a next mesh
+        if (std::string_view(stage) == "read") unknowns_.clear();  // the next mesh begins
         begin_stage(stage);
     } else if (!quiet_ && (terminal_ || each_second_) && total != 1 && is_time_for_a_line()) {
         last_seconds_ = of_stage_.seconds();

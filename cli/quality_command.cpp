@@ -17,7 +17,7 @@ namespace {
 
 struct QualityRequest {
     std::string mesh;     // folder of a run, or a file
-    std::string compare;  // the other one; empty: none
+    std::string compare;  // the mesh to compare with; empty: none
     bool json = false;    // to standard output in place of the tables
     bool verbose = false;
     std::string picture;  // SVG; empty: none

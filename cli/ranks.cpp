@@ -32,7 +32,7 @@ int count_of(const std::vector<int>& processors) {
 // deaf or wait for a message that never comes.
 constexpr unsigned seconds_for_others = 5;
 
-// The launcher ends the other ranks when one has gone like this.
+// Ends a failed rank at once, after which the launcher ends the others.
 void end_failed_rank_now(int code, std::string_view message) {
     for (const std::string_view text : {std::string_view("kerf: "), message, std::string_view("\n")})
         if (!message.empty()) (void)!::write(STDERR_FILENO, text.data(), text.size());

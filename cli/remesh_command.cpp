@@ -1,4 +1,5 @@
-// kerf remesh and kerf wrap: a surface worth meshing, of one that could be meshed or of any, as a file.
+// kerf remesh and kerf wrap: a surface worth meshing, made of one that could be meshed (remesh) or of any other (wrap),
+// as a file.
 #include <algorithm>
 #include <memory>
 

@@ -67,7 +67,8 @@ int main(int argc, char** argv) {
     std::signal(SIGINT, SIG_IGN);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const std::int64_t parent = number_behind("--parent");
-    if (parent > 0 && getppid() != parent) return static_cast<int>(ErrorCode::internal);  // it has ended before that
+    if (parent > 0 && getppid() != parent)
+        return static_cast<int>(ErrorCode::internal);  // the parent has ended before prctl()
     limit_address_space(number_behind("--memory"));
     const int answer = dup(STDOUT_FILENO);
     if (answer < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return static_cast<int>(ErrorCode::io);

@@ -162,7 +162,7 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& command, cons
     if (kind == "ExcludesError")
         return fmt::format("{} and {} do not go together. Leave one of them out.", name_for(name, command),
                            name_for(text.substr(text.rfind(' ') + 1), command));
-    if (text.starts_with("The following argument"))  // its kind is the name of the command
+    if (text.starts_with("The following argument"))  // the kind of this error is the name of the command
         return fmt::format("{} takes no further arguments, but there is {}.", full_name,
                            text.substr(text.find(": ") + 2));
     if (kind == "ArgumentMismatch" && option && option->get_items_expected_max() == 0)
@@ -171,7 +171,8 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& command, cons
         return fmt::format("{} needs a value: {}. {}", name, word_for(*option, command), option->get_description());
     if (kind == "ArgumentMismatch" && option) return fmt::format("{} is given more than once. Choose one.", name);
     if (kind == "ConversionError") return fmt::format("{}. A flag is given without a value.", text);
-    if (kind == "ValidationError" && option) return name + text.substr(name.size() + 1);  // one_of()
+    if (kind == "ValidationError" && option)
+        return name + text.substr(name.size() + 1);  // the sentence of one_of() follows the name
     return text;
 }
 

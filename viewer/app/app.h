@@ -1,5 +1,6 @@
 // The viewer without its window: state, session, scene and panels, a frame at a time. The window, the screenshots and
-// the tests drive the same App.
+// the tests drive the same App. Its parts share a View; Opening, Navigation, Playing and Desk are also the Actions that
+// panels ask for.
 #pragma once
 
 #include <chrono>

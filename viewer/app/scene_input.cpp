@@ -66,7 +66,7 @@ void SceneInput::take_drag() {
     const bool pans = ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift);
     if (!pans && !ImGui::IsMouseDown(0)) return;
     const float least_drag = click_pixels * view_.size.scale;
-    for (int button = 0; button < 3; ++button)  // those that are up still have their last drag's
+    for (int button = 0; button < 3; ++button)  // buttons that are up still have the distance of their last drag
         dragging_ |= ImGui::IsMouseDown(button) && io.MouseDragMaxDistanceSqr[button] > least_drag * least_drag;
     if (!dragging_ || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
     Camera camera = view_.camera;

@@ -28,7 +28,7 @@ void draw_choice(UiContext& context) {
     int index = static_cast<int>(context.state.color);
     if (!context.widgets.combo("Colour by", &index, titles)) return;
     context.state.color = static_cast<ColorBy>(index);
-    context.state.filter.reset();  // these were other values
+    context.state.filter.reset();  // these limits were for other values
     context.state.color_range.reset();
 }
 

@@ -51,7 +51,7 @@ FontFile find_font(const std::string& family) {
     std::error_code missing;
     if (!std::filesystem::is_regular_file(file.path, missing)) return {};  // a cache may be older than the fonts
     FcPatternGetInteger(font.get(), FC_INDEX, 0, &file.number);
-    file.number &= 0xffff;  // above that, the variant of a variable font
+    file.number &= 0xffff;  // the higher bits are the variant of a variable font
     return file;
 }
 

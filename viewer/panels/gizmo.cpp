@@ -73,7 +73,7 @@ void draw_gizmo(UiContext& context, const Rectangle& scene) {
     list.AddCircleFilled(center, half, packed(faded(palette(context.state.theme).backdrop, 0.6f)), 48);
     const std::array<PlacedEnd, 6> placed = place_ends(context.camera, center, reach);
     std::array<bool, 6> hovered = {};
-    for (std::size_t i = 0; i < placed.size(); ++i) {  // of two at one place the nearer one is clicked
+    for (std::size_t i = 0; i < placed.size(); ++i) {  // of two ends at one place the nearer one is clicked
         ImGui::SetCursorScreenPos({placed[i].at.x - radius, placed[i].at.y - radius});
         if (ImGui::InvisibleButton(placed[i].end->label, {2 * radius, 2 * radius})) {
             Camera camera = context.camera;

@@ -1,7 +1,7 @@
 #include "viewer/panels/imgui_input.h"
 
 #if IMGUI_VERSION_NUM >= 18700
-#include <imgui_internal.h>  // events that it has not taken yet
+#include <imgui_internal.h>  // for events that ImGui has not taken yet
 
 #include <map>
 #endif

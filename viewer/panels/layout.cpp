@@ -65,7 +65,8 @@ Layout layout_of(const ViewState& state, const Document& document, const PanelSi
     layout.right = {width - right, menu, right, middle};
     layout.status = {0, height - status, width, status};
     layout.scene = {left, menu, std::max(1.f, width - left - right), above};
-    layout.timeline = {0, menu + above, std::max(1.f, width - right), timeline};  // the words of all steps are long
+    layout.timeline = {0, menu + above, std::max(1.f, width - right),
+                       timeline};  // below the left column, too: the words of all steps need room
     return layout;
 }
 
@@ -88,7 +89,7 @@ void draw_border(const Rectangle& place, ImGuiDir side) {
     if (side == ImGuiDir_Left) to = {x0 + 1, y1};
     if (side == ImGuiDir_Right) from = {x1 - 1, y0}, to = {x1, y1};
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.PushClipRect({x0, y0}, {x1, y1});  // the window's own leaves its border out
+    list.PushClipRect({x0, y0}, {x1, y1});  // the clip rectangle of the window leaves its border out
     list.AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_Border));
     list.PopClipRect();
 }

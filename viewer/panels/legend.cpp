@@ -233,13 +233,13 @@ class LegendBox {
     ImDrawList& list_ = *ImGui::GetBackgroundDrawList();
     float widest_ = 0, highest_ = 0;  // the room of the legend
     float width_ = 0;
-    // Of the scale:
+    // Members of the scale:
     ValueRange range_;
     std::optional<ValueRange> filter_;
     std::vector<double> ticks_;
     float bar_height_ = 0, scale_height_ = 0;
     std::string least_, largest_;  // texts of the least and the largest value drawn
-    // Of the entries:
+    // Members of the entries:
     std::size_t shown_ = 0, rows_ = 0;
     float column_width_ = 0;
     std::vector<std::string> names_;

@@ -119,7 +119,7 @@ struct SceneFacts {
     std::vector<Color> scale;             ///< colours from low to high, of a legend with numbers
     bool goes_below = false, goes_above = false;  ///< Legend::goes_below, goes_above
     std::string selection;                        ///< the selection as lines of text; empty: nothing is selected
-    std::int64_t triangles = 0, lines = 0;        ///< numbers of those drawn
+    std::int64_t triangles = 0, lines = 0;        ///< numbers of triangles and lines drawn
     std::string notice;                           ///< e.g. "saved as kerf-001.png"; shown for some seconds
     bool notice_is_error = false;                 ///< the notice is an error, which stays until the next click
     std::vector<FaceNumber> numbers;              ///< numbers of patches, to be drawn on them

@@ -54,7 +54,7 @@ struct Tour {
     std::optional<ViewState> before = {};  ///< the view before the tour
 };
 
-/// A collapsing section that its panel scrolls to when it opens; for some frames, as it grows while it opens.
+/// A collapsing section. When it opens, its panel scrolls to it for some frames, because it grows meanwhile.
 struct Section {
     bool open = false;
     int frames_to_scroll = 0;

@@ -33,7 +33,7 @@ const char* meaning(TreeColumn column);
 
 /// Returns the number of a row in a column; none if there is none, or it is not known.
 std::optional<double> number_in(const TreeRow& row, TreeColumn column);
-/// The column by which the list of nodes is sorted, the rows that deserve a look first, or last if `reversed`; none: it
+/// The column by which the list of nodes is sorted, the rows that deserve a look first, or in reverse; none: the list
 /// is a tree.
 struct TreeOrder {
     std::optional<TreeColumn> by;

@@ -1,5 +1,5 @@
-// OpenGL contexts without a display. Two libraries of Mesa make them, and both compute on the CPU: OSMesa, which went
-// with Mesa 25.1, and EGL without a surface. The same Mesa draws the same pixels by both.
+// OpenGL contexts without a display. Two libraries of Mesa make them, and both compute on the CPU: OSMesa, which Mesa
+// 25.1 and later do not have, and EGL without a surface. The same Mesa draws the same pixels by both.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // Triangles by a program for each combination of fill, edges and shading, twelve in all: a driver that computes on the
-// CPU pays for every unused line of a shader. Colours come from a texture of one row: a scale is subdivided into 1024
-// steps, finer than 8 bits of colour show, and a palette is taken as it is; a row is uploaded again only when its bytes
-// change. Nearest filtering keeps categories apart. Lights are fixed to the eye, so that the side that is looked at is
+// CPU pays for every unused line of a shader. Colours come from a texture of one row, of which shaders fetch single
+// texels: a scale is subdivided into 1024 steps, finer than 8 bits of colour show, and a palette is taken as it is; a
+// row is uploaded again only when its bytes change. Lights are fixed to the eye, so that the side that is looked at is
 // lit. Edges fade where triangles are only a few pixels high, as they would blacken a fine mesh.
 #include "viewer/render/triangle_painter.h"
 

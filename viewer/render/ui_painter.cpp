@@ -58,7 +58,8 @@ void UiPainter::draw(const ImDrawData& ui, ImFontAtlas& fonts, int width, int he
     gl_.Disable(GL_SCISSOR_TEST);
 }
 
-// An atlas that holds pixels has been built since they were last taken away here.
+// Uploads the fonts if they have been built anew: an atlas that holds pixels has been built since they were last freed
+// here.
 void UiPainter::update_fonts(ImFontAtlas& fonts) {
     if (fonts_.id() != 0 && fonts.TexID == to_imgui(fonts_.id()) && fonts.TexPixelsAlpha8 == nullptr) return;
     unsigned char* pixels = nullptr;
