@@ -1,3 +1,11 @@
+// Each rank puts the nodes of its parts' edges on the surface, and curve_part() straightens edges again where a cell
+// would not be valid. An edge of the surface may lie in several parts, which must agree on its node. So the work goes
+// in rounds: after each, the edges that any part has straightened are gathered, and the parts that have one of them
+// without having straightened it themselves are done again, with that edge straight. The set of straight edges only
+// grows, so the rounds end; what a part does depends on its mesh and that set alone, so the result is the same for any
+// number of ranks. A part is loaded anew for each round; in between only its curved nodes, its edges on the surface and
+// its totals are kept. An edge is "inside" if no boundary triangle of the part and no other part has it: only there
+// curve_part() may move nodes to keep cells valid.
 #include "run/curve_stage.h"
 
 #include <algorithm>
@@ -35,10 +43,10 @@ struct PartTotals {
     }
 };
 
-// What is known of a part between rounds.
+// The result of the last round of a part, kept for the next one.
 struct PartState {
-    std::vector<std::int32_t> on_surface;    // the edges of SurfaceNodes that it has, ascending
-    std::vector<std::int32_t> straightened;  // by it, of these
+    std::vector<std::int32_t> on_surface;    // edges of SurfaceNodes that the part has, ascending
+    std::vector<std::int32_t> straightened;  // edges that the part itself has straightened, a part of these
     std::vector<NumberedNode> nodes;
     PartTotals totals;
 };
@@ -86,14 +94,14 @@ class PartsCurver {
         return state;
     }
 
-    /// Whether others have straightened an edge of this part since.
+    /// Whether other parts have straightened an edge of this part since.
     bool must_be_done_again(const PartState& state, const std::vector<std::int32_t>& newly_straight) const {
         return std::any_of(newly_straight.begin(), newly_straight.end(), [&](std::int32_t e) {
             return std::binary_search(state.on_surface.begin(), state.on_surface.end(), e) &&
                    std::find(state.straightened.begin(), state.straightened.end(), e) == state.straightened.end();
         });
     }
-    /// Returns those that were not straight yet.
+    /// Makes edges straight, and returns those that were not so yet.
     std::vector<std::int32_t> straighten(const std::vector<std::int32_t>& edges) {
         std::vector<std::int32_t> newly;
         for (const std::int32_t e : edges)
@@ -116,7 +124,7 @@ class PartsCurver {
     std::vector<char> is_straight_;
 };
 
-// The nodes of all ranks, each once.
+// Returns the nodes of all ranks, each once, and counts them in the report.
 CurvedNodes gather_nodes_of(Communicator& ranks, std::span<const PartState> states, CurveReport& report) {
     std::vector<NumberedNode> nodes;
     for (const PartState& state : states) nodes.insert(nodes.end(), state.nodes.begin(), state.nodes.end());

@@ -14,7 +14,8 @@ namespace kerf {
 
 namespace {
 
-// Parts without a contour of edges need all others beside them, because split facets may be theirs too.
+// Divides parts without a contour of edges by straight cuts. These need all other parts beside them, because facets
+// that are split may be theirs, too.
 Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const DecomposeOptions& options,
                                 CutListener* cuts) {
     const auto is_unfinished = [](const Leaf& leaf) { return leaf.leaves > 1; };
@@ -29,7 +30,7 @@ Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const De
         ranks, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks), cuts); });
 }
 
-// The halves hold all that is needed of a single surface.
+// Cuts on this rank alone. A single surface is taken out of `input`: the halves hold all that is needed of it.
 Decomposition cut_here(Input& input, const DecomposeOptions& options, LeafRange range, CutListener* cuts) {
     return input.complex.region_count() == 1 ? decompose(input.complex.take_only_region(), options, range, cuts)
                                              : decompose(input.complex, options, range, cuts);

@@ -9,9 +9,9 @@
 
 namespace kerf {
 
-/// What this rank has of the tree, and the parts of its range (range_of_rank()). Takes the surface out of `input`,
-/// which plan_run() has filled. Writes the trace, if the options ask for one. Collective; throws Error on every rank
-/// alike.
+/// Cuts the surface, and returns the nodes of the tree that belong to this rank and the parts of its range
+/// (range_of_rank()). Takes the surface out of `input`, which plan_run() has filled. Writes the trace, if the options
+/// ask for one. Collective; throws Error on every rank alike.
 Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& options, StageListener* listener);
 
 }  // namespace kerf

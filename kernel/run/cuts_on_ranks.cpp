@@ -1,10 +1,11 @@
-// The first thread of a rank talks to the other ranks and sleeps in between, others cut. A half that comes here is cut
-// at once, on a thread of its own.
+// The first thread of a rank talks to the other ranks and sleeps in between, while other threads cut. A half that
+// arrives is cut at once, on a thread of its own.
 //
-// A rank is done when the leaves of its range are there, or are known to be of a part of others that stays whole, and
-// its halves are sent. It tells the first rank, which tells all when the last of them is done: no
-// rank leaves before, so that nobody sends to one that has left. The first error goes the same way and stops all. Who
-// cannot tell, because that fails, leaves: polling, all others learn of it.
+// A leaf is accounted for on a rank if it is there, or if it is known to belong to a part that stays whole on another
+// rank. A rank is done when all leaves of its range are accounted for and the halves for others are sent. It tells the
+// first rank, which tells all when the last of them is done: no rank leaves before, so that no message goes to one that
+// has left. The first error goes the same way and stops all. A rank that cannot tell of its error, because that fails,
+// leaves the communicator, and the others learn of it when they poll.
 #include "run/cuts_on_ranks.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ Surface surface_of(TravellingBranch& travelled) {
     return std::get<Surface>(std::move(built));
 }
 
-// What ranks post to each other.
+// A message that ranks post to each other.
 struct CutNote {
     enum class Kind : std::int32_t {
         done,       // to the first rank: this one has nothing left to do
@@ -115,12 +116,12 @@ class CutsOnRanks final : public OtherRanges, public CutListener {
     const LeafRange range_;
     CutListener* next_;
     std::mutex listener_mutex_, halves_mutex_;
-    std::list<Half> halves_;              // for others
-    std::vector<LeafRange> whole_parts_;  // of several leaves
+    std::list<Half> halves_;              // for other ranks
+    std::vector<LeafRange> whole_parts_;  // of several leaves each, some of which other ranks wait for
     std::atomic<bool> is_stopped_ = false;
     std::list<std::future<Decomposition>> jobs_;
     std::vector<Decomposition> finished_;
-    std::int32_t accounted_ = 0;  // of the leaves of the range
+    std::int32_t accounted_ = 0;  // leaves of the range that are accounted for
     int ranks_done_ = 0;          // as the first rank knows
     bool is_done_ = false, has_ended_ = false;
     StageStatus status_;
@@ -175,7 +176,7 @@ void CutsOnRanks::hear(const CutNote& note) {
     }
 }
 
-// Ranks after this one wait for some of its leaves.
+// Tells the ranks that wait for leaves of a part that stays whole here.
 void CutsOnRanks::tell_of_whole_part(const LeafRange& leaves) {
     for (std::int32_t leaf = range_.last; leaf < leaves.last;) {
         const int rank = rank_in_range(options_.parts, leaf, ranks_);
@@ -206,7 +207,7 @@ void CutsOnRanks::cut_arrived(Bytes message) {
     });
 }
 
-// Whether a job has ended.
+// Takes the result of a job that has ended; false if none has.
 bool CutsOnRanks::collect() {
     const auto ended = std::find_if(jobs_.begin(), jobs_.end(), [](std::future<Decomposition>& job) {
         return job.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -220,7 +221,7 @@ bool CutsOnRanks::collect() {
     return true;
 }
 
-// Whether there was something for others.
+// Sends halves and notes to other ranks; false if there were no halves.
 bool CutsOnRanks::pass_on() {
     std::list<Half> halves;
     std::vector<LeafRange> whole_parts;
@@ -240,7 +241,7 @@ bool CutsOnRanks::pass_on() {
     return !halves.empty();
 }
 
-// Does what there is to do; false if there was nothing.
+// Does everything that can be done now; false if there was nothing to do.
 bool CutsOnRanks::step() {
     bool was_busy = false;
     while (const std::optional<Bytes> note = ranks_.poll()) hear(from_bytes<CutNote>(*note));
@@ -267,7 +268,7 @@ void CutsOnRanks::fail() {
     tell(first_rank, Kind::failed);
 }
 
-// What was cut in any order.
+// Brings the branches, which were cut in any order, into the order of the tree.
 Decomposition CutsOnRanks::in_order() {
     Decomposition whole;
     for (Decomposition& branch : finished_) {
@@ -288,7 +289,7 @@ Decomposition CutsOnRanks::cut(Complex& complex) {
         try {
             return body();
         } catch (const RankHasLeft&) {
-            is_stopped_ = true;  // what is being cut is for nobody
+            is_stopped_ = true;  // nobody takes the branches that are being cut
             throw;
         } catch (const std::exception&) {
             fail();
@@ -304,7 +305,7 @@ Decomposition CutsOnRanks::cut(Complex& complex) {
             patience.reset();
         else
             patience.pause();
-    ranks_.drop_messages();  // one that fails now has others that know nothing of it, and its note on the way to them
+    ranks_.drop_messages();  // the note of a rank that has failed at the very end may still be on its way
     throw_first_error(ranks_, status_);
     return in_order();
 }

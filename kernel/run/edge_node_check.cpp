@@ -21,7 +21,7 @@ void EdgeNodeCheck::add(const Part& part) {
     invalid_cells_ += count_invalid(part, is_curved);
 }
 
-// Around an edge that several parts have, each of them has interfaces, or it is one of a contact.
+// Marks the edges that other parts may have, too: those of interface triangles, and those of contacts.
 std::vector<bool> EdgeNodeCheck::edges_of_others(const Part& part) const {
     const EdgeTable& edges = part.edge_nodes.edges;
     std::vector<bool> found(edges.size(), false);
@@ -47,7 +47,7 @@ void EdgeNodeCheck::add(const EdgeNodeCheck& of_others) {
 void EdgeNodeCheck::add_own(std::int64_t id, bool is_curved) {
     ++count_;
     curved_ += is_curved;
-    add_own(Range{id, static_cast<std::int64_t>(static_cast<std::uint64_t>(id) + 1)});  // it may be any
+    add_own(Range{id, static_cast<std::int64_t>(static_cast<std::uint64_t>(id) + 1)});  // id may be any number
 }
 
 void EdgeNodeCheck::add_own(const Range& ids) {

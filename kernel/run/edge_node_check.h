@@ -10,19 +10,21 @@
 
 namespace kerf {
 
-/// Is shown the parts of a mesh of order 2, one at a time. An edge has the same node in all parts, global numbers are
-/// dense behind those of the vertices, and every curved cell is proven valid (mesh/curved_tet.h). Memory: that of edges
-/// on interfaces.
+/// Checks the nodes of a mesh of order 2, whose parts it is shown one at a time. An edge has the same node in all
+/// parts, global numbers are dense behind those of the vertices, and every curved cell is proven valid
+/// (mesh/curved_tet.h). Memory: that of edges on interfaces.
 class EdgeNodeCheck {
  public:
-    /// Of a part with everything.
+    /// Takes the nodes and cells of a part, which must have been loaded with its nodes on edges.
     void add(const Part& part);
-    /// What another check was shown, as if it had been shown behind what this one was.
+    /// Takes over the parts that another check was shown, as if they had been shown to this one after its own.
     void add(const EdgeNodeCheck& of_others);
-    /// When all were shown; `vertices`: of the mesh. Adds what is broken to the laws.
+    /// Ends the check when all parts were shown: adds all that is broken to `laws`. `vertices`: their number in the
+    /// mesh.
     void finish(std::int64_t vertices, RunVerification& laws);
 
-    /// Distinct nodes on edges, and those of them that are not in the middle of their edges, once finished.
+    /// Numbers of distinct nodes on edges, and of those among them that are not in the middle of their edges; valid
+    /// once finished.
     std::int64_t count() const { return count_; }
     std::int64_t curved() const { return curved_; }
 
@@ -40,8 +42,8 @@ class EdgeNodeCheck {
     void add_own(const Range& ids);
     static std::int64_t count_invalid(const Part& part, const std::vector<bool>& is_curved);
 
-    std::vector<Node> shared_;  // on interfaces and contacts, where other parts may have them, too
-    std::vector<Range> own_;    // numbers of the others
+    std::vector<Node> shared_;  // nodes on interfaces and contacts, where other parts may have them, too
+    std::vector<Range> own_;    // numbers of all other nodes
     std::int64_t count_ = 0, curved_ = 0, invalid_cells_ = 0;
 };
 

@@ -8,11 +8,11 @@
 
 namespace kerf {
 
-/// As number_edges() of one process: every rank loads its share of the parts. Collective; the same on all ranks. Throws
-/// Error on every rank alike.
+/// Numbers the nodes on edges as number_edges() does in one process, while every rank loads its share of the parts.
+/// Collective; the same on all ranks. Throws Error on every rank alike.
 EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, RunListener* listener);
 
-/// Tells the report how many nodes the mesh has, and each part that was meshed.
+/// Enters in the report the number of nodes of the mesh, and that of each part that was meshed.
 void count_nodes(const SecondOrderParts& parts, RunReport& report);
 
 }  // namespace kerf

@@ -1,5 +1,8 @@
-// The files are written into a folder of their own inside of the target, so that a disk that is full or a program that
-// is killed leaves no half of them under the names of whole ones; then they are renamed.
+// An export writes all files into a folder of its own inside of the target, so that a disk that is full or a program
+// that is killed leaves no half of them under the names of whole ones. Then the list of files is written, which makes
+// all of them known as Kerf's, and last they are renamed to their places; files of an earlier export that are not
+// written again go away. Files that the list did not have are never replaced, and no link is followed. The target's
+// list is report.json for a run and kerf_export.json for another folder.
 #include "run/export_run.h"
 
 #include <algorithm>
@@ -149,7 +152,7 @@ std::vector<FormatPlace> places_of(const ExportRequest& request, const std::vect
     return places;
 }
 
-// Throws Error(usage) for what none of the formats would obey.
+// Throws Error(usage) for an option that none of the formats would obey.
 FormatOptions options_of(const ExportRequest& request, const std::vector<const Format*>& formats) {
     const auto require = [&](bool is_asked, const char* option, const char* format) {
         if (is_asked && std::find(formats.begin(), formats.end(), &find_format(format)) == formats.end())
@@ -216,7 +219,7 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
                           static_cast<std::int32_t>(source.outline().parts.size()),
                           source.outline().vertices,
                           source.outline().tets()};
-    // What belongs to no part is written by the root rank, which alone asks for files of others.
+    // Files that belong to no part are written by the root rank, which alone asks for files of others.
     const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>(), options};
     summary.files = write_parts(ranks, source, places, to, request.threads, listener);
     in_agreement(ranks, [&] {

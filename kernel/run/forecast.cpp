@@ -1,3 +1,10 @@
+// A forecast is linear: facets and cells inside, each times a number that is known of the mesher (MesherForecast in
+// volume/meshers.h). Two numbers of tetrahedra must be told apart. The expected one sums what each facet is forecast to
+// have at it (volume/tet_forecast.h), and gives time. The most that there may be takes the largest number a facet,
+// most_tets(), and gives all for which there must be room: memory, K, the refusals of check_budget(). The disk is
+// another matter: there a run is refused only if not even the share `certain` of its forecast would fit, because a
+// forecast that is too high must not forbid a run. Volumes are sized volumes: space is counted by the size that is
+// wanted there, so that one number of cells a volume holds for all.
 #include "run/forecast.h"
 
 #include <algorithm>
@@ -34,7 +41,7 @@ constexpr double certain = 0.5;  // nearly every mesh is larger than this share 
 
 const MesherForecast& known_of(const MesherOptions& mesher) { return find_mesher(mesher.name).forecast; }
 
-// Those of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
+// Facets of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
 double expected_interface_facets(const PartReport& part) {
     return std::max(static_cast<double>(part.interface_facets),
                     part.interface_in_squared_edges / area_per_squared_edge);
@@ -51,12 +58,12 @@ Forecast forecast_of(const PartReport& part, const RunOptions& options) {
         options.mesher);
 }
 
-// For which there must be room.
+// The number of tetrahedra for which there must be room.
 double most_tets(double facets, double volume, const MesherOptions& mesher) {
     return known_of(mesher).most_tets_per_facet * facets + tets_inside(volume, mesher);
 }
 
-// Nothing takes no time.
+// No text says that something takes 0 s.
 std::string seconds_text(double seconds) {
     return seconds < 0.05 ? "less than 0.1 s" : fmt::format("{:.{}f} s", seconds, seconds < 10 ? 1 : 0);
 }
@@ -94,7 +101,7 @@ std::int32_t choose_parts(const RunOptions& options, double facets, double volum
 
 namespace {
 
-// What parts that wait for this run have taken of the disk already.
+// Bytes that parts of an interrupted run, which wait for this one, have taken of the disk already.
 double bytes_waiting(const std::string& output) {
     double bytes = 0;
     for (const std::string& folder : RunFolder::folders_of(output))
@@ -106,7 +113,8 @@ double bytes_waiting(const std::string& output) {
     return bytes;
 }
 
-// Of all files that lie there at once. Stores of parts that no format asks for again make room while these are written.
+// Bytes of all files that lie there at once, for a tetrahedron. Stores of parts that no format asks for again make room
+// while these are written.
 double disk_bytes_per_tet(const RunOptions& options) {
     double bytes = 0, stored = 0;
     for (const Format* format : parse_formats(options.formats)) {

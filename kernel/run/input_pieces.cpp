@@ -10,7 +10,7 @@ namespace kerf {
 
 namespace {
 
-// True if the pieces are the facet itself, or cover it with new vertices on the way.
+// Whether the pieces are the facet itself, or cover it with new vertices on its edges or inside.
 bool are_facet(const Complex& input, const Triangle& t, std::span<const InputPiece> pieces,
                const std::function<Vec3(std::int64_t)>& point_of) {
     if (pieces.size() == 1) return pieces[0].vertices == rotated_to_smallest({t[0], t[1], t[2]});

@@ -1,4 +1,4 @@
-// What boundary triangles of parts are of the facets of the input.
+// The boundary triangles of parts, compared with the facets of the input that they come from.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,9 @@ struct InputPiece {
     }
 };
 
-/// Sides of a facet of the input that the pieces are not, or do not cover, and pieces of regions that it does not
-/// bound. `pieces`: of the facet, ascending. `point_of`: the place of a vertex that is none of the input.
+/// Counts the sides of a facet of the input that no pieces are or cover, and the pieces of regions that the facet does
+/// not bound. `pieces`: all pieces of the facet, ascending. `point_of`: the place of a vertex that is none of the
+/// input.
 std::int64_t count_missing_sides(const Complex& input, std::int32_t facet, std::span<const InputPiece> pieces,
                                  const std::function<Vec3(std::int64_t vertex)>& point_of);
 

@@ -1,4 +1,4 @@
-// How far numbers of files are from what they should be.
+// The distance between two numbers, for files whose numbers are not what they should be.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace kerf {
 
-/// |a - b|, at most 2^40: files may have any numbers, and counts of what is wrong are added up.
+/// Returns |a - b|, at most 2^40: files may have any numbers, and counts of wrong ones are added up.
 inline std::int64_t number_distance(std::int64_t a, std::int64_t b) {
     constexpr std::uint64_t most = std::uint64_t{1} << 40;
     const auto low = static_cast<std::uint64_t>(std::min(a, b)), high = static_cast<std::uint64_t>(std::max(a, b));

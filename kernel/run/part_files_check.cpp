@@ -1,3 +1,10 @@
+// A part is checked against itself. Its boundary triangles are taken as a surface, and verify_mesh() proves that its
+// cells fill that; whether this surface is the one of the input and of the neighbours can be told only with all parts,
+// so that boundary vertices, pieces of input facets and interface triangles are kept for it in PartFindings. Arrays and
+// headers that follow from the mesh are not compared one by one: the bytes that the mesh would be written as are
+// hashed, and their hash must be that of the file. Files may hold any numbers, so that a cell with a vertex twice, or a
+// number at the end of its range, must not break the check itself. Triangles are rotated to their smallest vertex, and
+// those of interfaces oriented as in the part with the smaller number, so that both sides of one have the same name.
 #include "run/part_files_check.h"
 
 #include <algorithm>
@@ -18,7 +25,8 @@ namespace kerf {
 
 namespace {
 
-// The keys say only what the file has: the facet of the input, or that there is none.
+// The boundary of a part as a surface. Its keys hold no more than the file: the facet of the input, or that there is
+// none.
 SurfaceArrays surface_of(const Part& part) {
     constexpr NodeId some_cut = 1;
     SurfaceArrays surface;
@@ -114,7 +122,8 @@ PartFindings PartFilesCheck::operator()(const nlohmann::json& of_report) const {
     return found;
 }
 
-// The arrays that follow from the mesh, and all headers: the bytes are those that the mesh would be written as.
+// Checks the arrays that follow from the mesh, and all headers: the bytes of the file are those that the mesh would be
+// written as.
 void PartFilesCheck::check_what_follows(const Part& part, PartFindings& found) const {
     const bool is_valid = std::none_of(part.mesh.tets.begin(), part.mesh.tets.end(), has_repeated_vertex);
     if (is_vtu(found.file) && is_valid &&

@@ -24,18 +24,18 @@ struct PlacedVertex {
     Vec3 point;
 };
 
-/// A triangle on an interface, as one part has it.
+/// A triangle on an interface, as one of its two parts has it.
 struct InterfaceFacet {
     NamedTriangle vertices;  ///< oriented as in the part with the smaller number
     std::int32_t part, neighbour;
 };
 
-/// What a part tells of itself, and what has to be compared with others.
+/// The findings about one part: its own defects, and all that has to be compared with other parts or the input.
 struct PartFindings {
     std::string file;                           ///< path in the folder
-    bool is_whole = true;                       ///< false: of order 2, and nobody knows its nodes on edges
-    std::vector<std::string> differences = {};  ///< as FolderVerification::differences
-    RunVerification laws = {};                  ///< the counts that a part alone can break
+    bool is_whole = true;                       ///< false: the part is of order 2, and its nodes on edges are unknown
+    std::vector<std::string> differences = {};  ///< sentences for FolderVerification::differences
+    RunVerification laws = {};                  ///< counts of laws that a single part can break
     std::int64_t tets = 0;
     double volume = 0;
     PartHash hash = {};
@@ -43,17 +43,21 @@ struct PartFindings {
     std::vector<PlacedVertex> boundary = {};
     std::vector<InputPiece> pieces = {};
     std::vector<InterfaceFacet> interfaces = {};
-    std::vector<std::array<std::int64_t, 2>> interior = {};  ///< first number and how many, if files have numbers
-    std::int64_t unnumbered_interior = 0;                    ///< vertices of files that leave that to who reads them
-    EdgeNodeCheck edge_nodes = {};                           ///< of order 2
+    /// Ranges of global numbers of the vertices inside, as first number and count; empty if the file leaves numbers to
+    /// its reader.
+    std::vector<std::array<std::int64_t, 2>> interior = {};
+    /// Number of the vertices inside, if the file leaves their numbers to its reader; else 0.
+    std::int64_t unnumbered_interior = 0;
+    EdgeNodeCheck edge_nodes = {};  ///< of parts of order 2
 };
 
-/// Checks parts by themselves, each by verify_mesh(). From any thread.
+/// Checks parts one by one, each by verify_mesh(). From any thread.
 class PartFilesCheck {
  public:
-    /// `order` of the run; `is_of_this_version`: else headers may be others; `file_hashes`: of the files by their
-    /// paths, as they are now; `stored`: of order 2 without VTU files, the parts with their nodes on edges, else null,
-    /// and where they cannot be read. All of them must outlive the check.
+    /// Takes the folder of a run. `order`: of the run's cells; `is_of_this_version`: whether this version of Kerf wrote
+    /// it, else headers may differ; `file_hashes`: hashes of the files as they are now, by path; `stored`: for runs of
+    /// order 2 without VTU files, the parts with their nodes on edges; null for other runs, and where they cannot be
+    /// read. All references must outlive the check.
     PartFilesCheck(const std::string& folder, int order, bool is_of_this_version,
                    const std::map<std::string, std::string>& file_hashes, const RunParts* stored)
         : folder_(folder),
@@ -62,7 +66,7 @@ class PartFilesCheck {
           file_hashes_(file_hashes),
           stored_(stored) {}
 
-    /// `of_report`: the part's row of report.json. Throws Error(io) for a missing or unreadable part.
+    /// Checks one part. `of_report`: its row of report.json. Throws Error(io) for a missing or unreadable part.
     PartFindings operator()(const nlohmann::json& of_report) const;
 
  private:

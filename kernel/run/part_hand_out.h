@@ -11,12 +11,13 @@
 
 namespace kerf {
 
-/// What ranks post to each other while they mesh.
+/// A message that ranks post to each other while they mesh.
 struct VolumeMessage {
     enum class Kind : char { wish, assignment, part_done, all_done, stop };
     Kind kind = Kind::stop;
-    std::int32_t number = -1;      ///< of the rank that wishes for a part; of the part that is assigned, -1 for none
-    std::vector<PartReport> part;  ///< the one that is done
+    /// Number of the rank that wishes for a part, or place of the part that is assigned, -1 for none.
+    std::int32_t number = -1;
+    std::vector<PartReport> part;  ///< the part that is done; empty in messages of another kind
 
     template <class Archive>
     void archive(Archive& a) {
@@ -24,21 +25,22 @@ struct VolumeMessage {
     }
 };
 
-/// Each part goes to one rank: the root rank, which is rank 0, has the tickets, the others ask it, once for each worker
-/// that is free. So a part takes two messages, and a worker that finds nothing left two more. Nothing waits here, and
-/// nothing but the tickets of the root rank grows with parts or ranks.
+/// Hands each part to one rank. The root rank, which is rank 0, has the tickets; the others ask it, once for each
+/// worker that is free. So a part takes two messages, and a worker that finds nothing left two more. No call waits, and
+/// only the tickets of the root rank grow with parts or ranks.
 class PartHandOut {
  public:
-    /// `waiting`: all parts that wait, in descending order of load, and `host_of_rank`; only the root rank looks at
-    /// them. `on_taken` gets the places in that list of the parts that this rank is to mesh.
+    /// Takes `waiting`, all parts that wait, in descending order of load, and `host_of_rank`, the number of each rank's
+    /// host; only the root rank looks at these two. `on_taken` gets the place in `waiting` of each part that this rank
+    /// is to mesh.
     PartHandOut(Communicator& ranks, std::vector<WaitingPart> waiting, std::vector<std::int32_t> host_of_rank,
                 std::function<void(std::size_t)> on_taken);
 
     /// Takes a part for each worker that is free, now or when the answer comes.
     void fill(std::size_t free_workers);
-    /// What a `wish` gets. Only on the root rank.
+    /// Answers a `wish` with a part, or with none if none is left. Only on the root rank.
     void answer(const VolumeMessage& wish);
-    /// An `assignment` has arrived. Not on the root rank.
+    /// Takes an `assignment` that has arrived. Not on the root rank.
     void receive(const VolumeMessage& assignment);
 
     /// Whether a wish has no answer yet.

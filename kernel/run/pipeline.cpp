@@ -1,6 +1,15 @@
-// The first rank reads the input, and each node of the tree is cut by one rank, which passes halves on. The ranks talk
-// to match interfaces, to share the parts out, to number the vertices, and to report. Parts and meshes travel as files:
-// from the rank that cut them to the worker that takes them, and from there to their place.
+// One function, run(), has the order of all stages; each is a function from values to values, called by every rank. The
+// first rank reads the input, and each node of the tree is cut by one rank, which passes halves on. The ranks talk to
+// match interfaces, to share the parts out, to number the vertices, and to report. Parts and meshes travel as files:
+// from the rank that cut them to the worker that takes them, and from there to their place; a rank that has written the
+// job of a part forgets its surface.
+//
+// The folder of a run lies beside its final place until finish() moves it there. It is kept from the beginning, so that
+// after an error or a kill the next run into it finds finished parts. The store of a part goes as soon as its files are
+// there, if no format asks for the part again: the disk never holds both, and a run that continues makes the store of
+// the file of vtu again (restore_stored_part()). A transient run, that of a mesh in memory, has the same order, but a
+// temporary folder without journal, surfaces and hashes, and gives its store to the listener instead of writing
+// formats.
 #include "run/pipeline.h"
 
 #include <algorithm>
@@ -59,7 +68,7 @@ auto timed(Communicator& ranks, double& seconds, Stage stage) {
     return value;
 }
 
-// What all stages know.
+// The values that all stages use.
 struct RunContext {
     const RunOptions& options;
     Communicator& ranks;
@@ -71,7 +80,7 @@ struct RunContext {
     bool is_root() const { return ranks.rank() == 0; }
 };
 
-// Who continues a run by the name of its folder has nothing but what is written there.
+// Saves the options: a run that is continued by the name of its folder has nothing else to go by.
 void save(const RunContext& run, const RunFolder& folder) {
     std::error_code ignored;
     if (run.options.sizes.background)
@@ -98,10 +107,10 @@ void keep_folder(const RunContext& run, RunFolder& folder) {
     });
 }
 
-// What is ahead.
+// Tells the listener of the parts and the forecast before they are meshed.
 void announce_parts(const RunContext& run, const std::vector<PartReport>& parts, double read_seconds,
                     const Stopwatch& whole) {
-    // Where reading was reading alone, it has shown how fast the machine is.
+    // The seconds of reading tell how fast the machine is, unless CAD was imported or the surface remeshed in them.
     const bool shows_pace = !run.input.is_cad && !run.input.remeshed;
     const double pace = shows_pace ? pace_of_reading(read_seconds, static_cast<double>(run.input.facets)) : 1;
     in_agreement(run.ranks, [&] {
@@ -113,7 +122,7 @@ void announce_parts(const RunContext& run, const std::vector<PartReport>& parts,
     });
 }
 
-// Leaves of the folder what this run can use, and returns how many parts an interrupted one had finished.
+// Keeps only the files of the folder that this run can use, and returns how many parts an interrupted one had finished.
 std::size_t clear_folder(const RunContext& run, RunFolder& folder, const std::vector<PartReport>& parts) {
     return in_agreement(run.ranks, [&] {
         if (!run.is_root() || run.options.transient) return std::size_t{0};
@@ -127,8 +136,8 @@ std::size_t clear_folder(const RunContext& run, RunFolder& folder, const std::ve
     });
 }
 
-// Surfaces leave the memory of the rank: what remains to be done is written in files, for the stage that meshes, if
-// there is one. Returns `parts` with what is known of them then.
+// Moves the surfaces of this rank's parts out of its memory: their jobs are written in files for the stage that meshes,
+// if there is one. Returns the reports of all parts, with the numbers that are known by then.
 std::vector<PartReport> hand_over_parts(const RunContext& run, RunFolder& folder, std::vector<PartReport> parts,
                                         std::vector<OwnPart> own, VolumeStage* volume) {
     const std::size_t finished_before = clear_folder(run, folder, parts);
@@ -153,7 +162,7 @@ std::vector<PartReport> hand_over_parts(const RunContext& run, RunFolder& folder
     return parts;
 }
 
-// What a run without meshes has to show as a whole.
+// Writes all surfaces as one file: the whole that a run without meshes has to show.
 void join_surfaces(const RunContext& run, const RunFolder& folder, const std::vector<PartReport>& parts) {
     in_agreement(run.ranks, [&] {
         if (!run.is_root()) return;
@@ -192,7 +201,7 @@ StoredParts number_parts(const RunContext& run, const RunFolder& folder, const s
     return {std::move(outline), places};
 }
 
-// On the root rank, before it is cut.
+// The whole surface, taken on the root rank before it is cut; none if no reference is wanted.
 std::optional<Surface> surface_for_reference(const RunContext& run) {
     if (!run.options.reference || !run.is_root()) return std::nullopt;
     if (run.input.complex.region_count() > 1)
@@ -232,7 +241,7 @@ bool has_vtu(const std::vector<const Format*>& formats) {
     return std::find(formats.begin(), formats.end(), &find_format("vtu")) != formats.end();
 }
 
-// Solvers cannot read a mesh with parts missing, people can look at it.
+// Writes all formats; of a mesh with parts missing, which no solver can read, only vtu, so that people can look at it.
 std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folder, const StoredParts& stored,
                                    const SecondOrderParts* of_order_2, const std::vector<PartReport>& reports) {
     std::vector<const Format*> formats = parse_formats(run.options.formats);
@@ -247,7 +256,7 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
                                 .split_regions = run.options.split_regions};
     const WriteTarget target{.folder = folder.partial_path(), .options = options};
     in_agreement(run.ranks, [&] {
-        if (run.is_root() && of_order_2 && !has_vtu(formats))  // which has all nodes
+        if (run.is_root() && of_order_2 && !has_vtu(formats))  // vtu has all nodes
             write_curved_nodes(curved_nodes_file(folder.partial_path()), of_order_2->curved());
     });
     const PartSource& parts = of_order_2 ? static_cast<const PartSource&>(*of_order_2) : stored;
@@ -257,7 +266,7 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
                        });
 }
 
-// What becomes of the parts: files, or what the listener makes of them.
+// Writes the parts as files, or gives them to the listener of a transient run.
 std::vector<RunFile> pass_on_meshes(const RunContext& run, const RunFolder& folder, const StoredParts& parts,
                                     const SecondOrderParts* of_order_2, const std::vector<PartReport>& reports) {
     if (!run.options.transient) return write_formats(run, folder, parts, of_order_2, reports);
@@ -273,7 +282,7 @@ void remove_stored_parts(const RunContext& run, const RunFolder& folder, int exi
     remove_run_files(folder.partial_path(), [](const std::string& file) { return is_stored_part(file); });
 }
 
-// Of the ranks, and of the largest worker for each worker.
+// Sum of the peaks of the ranks, each with that of the largest worker for each of its workers.
 std::int64_t peak_memory(const RunContext& run, const std::vector<PartReport>& parts) {
     std::int64_t largest_worker = 0, sum = 0;
     for (const PartReport& part : parts) largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);

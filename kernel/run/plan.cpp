@@ -1,3 +1,11 @@
+// The first rank decides all, in an order in which each choice has what it depends on: the input is read, lengths get
+// its units, a forecast refuses a surface that could not be filled before it is remeshed, then the surface is remeshed
+// and sized; nodes of second order are functions of the surface before it is cut, so they are made next; sizes are
+// taken on the surface that is cut, K follows from its sized volume, and the budget is checked again. The other ranks
+// get the result as bytes (run/told_plan.h). Two things are agreed on before that: the cores of a rank are the fewest
+// of any rank, because the defaults of K and workers depend on them and must not differ; and the first rank borrows the
+// processors of the sleeping ranks of its host. "Sized volume" is the volume in which each place counts by the size
+// that is wanted there.
 #include "run/plan.h"
 
 #include <algorithm>
@@ -24,7 +32,8 @@ namespace kerf {
 
 namespace {
 
-// Fewer facets leave no contour of edges; fewer than a tetrahedron has make no part.
+// The fewest facets of a part. Fewer than the first number leave no contour of edges; fewer than a tetrahedron has make
+// no part.
 std::int64_t least_facets(const DecomposeOptions& options) {
     return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
 }
@@ -53,7 +62,7 @@ RunOptions sized_on(const Input& input, RunOptions options) {
     return with_sizes_on(std::move(options), input.complex.arrays(), input.patch_names);
 }
 
-// In units of what is wanted where no region has a size of its own.
+// The sized volume, in units of the size that holds where no region has one of its own.
 double sized_volume_of(const Input& input, const RunOptions& options) {
     const RegionSizes& sizes = options.decompose.region_sizes;
     const SizeField& all = options.mesher.size;
@@ -67,7 +76,8 @@ double sized_volume_of(const Input& input, const RunOptions& options) {
     return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
 }
 
-// A surface of many facets takes longer to be made than it takes to see that it could not be filled.
+// Checks the budget of the surface that remeshing would make: a surface of many facets takes longer to be made than to
+// be found too large to be filled.
 void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
     if (options.dry_run || surface_change(input, options) == SurfaceChange::none) return;
     options = with_forecast_size(input, std::move(options));
@@ -123,7 +133,7 @@ class ProcessorsOfHost {
     int ranks_ = 0;  // of the host
 };
 
-// What a rank can tell of the options by itself.
+// The options as far as a rank resolves them by itself.
 RunOptions resolved_request(const RunOptions& request, int cores_of_rank, const Input& input) {
     RunOptions options = request;
     if (input.is_ready) options.input = input.path;
@@ -133,7 +143,7 @@ RunOptions resolved_request(const RunOptions& request, int cores_of_rank, const 
     return options;
 }
 
-// Reads what plan.options name, and completes them.
+// Reads the input that plan.options name, and completes them.
 void plan_surface(RunPlan& plan, Input& input, int ranks, StageListener* listener) {
     RunOptions wanted = std::move(plan.options);
     if (!std::exchange(input.is_ready, false)) input = read_input(wanted.input, wanted.input_options, listener);

@@ -1,3 +1,11 @@
+// A part becomes a job that needs nothing of the others. All that only the parts together know is found by keys, never
+// by coordinates: the part behind each interface triangle (prepare/interface_match.h), the global number of each
+// vertex, which is arithmetic on its key and the tree (prepare/numbering.h), and the set of parts that have a vertex or
+// an edge (prepare/shared_incidences.h). An incidence is one vertex or edge with one part that has it; it goes to one
+// rank, which its number chooses, and comes back as the set, so that the memory of a rank follows its own parts. Only
+// vertices of facets between parts, and those of contacts, are told. Of several regions, a part that touches itself
+// gets one vertex at each place first: a mesher must not get two. The surface of a leaf is moved into its job; nothing
+// is kept twice.
 #include "run/prepare_stage.h"
 
 #include <algorithm>
@@ -21,7 +29,7 @@ namespace kerf {
 
 namespace {
 
-// What is known of a part before it is meshed.
+// The report of a part before it is meshed.
 PartReport describe_part(const PartJob& job, double volume, int rank, double half_thickness,
                          const RunOptions& options) {
     const CutOptions cut = options.decompose.cut_in(job.region);
@@ -65,7 +73,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
     return part;
 }
 
-// What the parts of this rank have in common with those of all ranks.
+// Finds the vertices that the parts of this rank share with others, on any rank.
 SharedVertices find_shared_vertices(Communicator& ranks, const LeavesOfRanks& leaves, const VertexNumbering& numbering,
                                     const Decomposition& own, std::span<const FacetSides> sides) {
     std::vector<SharedVertices::Incidence> held;
@@ -104,7 +112,7 @@ void find_shared_edges(Communicator& ranks, const LeavesOfRanks& leaves, std::ve
     for (OwnPart& part : own) part.job.shared_edges = shared.groups_of(part_of_job(part.job));
 }
 
-// Of one surface, where it lies at contacts.
+// The vertices and edges of one surface that lie at contacts.
 struct SurfaceContacts {
     std::vector<std::int32_t> vertices;
     std::vector<UndirectedEdge> edges;

@@ -1,4 +1,4 @@
-// What is divided among the ranks by number alone.
+// The division of things among the ranks by number alone.
 #pragma once
 
 #include "decompose/decomposition.h"
@@ -6,7 +6,7 @@
 
 namespace kerf {
 
-/// The share of a rank in `count` things, as first_of_rank() has it.
+/// Returns the share of a rank in `count` things, as first_of_rank() divides them.
 inline LeafRange range_of_rank(std::int32_t count, int rank, const Communicator& ranks) {
     const auto begin = [&](int r) { return static_cast<std::int32_t>(first_of_rank(count, r, ranks)); };
     return {begin(rank), begin(rank + 1)};

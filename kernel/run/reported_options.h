@@ -7,7 +7,8 @@
 
 namespace kerf {
 
-/// `options`: the member of that name of report.json. Options that it does not have are as they are by default.
+/// Returns the options of a report. `options`: the member of that name of report.json. Options that it does not have
+/// are as they are by default.
 RunOptions options_of_report(const nlohmann::json& options);
 
 }  // namespace kerf

@@ -24,7 +24,7 @@ std::vector<std::string> find_other_files(const RunFolder& folder, const std::ve
     return files;
 }
 
-// What ranks and workers have said that they wrote, by the names of the files.
+// The hashes that ranks and workers have told of files that they wrote, by the names of the files.
 std::map<std::string, FileHash> hashes_of_parts(const std::vector<PartReport>& parts) {
     std::map<std::string, FileHash> hashes;
     for (const PartReport& part : parts) {

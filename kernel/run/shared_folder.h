@@ -10,7 +10,8 @@
 
 namespace kerf {
 
-/// The folder that `create` makes on the root rank, joined by the others. Collective; throws Error on every rank alike.
+/// Returns the folder that `create` makes on the root rank, which the other ranks join. Collective; throws Error on
+/// every rank alike.
 template <class Create>
 RunFolder open_together(Communicator& ranks, Create create) {
     std::optional<RunFolder> folder;

@@ -8,7 +8,7 @@ namespace kerf {
 
 namespace {
 
-// Lists the fields of what is told, in either direction.
+// Lists the fields of the message, for writing and for reading.
 template <class Archive>
 class PlanArchive {
  public:
@@ -66,7 +66,7 @@ Bytes bytes_of_plan(const RunPlan& plan, const Input& input) {
     Bytes bytes;
     ByteWriter writer(bytes);
     PlanArchive<ByteWriter> archive(writer);
-    // An archive that writes only reads.
+    // An archive that writes bytes does not change its fields.
     std::vector<double> largest_of_regions = plan.options.decompose.region_sizes.max_volumes();
     archive.plan(const_cast<RunPlan&>(plan), largest_of_regions);
     archive.input(const_cast<Input&>(input));

@@ -1,4 +1,4 @@
-// What the first rank tells the others of a plan: they have not read the surface.
+// A plan as bytes, from the first rank to the others, which have not read the surface.
 #pragma once
 
 #include "core/bytes.h"
@@ -7,12 +7,12 @@
 
 namespace kerf {
 
-/// The plan and its input, as plan_run() leaves them to other ranks. O(#F) for several regions, else a few kilobytes
-/// beside sources of sizes, and nodes on edges.
+/// Returns the plan and its input as bytes, as plan_run() leaves them to other ranks. O(#F) for several regions, else a
+/// few kilobytes beside sources of sizes, and nodes on edges.
 Bytes bytes_of_plan(const RunPlan& plan, const Input& input);
 
-/// Takes over what bytes_of_plan() has said. `plan`: with the options as far as a rank resolves them by itself. O(#F
-/// log #F) for several regions.
+/// Takes over a plan and its input from such bytes. `plan`: with the options as far as a rank resolves them by itself.
+/// O(#F log #F) for several regions.
 void take_plan(const Bytes& told, RunPlan& plan, Input& input);
 
 }  // namespace kerf

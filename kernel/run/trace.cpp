@@ -1,5 +1,8 @@
-// A file of a trace is a header and one record, both through core/bytes.h. The surfaces of inner nodes are not in it:
-// the sides of the facets and the interface of a cut give both halves again, with the same numbers.
+// A file of a trace is a header and one record, both through core/bytes.h; the header holds size and hash of the
+// record, so that a damaged file is refused. The surfaces of inner nodes are not in it: the sides of the facets and the
+// interface of a cut give both halves again, with the same numbers. A straight cut is the exception: it splits facets
+// of the node before it cuts, so that its Cut holds the surface of the node (Cut::split_parent). A node is cut twice
+// where straight cuts follow a contour that was not found; the record then has the last cut, with the tries of both.
 #include "run/trace.h"
 
 #include <algorithm>
@@ -91,7 +94,7 @@ SurfaceArrays Trace::outside_of_regions(NodeId node) const {
     const auto is_inside = [&](std::int32_t region) {
         return region >= 0 && lies_below(region_roots[static_cast<std::size_t>(region)], node);
     };
-    SurfaceArrays outside = surface;  // of which all vertices stay
+    SurfaceArrays outside = surface;  // all of its vertices stay
     std::size_t kept = 0;
     for (std::size_t f = 0; f < sides.size(); ++f) {
         const bool has_back = is_inside(sides[f].back), has_front = is_inside(sides[f].front);

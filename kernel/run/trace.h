@@ -13,26 +13,28 @@
 
 namespace kerf {
 
-/// What --trace writes. It depends on input, options and K alone: not on ranks, workers or time.
+/// The record that --trace writes. It depends on input, options and K alone: not on ranks, workers or time.
 struct Trace {
-    std::string input;                      ///< path of the surface file, as it was given
-    SurfaceArrays surface;                  ///< as it was cut: welded and oriented; of several regions each facet once
-    std::vector<FacetSides> sides;          ///< of its facets, empty for one region
-    std::vector<std::string> region_names;  ///< of several
-    std::vector<NodeId> region_roots;       ///< of each region the node that is the whole of it
-    bool remeshed = false;                  ///< it is not as the file has it, but Input::remeshed
-    std::vector<std::string> patch_names;   ///< of surface.patch
-    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< as Input has them
-    std::vector<OptionText> options;                         ///< those that shape the parts, resolved
-    std::vector<Cut> cuts;  ///< of every node where one was tried, ascending by number; recorded, with seconds 0
+    std::string input;      ///< path of the surface file, as it was given
+    SurfaceArrays surface;  ///< the surface that was cut: welded and oriented; of several regions each facet once
+    std::vector<FacetSides> sides;          ///< sides of its facets, empty for one region
+    std::vector<std::string> region_names;  ///< of several regions; empty for one
+    std::vector<NodeId> region_roots;       ///< for each region, the node that is the whole of it
+    bool remeshed = false;                  ///< whether the surface is not that of the file, but Input::remeshed
+    std::vector<std::string> patch_names;   ///< names by number of surface.patch
+    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< those of Input
+    std::vector<OptionText> options;                         ///< options that shape the parts, resolved
+    std::vector<Cut> cuts;  ///< cuts of all nodes where one was tried, ascending by number; recorded, with seconds 0
 
-    /// The cut of a node, nullptr if none was tried there. O(log #cuts).
+    /// Returns the cut of a node, nullptr if none was tried there. O(log #cuts).
     const Cut* find(NodeId node) const;
-    /// The surface that was cut first, if the node is its: that of a region, or of node 1 if there is only one.
+    /// Returns the surface of a node above which nothing was cut: that of a region, or of node 1 if there is only one
+    /// region; nothing for another node.
     std::optional<Surface> root_surface(NodeId node) const;
-    /// Whether a node holds several regions, so that it is divided without a cut and has no surface of half-edges.
+    /// Returns whether a node holds several regions, so that it is divided without a cut and has no surface of
+    /// half-edges.
     bool holds_regions(NodeId node) const;
-    /// The facets with such a node on one side, turned outwards. O(#F + #regions).
+    /// Returns the facets that have a region of such a node on exactly one side, turned outwards. O(#F + #regions).
     SurfaceArrays outside_of_regions(NodeId node) const;
 
     template <class Archive>
@@ -41,16 +43,16 @@ struct Trace {
     }
 };
 
-/// The surface of a node of the tree, with the vertex and facet numbers that its Cut refers to: the splits of the nodes
-/// above are done again, O(#F) for each. A node with a straight cut comes with its facets split. Throws Error(usage) if
-/// the tree has no such node, or it holds several regions.
+/// Returns the surface of a node of the tree, with the vertex and facet numbers that its Cut refers to: the splits of
+/// the nodes above are done again, O(#F) for each. A node with a straight cut comes with its facets split. Throws
+/// Error(usage) if the tree has no such node, or it holds several regions.
 Surface replay(const Trace& trace, NodeId node);
 
-/// Writes the file, replacing what was there. Throws Error(io).
+/// Writes a trace into a file, and replaces an older one. Throws Error(io).
 void write_trace(const std::string& path, const Trace& trace);
 
-/// Throws Error(io) if the file cannot be read, is none of these, was written by another version or a machine of
-/// another byte order, is truncated or damaged.
+/// Reads a trace. Throws Error(io) if the file cannot be read, is no trace, was written by another version or a machine
+/// of another byte order, is truncated or damaged.
 Trace read_trace(const std::string& path);
 
 /// Keeps the cuts that decompose() makes on one rank. Calls may come in any order, one at a time.
@@ -61,9 +63,9 @@ class TraceRecorder : public CutListener {
     void on_cut(const Surface& parent, const Cut& cut) override;
     bool cancelled() const override { return next_ && next_->cancelled(); }
 
-    /// Collective. Brings the cuts of all ranks together and writes them on the root rank. `own`: what decompose() has
-    /// returned for `range` on this rank; of the ranks that made the same cut, the one with its first leaf gives it.
-    /// Every rank receives the bytes of all. Throws Error(io) on all ranks.
+    /// Brings the cuts of all ranks together and writes them on the root rank. Collective. `own`: the result of
+    /// decompose() for `range` on this rank; where several ranks made the same cut, the one with its first leaf gives
+    /// it. Throws Error(io) on all ranks.
     void write(const std::string& path, Communicator& ranks, const Decomposition& own, LeafRange range);
 
  private:

@@ -54,7 +54,7 @@ std::string read_report(const std::string& folder) {
 
 struct ComparedFiles {
     std::vector<std::string> differences;
-    std::vector<std::string> other_files;       // paths of those that are missing or changed
+    std::vector<std::string> other_files;       // paths of files that are missing or changed
     std::map<std::string, std::string> hashes;  // by path: as the files are now
 };
 
@@ -173,7 +173,7 @@ class FolderVerifier {
     RunNames names_;
     std::vector<PartHash> hashes_;                    // in the order of the report
     std::map<std::string, std::string> file_hashes_;  // by path: as the files are now
-    std::vector<std::string> other_files_;            // paths of those that are missing or changed
+    std::vector<std::string> other_files_;            // paths of files that are missing or changed
     std::int64_t unread_parts_ = 0;
     EdgeNodeCheck edge_nodes_;
 };
@@ -190,8 +190,8 @@ void FolderVerifier::end_if_cancelled() const {
         throw Error(ErrorCode::cancelled, "The verification was cancelled.");
 }
 
-// What cannot be read is one of the differences, if that does not follow from another one. `files`: how the paths of
-// those begin that are needed for it.
+// Notes a file that cannot be read as a difference, unless that follows from another one: a file whose path begins with
+// one of `files`, without which it cannot be read, is missing or changed.
 void FolderVerifier::cannot_read(const std::vector<std::string>& files, const std::string& why) {
     const auto is_needed = [&](const std::string& path) {
         return std::any_of(files.begin(), files.end(), [&](const std::string& file) { return path.starts_with(file); });
@@ -199,7 +199,8 @@ void FolderVerifier::cannot_read(const std::vector<std::string>& files, const st
     if (std::none_of(other_files_.begin(), other_files_.end(), is_needed)) differs(why);
 }
 
-// Of order 2 without VTU: who knows the nodes on edges. Null for others, and where files that it takes are damaged.
+// The parts with their nodes on edges, of a run of order 2 without VTU. Null for other runs, and where files that are
+// needed for it are damaged.
 std::unique_ptr<const RunParts> FolderVerifier::stored_parts() {
     const nlohmann::json& parts = report_.at("parts");
     const auto is_stored = [&](const auto& part) { return path_of_part(folder_, part.at("id")).ends_with(".part"); };
@@ -213,7 +214,8 @@ std::unique_ptr<const RunParts> FolderVerifier::stored_parts() {
     }
 }
 
-// Each part by itself, on threads; what is found is taken in the order of the report, as soon as that can be.
+// Checks each part by itself, on threads; findings are taken in the order of the report, each as soon as all before it
+// are there.
 void FolderVerifier::check_parts() {
     const nlohmann::json& parts = report_.at("parts");
     const std::unique_ptr<const RunParts> stored = stored_parts();
@@ -271,7 +273,7 @@ void FolderVerifier::check_pvtu() {
     if (read_file(path) != pvtu_text(pieces, layout)) differs("mesh.pvtu does not name the parts");
 }
 
-// What the report says of the whole.
+// Compares the totals of the report with those of the parts.
 void FolderVerifier::check_totals() {
     const auto& totals = report_.at("totals");
     if (totals.at("tets") != result_.tets || totals.at("vertices") != result_.vertices ||
@@ -283,7 +285,7 @@ void FolderVerifier::check_totals() {
         differs("report.json is that of a run that has failed");
 }
 
-// The same number means the same coordinates, bit for bit.
+// Vertices of the same number must have the same coordinates, bit for bit.
 void FolderVerifier::check_shared_vertices() {
     std::stable_sort(boundary_.begin(), boundary_.end(),
                      [](const PlacedVertex& a, const PlacedVertex& b) { return a.id < b.id; });
@@ -297,7 +299,7 @@ void FolderVerifier::check_shared_vertices() {
     boundary_.resize(kept);
 }
 
-// Every interface triangle lies on two parts in opposite orientation, and each names the other.
+// Every interface triangle must lie on two parts in opposite orientation, and each must name the other.
 void FolderVerifier::check_interfaces() {
     sort_on_threads(interfaces_, [](const InterfaceFacet& a, const InterfaceFacet& b) {
         return std::tie(a.vertices, a.part, a.neighbour) < std::tie(b.vertices, b.part, b.neighbour);
@@ -313,7 +315,7 @@ void FolderVerifier::check_interfaces() {
     }
 }
 
-// Boundary numbers fill [0, n), interior ranges follow without a gap.
+// The numbers of boundary vertices must fill [0, n), and the ranges of the parts' inner ones follow without a gap.
 void FolderVerifier::check_numbering() {
     auto next = static_cast<std::int64_t>(boundary_.size());
     if (!boundary_.empty())
@@ -338,7 +340,7 @@ void FolderVerifier::check_edge_nodes() {
                             result_.curved_nodes));
 }
 
-// Of one that the parts have on their boundaries.
+// The place of a vertex that some part has on its boundary.
 Vec3 FolderVerifier::point_of(std::int64_t vertex) const {
     return std::lower_bound(boundary_.begin(), boundary_.end(), vertex,
                             [](const PlacedVertex& v, std::int64_t id) { return v.id < id; })
@@ -397,7 +399,8 @@ void FolderVerifier::summarise() {
     laws.passed = laws.all_hold() && result_.differences.empty();
 }
 
-// Of a run whose report is damaged, too, all is told that differs.
+// The folder of the solution, if it is one. A run whose report is damaged counts as a run: all of its differences are
+// told.
 std::optional<std::string> find_solution(const std::string& folder) {
     const std::string path = folder + "/report.json";
     std::error_code ignored;

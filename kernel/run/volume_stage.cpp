@@ -1,3 +1,14 @@
+// Each rank runs one loop: it looks for messages, asks the root rank for a part for each worker that is free, and lets
+// its PartQueue step; in between it sleeps. The root rank has the tickets and the tally; it tells all ranks `all_done`
+// when every part has ended. No rank waits for a message. A rank that fails posts `stop`, and the agreement in which
+// the stage ends carries its error; messages that are still on their way then are dropped, so that no later stage reads
+// them. A place is the number of a part in the list of those that wait, in descending load: tickets, messages and the
+// queue name parts by it.
+//
+// A part that was filled gets an entry in the journal (work/journal.h), with the hash of its job, before its job is
+// removed; a failed part leaves a reproducer. The entry is all that resuming needs: hand_over() takes a part as
+// finished where an entry has the hash of the job that it would write, for the same build of the worker, and the stored
+// part is there.
 #include "run/volume_stage.h"
 
 #include <algorithm>
@@ -31,7 +42,7 @@ void remove_file(const std::string& path) {
                                                path, error.message()));
 }
 
-// The sum on every rank, of which none holds more than two at a time.
+// Returns the sum over the ranks, on every rank. No rank holds more than two summands at a time.
 template <class T>
 T add_up(Communicator& ranks, T own) {
     const int size = ranks.size();
@@ -44,7 +55,7 @@ T add_up(Communicator& ranks, T own) {
     return from_bytes<T>(ranks.broadcast(to_bytes(own), root));
 }
 
-// Numbers for the hosts of the ranks.
+// The number of each rank's host.
 std::vector<std::int32_t> number_hosts(Communicator& ranks) {
     std::map<std::string, std::int32_t> numbers;
     std::vector<std::int32_t> of_rank;
@@ -53,7 +64,7 @@ std::vector<std::int32_t> number_hosts(Communicator& ranks) {
     return of_rank;
 }
 
-// What others are told of a part.
+// A part as others are told of it.
 PartReport without_quality(PartReport part) {
     part.result.quality = PartQuality();
     part.result.improvement.smallest_before = Distribution();
@@ -62,7 +73,7 @@ PartReport without_quality(PartReport part) {
 
 }  // namespace
 
-// What the root rank knows about all parts.
+// Counts the parts that have ended, on the root rank, and tells the listener.
 class VolumeStage::Tally {
  public:
     Tally(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, RunListener* listener)

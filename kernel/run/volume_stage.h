@@ -10,31 +10,33 @@
 
 namespace kerf {
 
-/// What has become of the parts of a run.
+/// The outcome of all parts of a run.
 struct MeshedParts {
-    std::vector<PartReport> parts;  ///< without the distributions of their quality: sums of these are beside them
+    std::vector<PartReport> parts;  ///< reports of the parts, without the distributions of their quality: the sums of
+                                    ///< these are in `quality`
     PartQuality quality;
     Improvement improvement;
 };
 
-/// Every rank hands over the parts that it has cut; then the workers of all ranks take them, longest first, from one
-/// list, rather those of their own host where these are nearly as long. A part goes by files, from the rank that cut it
-/// to the worker that takes it, and from the worker to its place: no rank holds more than numbers. The root rank hands
-/// the parts out, one to each worker that is free; ranks post what they have finished to it, and it tells all when
-/// nothing is left. Ranks that wait sleep.
+/// Meshes the parts. Every rank hands over the parts that it has cut; then the workers of all ranks take them, longest
+/// first, from one list, rather those of their own host where these are nearly as long. A part goes by files, from the
+/// rank that cut it to the worker that takes it, and from the worker to its place: no rank holds more than numbers. The
+/// root rank hands the parts out, one to each worker that is free; ranks post the parts that they have finished to it,
+/// and it tells all when nothing is left. Ranks that wait sleep.
 class VolumeStage {
  public:
-    /// `length_scale`: of the distributions of the quality.
+    /// Takes the plan of the run. `length_scale`: the scale of the distributions of quality. All references must
+    /// outlive the stage.
     VolumeStage(Communicator& ranks, RunFolder& folder, const RunPlan& plan, double length_scale, RunListener* listener)
         : ranks_(ranks), folder_(folder), plan_(plan), listener_(listener), own_{{}, PartQuality(length_scale), {}} {}
 
-    /// The job of `part` waits in the folder when this returns, unless an interrupted run has finished it: then
-    /// `part` gets its outcome. Throws Error(io).
+    /// Writes the job of `part` into the folder, unless an interrupted run has finished the part: then `part` gets its
+    /// outcome. Throws Error(io).
     void hand_over(const PartJob& job, PartReport& part);
 
-    /// Collective. `parts`: all parts of the run, the same on every rank, after they were handed over. Returns the same
-    /// on every rank. Throws Error on every rank alike: `cancelled` if any was cancelled, `io` if a part could not be
-    /// written, with all workers ended.
+    /// Meshes all parts that were handed over and returns their outcome, the same on every rank. Collective. `parts`:
+    /// all parts of the run, the same on every rank. Throws Error on every rank alike: `cancelled` if any was
+    /// cancelled, `io` if a part could not be written, with all workers ended.
     MeshedParts mesh(const std::vector<PartReport>& parts);
 
  private:
@@ -55,7 +57,7 @@ class VolumeStage {
     RunFolder& folder_;
     const RunPlan& plan_;
     RunListener* listener_;
-    MeshedParts own_;  // the parts that this rank has meshed; the sums are of those that it has found finished, too
+    MeshedParts own_;  // the parts that this rank has meshed; the sums count the parts that it has found finished, too
 };
 
 }  // namespace kerf

@@ -1,3 +1,9 @@
+// Formats have three kinds of files. Those of the whole are written first, by the root rank; those of parts by the
+// threads of each rank, each of which loads a part once and writes it in all formats; merged files, which are read in
+// one piece, by the root rank at the end. Threads take the next part of the share by a counter, while the thread that
+// called waits and tells the progress: it alone may talk to the listener, which may throw. An error of any of them
+// moves the counter to its end, so that the others stop after their part. A file that several ranks have written has no
+// size (-1) in their lists; the root rank describes it when all have ended.
 #include "run/write_stage.h"
 
 #include <algorithm>
@@ -27,7 +33,7 @@ std::string below(const std::string& folder, const std::string& sub_folder) {
     return sub_folder.empty() ? folder : folder + "/" + sub_folder;
 }
 
-// Those of the names that lie in the sub-folder, as seen from there.
+// The names that lie in the sub-folder, as seen from there.
 std::set<std::string> names_below(const std::set<std::string>& names, const std::string& sub_folder) {
     if (sub_folder.empty()) return names;
     std::set<std::string> below;
@@ -83,7 +89,7 @@ class PartWriters {
     }
 
  private:
-    // Before the threads are joined, also when `while_waiting` throws.
+    // Ends the counter before the threads are joined, also when `while_waiting` throws: it is destroyed before them.
     struct JoinAtEnd {
         PartWriters& writers;
         ~JoinAtEnd() { writers.next_ = writers.share_.last; }
@@ -117,7 +123,7 @@ class PartWriters {
     std::exception_ptr error_;
 };
 
-// With paths relative to the run folder.
+// The files of all formats, with paths relative to the run folder.
 std::vector<RunFile> list_files_of(const std::vector<FormatFiles>& formats, const std::string& folder) {
     std::vector<RunFile> all;
     for (const auto& [format, files] : formats)
