@@ -29,7 +29,7 @@ void for_each_number(Summary& cut, Visit visit) {
     visit("seconds", cut.seconds);
 }
 
-// The value up to `last` that has this name.
+// Returns the value up to `last` that has this name. Throws Error(input) if none has.
 template <class Enum>
 Enum value_named(const std::string& text, Enum last) {
     for (int i = 0; i <= static_cast<int>(last); ++i)

@@ -7,11 +7,11 @@
 
 namespace kerf {
 
-/// The object that the report has of each cut.
+/// Returns the object that the report has of each cut.
 nlohmann::ordered_json json_of_cut(const CutSummary& cut);
 
-/// The cut of such an object. Numbers that were not finite are null there, and -1 here. Throws nlohmann's exceptions,
-/// and Error(input) for names that it does not know.
+/// Returns the cut of such an object. Numbers that were not finite are null there, and -1 here. Throws nlohmann's
+/// exceptions, and Error(input) for names that it does not know.
 CutSummary cut_of_json(const nlohmann::json& json);
 
 }  // namespace kerf

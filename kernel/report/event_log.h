@@ -25,12 +25,12 @@ class CheckedFile;
 ///     {"event": "working", "stage", "done", "total", "stage_seconds"}
 ///     {"event": "end", "exit_code", "message"}
 ///
-/// Those of equations and iterations are of `kerf solve`, which has more stages (SolveListener) and tells each second
-/// that one goes on. "seconds_left" is -1 where nobody knows. The first event says what runs: absolute paths, "" for
-/// one that is not written, and K, 0 if the run chooses it. A reader of a pipe that leaves is told nothing more, and
-/// the run goes on. "message" is there where something failed, "remedy" where the first attempt did, "way" where the
-/// mesher has several, "reason" where it did not go its first one, "core_tets" where it has stamped cells, "recovery"
-/// where facets had to be recovered (FacetRecovery).
+/// Events of equations and iterations come from `kerf solve`, which has more stages (SolveListener), and which tells
+/// each second that one goes on. "seconds_left" is -1 where it is not known. The first event names the run: absolute
+/// paths, "" for a file that is not written, and K, 0 if the run chooses it. A reader of a pipe that leaves is told
+/// nothing more, and the run goes on. "message" is there where something failed, "remedy" where the first attempt did,
+/// "way" where the mesher has several, "reason" where it did not go its first one, "core_tets" where it has stamped
+/// cells, "recovery" where facets had to be recovered (FacetRecovery).
 class EventLog : public RunListener {
  public:
     /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor, which stays open. Throws
@@ -38,23 +38,25 @@ class EventLog : public RunListener {
     explicit EventLog(const std::string& target);
     ~EventLog() override;
 
-    /// The first event. Throws Error(io).
+    /// Writes the first event. Throws Error(io).
     void on_start(const RunOptions& options);
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
     void on_part(const PartEvent& event) override;
-    /// Of a solution: the listener's, with what it expects.
+    /// Write the events of a solution: its equations, each iteration with the seconds that are left, and that a stage
+    /// goes on.
     void on_equations(std::int64_t unknowns);
     void on_solver_iteration(int iteration, double residual, double wanted, double seconds_left);
     void on_working(const std::string& stage, std::size_t done, std::size_t total, double stage_seconds);
-    /// The last event. `message`: the error, or empty. What cannot be written is lost: the run has ended anyway.
+    /// Writes the last event. `message`: the error, or empty. An event that cannot be written is lost: the run has
+    /// ended anyway.
     void on_end(int exit_code, const std::string& message);
 
  private:
     template <class Object>
     void write(Object json);
 
-    std::unique_ptr<CheckedFile> file_;  // none when the reader has left
+    std::unique_ptr<CheckedFile> file_;  // null when the reader has left
     std::string stage_;
     Stopwatch stopwatch_;
 };

@@ -1,3 +1,9 @@
+// A file is either refused, where no surface could be made of it, or diagnosed: diagnosed() sorts the errors of
+// checking into these two. Of the errors of checking, only Error(input) is a refusal; all others are thrown on. Regions
+// are summarised only of a surface that can be meshed, without the facets that its repairs leave out; one that is not
+// closed is a refusal, too. For people, defects are grouped by kind and severity, and of many the worst are named; JSON
+// has all of them, with numbers counted as in the file. Both end with the same advice, and with the remedy where one
+// was looked for.
 #include "report/file_diagnosis.h"
 
 #include <algorithm>
@@ -43,7 +49,8 @@ Json repairs_json(const InputRepairs& r) {
             {"facets_added", r.added_facets}};
 }
 
-// Of a surface that can be meshed; the copies that its repairs leave out have sides, too.
+// The regions of a surface that can be meshed. Copies of facets that its repairs leave out have sides, too, so they go
+// first.
 std::vector<RegionSummary> regions_of(const CheckedSoup& checked) {
     const std::vector<char>& dropped = checked.diagnosis.dropped;
     if (dropped.empty() || checked.soup.sides.empty()) return summarize_regions(checked.soup);
@@ -108,8 +115,8 @@ std::string place_and_measure(const Defect& defect, const Soup& soup) {
     return text;
 }
 
-// The defects of one kind and severity, in their order. A single one takes one line; of many, the worst are named: the
-// longest loops, the smallest angles, the shortest edges, the first of what has no measure.
+// Returns the text of the defects of one kind and severity, in their order. A single one takes one line; of many, the
+// worst are named: the longest loops, the smallest angles, the shortest edges, the first of those without a measure.
 std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> defects) {
     constexpr std::size_t most_named = 10;
     std::stable_sort(defects.begin(), defects.end(), [](const Defect* a, const Defect* b) {
@@ -134,14 +141,14 @@ void require_good(const InputOptions& options, double needle_angle_deg) {
     require_in(needle_angle_range, "needle-angle", needle_angle_deg);
 }
 
-// RefusedFile::kind of an error of the input.
+// Returns RefusedFile::kind of an error of the input.
 std::string kind_of_refusal(const Error& error) {
     if (const auto* solid = dynamic_cast<const SolidDefect*>(&error)) return solid->kind();
     if (dynamic_cast<const MisplacedRegion*>(&error)) return MisplacedRegion::kind;
     return dynamic_cast<const WrongRow*>(&error) ? WrongRow::kind : "unreadable";
 }
 
-// `check`: returns what it has found in the surface, or throws why it cannot.
+// Makes a diagnosis. `check` returns the CheckedSoup of the surface, or throws why there is none.
 template <class Check>
 FileDiagnosis diagnosed(const std::string& path, const Check& check) {
     FileDiagnosis found{path, {}, {}, {}, {}};
@@ -179,7 +186,7 @@ FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double nee
     return diagnosed(name_of_arrays, [&] { return check_arrays(std::move(soup), options, needle_angle_deg, poll); });
 }
 
-// By kind, and the errors of a kind before what is repaired.
+// Groups are ordered by kind, and the errors of a kind come before what is repaired.
 std::string defects_text(const CheckedSoup& checked, bool errors_only) {
     std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
     for (const Defect& defect : checked.diagnosis.defects)

@@ -40,7 +40,7 @@ std::string to_text(const std::vector<PatchSummary>& patches) {
         fmt::format("{:>9} {:>12}  {:<36}  {:<24}  {}\n", "triangles", "area", "centroid", "normal", "name");
     for (const PatchSummary& patch : patches) {
         constexpr double shown = 1e-3;
-        const Vec3 &c = patch.centroid, n = (patch.normal / shown).array().round() * shown + 0.0;  // and no -0
+        const Vec3 &c = patch.centroid, n = (patch.normal / shown).array().round() * shown + 0.0;  // without -0
         text += fmt::format("{:>9} {:>12.6g}  {:<36}  {:<24}  {}\n", patch.triangles, patch.area,
                             fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x(), c.y(), c.z()),
                             fmt::format("({:.3f}, {:.3f}, {:.3f})", n.x(), n.y(), n.z()), patch.name);
@@ -54,7 +54,7 @@ std::string spellings_text(const std::vector<std::string>& patch_names) {
         if (format->patch_words) spelled.emplace_back(format, format->patch_words(patch_names));
     std::string text;
     for (std::size_t p = 0; p < patch_names.size(); ++p) {
-        std::vector<std::pair<std::string, std::string>> words;  // and the formats that have them
+        std::vector<std::pair<std::string, std::string>> words;  // words, and the formats that have them
         for (const auto& [format, names] : spelled) {
             const std::string& name = names[p];
             if (name == patch_names[p]) continue;

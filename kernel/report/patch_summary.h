@@ -1,4 +1,4 @@
-// What the patches of a surface are, for who has to name them.
+// The patches of a surface, summarised for somebody who has to name them.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,14 @@
 
 namespace kerf {
 
-/// What a patch is, of a surface as it was read, or of the boundary of a mesh.
+/// The size, place and direction of a patch, of a surface as it was read, or of the boundary of a mesh.
 struct PatchSummary {
     std::string name;
     std::int64_t triangles = 0;
     double area = 0;
     Vec3 centroid = Vec3::Zero();
-    Vec3 normal = Vec3::Zero();  ///< mean, weighted by area: shorter than 1 where the patch is curved, 0 where closed
+    Vec3 normal = Vec3::Zero();  ///< mean normal, weighted by area: shorter than 1 where the patch is curved, 0 where
+                                 ///< it is closed
 
     /// Adds a triangle, with its corners counter-clockwise seen from outside; `centroid` and `normal` are sums weighted
     /// by area until finish().
@@ -24,14 +25,14 @@ struct PatchSummary {
     void finish();
 };
 
-/// All patches in the order of their numbers. O(#F).
+/// Returns all patches in the order of their numbers. O(#F).
 std::vector<PatchSummary> summarize_patches(const Soup& soup);
 
-/// A table with a line for each patch; the name is last.
+/// Returns a table with a line for each patch; the name is last.
 std::string to_text(const std::vector<PatchSummary>& patches);
 
-/// A line for each patch that a format does not call by its name, with what it is called there, as in "openfoam
-/// face_1"; formats that agree stand together. Empty if all of them use the names.
+/// Returns a line for each patch that some format cannot call by its name, with its name there, as in "openfoam
+/// face_1"; formats that agree stand together. Empty if all formats use the names.
 std::string spellings_text(const std::vector<std::string>& patch_names);
 
 }  // namespace kerf

@@ -7,7 +7,7 @@
 
 namespace kerf {
 
-/// {"missing", "by_flips", "split", "added_vertices"}
+/// Returns {"missing", "by_flips", "split", "added_vertices"}.
 nlohmann::ordered_json json_of_recovery(const FacetRecovery& recovery);
 
 }  // namespace kerf

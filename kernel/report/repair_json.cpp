@@ -36,7 +36,7 @@ Json json_of_measures(const SoupMeasures& measures) {
             {"volume", measures.volume ? Json(*measures.volume) : Json(nullptr)}};
 }
 
-// Null for what could not be proven.
+// The distance, or null where none could be proven.
 Json distance_json(double distance) { return std::isfinite(distance) ? Json(distance) : Json(nullptr); }
 
 }  // namespace

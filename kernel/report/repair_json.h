@@ -12,8 +12,8 @@
 namespace kerf {
 
 /// {"bound", "diagonal", "largest_move", "steps": [{"step", "largest_move", "actions": [{"what", "count", "done",
-/// "refused_because", "measure", "places": [{"where", "facets", "value"}]}]}]}. "measure" says what "value" is, both
-/// are there if it is; "refused_because" is there of what is not done.
+/// "refused_because", "measure", "places": [{"where", "facets", "value"}]}]}]}. "measure" names the quantity in
+/// "value", and both are left out together; "refused_because" is there for actions that were not done.
 nlohmann::ordered_json json_of_repair(const RepairReport& report);
 std::string to_json(const RepairReport& report);
 
@@ -21,7 +21,7 @@ std::string to_json(const RepairReport& report);
 /// "losses": lines, "command"}.
 nlohmann::ordered_json json_of_remedy(const Remedy& remedy, const std::string& path);
 
-/// What repair_file() did, what was measured, and what is left.
+/// Returns the result of repair_file(): its steps, the measures before and after, and the defects that are left.
 std::string to_json(const RepairedFile& repaired);
 
 }  // namespace kerf

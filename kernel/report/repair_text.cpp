@@ -1,3 +1,7 @@
+// The texts of `kerf repair` and of remedies. The lines of to_text(RepairedFile) have the form of those of steps, a
+// label and a text, and one whose text is empty is left out, so that each function returns "" where it has nothing to
+// say. Distances are told as bounds only where they were proven. command_of() leaves out options that are the default
+// of the command, so that the line is as short as a user would write it.
 #include "report/repair_text.h"
 
 #include <cmath>
@@ -14,7 +18,7 @@ namespace kerf {
 
 namespace {
 
-// A line as those of steps in to_text(RepairReport).
+// A line in the form of those of steps in to_text(RepairReport); none if the text is empty.
 std::string line(const char* label, const std::string& text) {
     return text.empty() ? "" : fmt::format("  {:<14}{}\n", label, text);
 }
@@ -80,7 +84,7 @@ std::string command_of(const Remedy& remedy, const std::string& path) {
     const std::string output =
         std::filesystem::path(path).stem().string() + (is_wrap ? "_wrapped.obj" : "_repaired.obj");
     std::vector<std::string> words = {"kerf", is_wrap ? "wrap" : "repair", path};
-    if (!is_wrap) {  // which has one INPUT, and others by --with
+    if (!is_wrap) {  // kerf wrap has one INPUT, and others by --with
         words.insert(words.end(), options.more_files.begin(), options.more_files.end());
         options.more_files.clear();
         if (options.repair == name(RepairLevel::full)) options.repair.clear();  // its default

@@ -8,14 +8,15 @@
 
 namespace kerf {
 
-/// The command that does it, for a shell, with all files and options: "kerf repair a.stl b.stl -o a_repaired.obj
-/// --repair near". `path`: the first file.
+/// Returns the command that does a remedy, for a shell, with all files and options: "kerf repair a.stl b.stl -o
+/// a_repaired.obj --repair near". `path`: the first file.
 std::string command_of(const Remedy& remedy, const std::string& path);
 
-/// Lines: what would do, and the command.
+/// Returns two lines: the remedy, with its losses, and the command.
 std::string to_text(const Remedy& remedy, const std::string& path);
 
-/// Lines: the steps, how far anything moved, volume and area before and after, what is left, the verdict.
+/// Returns lines: the steps, how far anything moved, volume and area before and after, the defects that are left, the
+/// verdict.
 std::string to_text(const RepairedFile& repaired);
 
 }  // namespace kerf

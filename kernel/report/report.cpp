@@ -1,3 +1,7 @@
+// to_text() is a list of lines, each a label and a text; a line whose text is empty is left out, so that each function
+// returns "" where it has nothing to say. ReportDetail::brief leaves out all that is alike for most inputs, and keeps
+// what is special to this one: repairs, retries, forced cells among the worst hundredth, bounds that were asked for and
+// missed. JSON is another file (report_json.cpp) over the same RunReport.
 #include "report/report.h"
 
 #include <algorithm>
@@ -36,8 +40,8 @@ std::string strategies_text(const std::vector<TreeNode>& nodes) {
     return text;
 }
 
-// "part 13: tolerance 1e-06; part 14: another order of the vertices; and 2 more", of parts that were filled and of
-// which there is something to say.
+// Returns "part 13: tolerance 1e-06; part 14: another order of the vertices; and 2 more", of the parts that were filled
+// and for which text_of() is not empty.
 std::string first_parts_text(const RunReport& report, const std::function<std::string(const PartReport&)>& text_of) {
     constexpr std::size_t limit = 3;
     std::vector<std::string> all;
@@ -53,7 +57,7 @@ std::string fallbacks_text(const RunReport& report) {
     return first_parts_text(report, [](const PartReport& part) { return part.fallback; });
 }
 
-// Where TetGen had to fill parts for Kerf's own mesher, and why.
+// Returns how many parts TetGen had to fill for Kerf's own mesher, and the reasons.
 std::string tetgen_text(const RunReport& report) {
     const MesherOptions& asked = report.options.mesher;
     if (report.parts_by_tetgen == 0 || asked.name == "tetgen" || !asked.tetgen.switches.empty()) return "";
@@ -86,7 +90,8 @@ std::string recovery_text(const FacetRecovery& recovery) {
     return text;
 }
 
-// What was repeated because workers were killed, and what may be otherwise because they were too slow.
+// Returns the parts that were repeated because workers were killed, and those that may differ because they were too
+// slow.
 std::string disturbances_text(const RunReport& report) {
     const auto count = [&](auto is_so) { return std::count_if(report.parts.begin(), report.parts.end(), is_so); };
     const auto killed = count([](const PartReport& part) { return !part.interruption.empty(); });
@@ -99,7 +104,7 @@ std::string disturbances_text(const RunReport& report) {
     return text;
 }
 
-// The whole in one piece beside the parts.
+// The mesh of the whole in one piece, to be read beside that of the parts.
 std::string reference_text(const RunReport& report) {
     const PartOutcome& whole = report.reference->outcome;
     if (whole.result.code) return "the whole could not be meshed in one piece: " + whole.result.message;
@@ -116,7 +121,8 @@ std::string improvement_text(const RunReport& report) {
                        report.improve_seconds);
 }
 
-// Which cells the surface forces to be sharp, where these are of interest: always, or among the worst hundredth.
+// Returns the cells that the surface forces to be sharp, where these are of interest: always, or among the worst
+// hundredth.
 std::string forced_text(const ForcedDistributions& angles, bool always) {
     const Distribution &forced = angles.forced, &others = angles.unforced;
     if (forced.count() == 0 || (!always && others.count() > 0 && others.percentile(0.01) < forced.min())) return "";
@@ -126,8 +132,8 @@ std::string forced_text(const ForcedDistributions& angles, bool always) {
     return text + fmt::format("; others min {:.1f}, 1 % {:.1f}", others.min(), others.percentile(0.01));
 }
 
-// Bounds that were missed: that of volumes, which nobody has who does not ask for it, and a ratio that is not the usual
-// one, which cells at sharp places exceed in every mesh.
+// Returns bounds that were missed. Briefly, the usual ratio is left out, which cells at sharp places exceed in every
+// mesh; a bound of volumes stays, which only those have who ask for it.
 std::vector<ExceededBound> told_bounds(const RunReport& report, bool all) {
     std::vector<ExceededBound> bounds = exceeded_bounds(report);
     if (!all)
@@ -137,7 +143,7 @@ std::vector<ExceededBound> told_bounds(const RunReport& report, bool all) {
     return bounds;
 }
 
-// Where the seconds went.
+// The seconds of stages and workers.
 std::string time_text(const RunReport& report) {
     const StageSeconds& s = report.seconds;
     std::string text = fmt::format("{:.2f} s: read {:.2f}, decompose {:.2f}", s.wall, s.read, s.decompose);
@@ -155,7 +161,7 @@ std::string division_text(const InputRemeshing& done) {
                        grouped(done.facets_before - done.facets_kept), grouped(done.facets_before));
 }
 
-// What else than the size rules the edges, and what to do about it.
+// Returns the reasons other than the size for short edges, and the way to change that.
 std::string finer_text(const FinerShares& finer) {
     constexpr double told_share = 0.01;
     std::vector<std::string> reasons;
@@ -197,7 +203,7 @@ std::string remeshing_text(const InputRemeshing& done) {
 
 namespace {
 
-// Of all cuts together.
+// Sums over all cuts, and the smallest angle.
 struct InterfaceTotals {
     double section_area = 0, area = 0, angle_deg = 180;
 };
@@ -223,7 +229,7 @@ class ReportLines {
     std::string text_;
 };
 
-// The largest first; of many, the others as a number.
+// Returns the regions, the largest first; of many, the others as a number.
 std::string regions_text(const RunReport& report) {
     const Input& input = *report.input;
     if (input.regions.empty()) return "";

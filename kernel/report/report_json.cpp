@@ -1,5 +1,5 @@
-// A report as JSON. Seconds and bytes are the only values that differ between two runs of the same options. Of what
-// each node and part has, what only describes is told to six digits: thousands of parts have a report that can be read.
+// A report as JSON. Seconds and bytes are the only values that differ between two runs of the same options. Numbers of
+// nodes and parts that only describe are written with six digits, so that the report of thousands of parts can be read.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -140,7 +140,7 @@ Json node_json(const TreeNode& node) {
     return json;
 }
 
-// What it has gained a second is told by what a hundredth of the cells has at most.
+// The improvement. Its gain a second is that of the angle below which a hundredth of the cells lies.
 Json improvement_json(const Improvement& done, const ImprovedAngles& angles, double seconds) {
     if (!angles.known()) return nullptr;
     const double gain = angles.p1_after_deg - angles.p1_before_deg;
@@ -244,7 +244,7 @@ Json ratios_json(const RatioCounts& ratios) {
             {"p99", ratios.percentile(0.99)}};
 }
 
-// Length got over length asked.
+// The ratios of lengths that edges have to lengths that were asked for.
 Json sizes_json(const RunReport& report) {
     const SizeRatios& ratios = report.sizes;
     if (ratios.empty()) return nullptr;

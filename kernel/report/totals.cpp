@@ -1,3 +1,9 @@
+// The laws of the whole follow from sums over the parts. Volumes need care, because they only agree up to rounding: for
+// each region, the volumes of its parts are compared with the volume of the region, within a bound that is itself a sum
+// of the bounds of all volumes, of rounding in that sum, and of the distances by which straight cuts move facets. The
+// report has error and bound of the region that comes nearest to its bound, or is farthest beyond it. A run passes if
+// all parts were meshed and hold by themselves, all counts are zero and the volumes agree; without meshes, the volumes
+// of the parts' surfaces stand for those of the cells.
 #include "report/totals.h"
 
 #include <algorithm>
@@ -12,9 +18,9 @@ namespace kerf {
 
 namespace {
 
-// What straight cuts add to the sum of the parts' volumes. A new vertex lies beside its edge by less than 16 e times
-// the largest coordinate (cut/facet_split.cpp), e = 2^-53, and so does each piece beside its facet, once a level of the
-// tree.
+// Returns the most by which straight cuts change the sum of the parts' volumes. A new vertex lies beside its edge by
+// less than 16 e times the largest coordinate (cut/facet_split.cpp), e = 2^-53, and so does each piece beside its
+// facet, once for each level of the tree.
 double error_of_splits(const RunReport& report) {
     if (report.split_facets == 0) return 0;
     NodeId last = 1;
@@ -23,7 +29,7 @@ double error_of_splits(const RunReport& report) {
     return levels * 16 * 0x1p-53 * report.input->largest_coordinate * report.input->area;
 }
 
-// What the parts of one region enclose, against the region.
+// The volume of a region, and the sum of those of its parts.
 struct RegionVolume {
     double of_input = 0, of_parts = 0, error = 0;
 
@@ -75,7 +81,7 @@ RunVerification verify_parts(const RunReport& report) {
     return v;
 }
 
-// Where the time of the workers went in the meshing stage, as means over all of them.
+// Measures how the workers spent the meshing stage, as means over all of them.
 void measure_workers(RunReport& report) {
     const auto workers = static_cast<std::size_t>(report.ranks * report.options.workers);
     std::vector<double> busy(workers, 0);

@@ -1,14 +1,15 @@
-// What a report says of the whole mesh, from what it says of its parts.
+// The totals of a report, from the reports of its parts.
 #pragma once
 
 #include "report/report.h"
 
 namespace kerf {
 
-/// 0 if every part was meshed; `memory` if all that failed ran out of it, else `subdomain`.
+/// Returns 0 if every part was meshed, `memory` if all that failed ran out of it, else `subdomain` (values of
+/// ErrorCode).
 int failure_code(const std::vector<PartReport>& parts);
 
-/// Fills the number of tetrahedra, the ways of parts, the recovery of facets, the verification, which must have the
+/// Fills in the number of tetrahedra, the ways of parts, the recovery of facets, the verification, which must have the
 /// counts of interfaces and of the input already, the seconds of the workers, the hash of the mesh and the exit code.
 void add_up_parts(RunReport& report);
 

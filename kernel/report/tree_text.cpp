@@ -1,4 +1,6 @@
-// Nodes ascend by number, so they ascend by level, too: a level is a run of them.
+// The tree is printed as fixed columns below a header: a line for each node, or for each level where there are many
+// parts. The children of node i are 2i and 2i+1, so the level of a node is the place of its highest bit, and its source
+// is i/2. Nodes ascend by number, so they ascend by level, too: a level is a run of them.
 #include "report/tree_text.h"
 
 #include <algorithm>
@@ -43,7 +45,7 @@ std::string node_line(const TreeNode& node, double volume) {
     return line + '\n';
 }
 
-// Worst and best of a level's nodes.
+// Counts over the nodes of a level, and the worst and best of them.
 struct LevelSummary {
     std::int32_t cuts = 0, parts = 0, first_tries = 0, soft = 0, whole = 0, tries = 0;
     std::int32_t least_facets = 0, most_facets = 0;
