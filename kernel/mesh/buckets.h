@@ -1,4 +1,4 @@
-// Faces or edges of many cells sorted by their vertices, without all of them in memory at once.
+// Sorting of faces or edges of many cells by their vertices, without all of them in memory at once.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace kerf {
 template <class Item, class ForEachItem, class Visit>
 void visit_buckets(std::size_t bucket_count, std::size_t most_items, const ForEachItem& for_each_item,
                    const Visit& visit) {
-    std::vector<std::size_t> end(bucket_count + 1, 0);  // of the bucket before, among all items
+    std::vector<std::size_t> end(bucket_count + 1, 0);  // end of the bucket before, among all items
     for_each_item([&](std::size_t bucket, const Item&) { ++end[bucket + 1]; });
     std::partial_sum(end.begin(), end.end(), end.begin());
     std::vector<Item> items;
-    items.reserve(std::min(end.back(), most_items));  // to grow would need the old room beside the new one
+    items.reserve(std::min(end.back(), most_items));  // a vector that grows needs its old room beside the new one
     for (std::size_t first = 0; first < bucket_count;) {
         const std::size_t begin = end[first];
         const auto beyond =

@@ -1,6 +1,13 @@
-// The map is x(l) = sum of b_ij l_i l_j over all i and j, b_ii the corners, 2 b_ij = 4 m_ij - x_i - x_j. Its derivative
-// from corner 0 to corner k is 2 sum of (b_kj - b_0j) l_j, so that the determinant of three of them is a sum of l_a l_b
-// l_c times determinants of differences of control points, and a coefficient is the mean over the orders of a, b, c.
+// The cell is the image of a map x(l) of second order in barycentric coordinates l: x(l) = sum of b_ij l_i l_j over all
+// i and j, with control points b_ii the corners x_i and 2 b_ij = 4 m_ij - x_i - x_j for the node m_ij on an edge. The
+// derivative from corner 0 to corner k is 2 sum of (b_kj - b_0j) l_j. So the determinant of the three derivatives is a
+// sum of l_a l_b l_c times determinants of differences of control points, and a Bezier coefficient is the mean over the
+// orders of a, b, c.
+//
+// All values lie within the range of the coefficients, and those at corners are values (Johnen, Remacle and Geuzaine
+// 2013, johnen2013). Where this does not decide, the cell is bisected: it begins as a regular tetrahedron, and the
+// longest edge of a piece is halved, so that pieces shrink in all directions. A cell whose pieces become too small or
+// too many is undecided, never valid.
 #include "mesh/curved_tet.h"
 
 #include <algorithm>
@@ -18,9 +25,9 @@ namespace {
 
 using Coefficients = std::array<double, 20>;
 
-constexpr int deepest_bisection = 15;  // of a piece: its edges are a 32nd
+constexpr int deepest_bisection = 15;  // of a piece: its edges are a 32nd of the cell's
 constexpr int most_pieces = 1000;
-constexpr double determinant_roundings = 64;  // of products of three slopes, in units of the last place
+constexpr double determinant_roundings = 64;  // rounding of products of three slopes, in units of the last place
 constexpr double precision_of_scaled = 1e-3;
 
 // The number of the coefficient of a product of three barycentric coordinates, in any order.
@@ -38,7 +45,7 @@ constexpr auto coefficient_numbers = [] {
     return numbers;
 }();
 
-// The same with an entry for each order of the three numbers: the polar form at the corners.
+// The coefficients with an entry for each order of the three numbers: the polar form at the corners.
 using PolarForm = std::array<std::array<std::array<double, 4>, 4>, 4>;
 
 template <class Visit>
@@ -57,7 +64,7 @@ double least_at_corners(const Coefficients& c) {
     return least;
 }
 
-// The coefficients when a corner moves to the middle of its edge to another one.
+// Returns the coefficients when a corner moves to the middle of its edge to another one.
 Coefficients with_corner_at_middle(const Coefficients& before, std::size_t moved, std::size_t fixed) {
     PolarForm form;
     for (std::size_t i = 0; i < 4; ++i)
@@ -75,7 +82,7 @@ Coefficients with_corner_at_middle(const Coefficients& before, std::size_t moved
     return after;
 }
 
-// A piece of the cell: the polynomial over it, and which corners it has in the reference tetrahedron.
+// A piece of the cell: the polynomial over it, and its corners in the reference tetrahedron.
 struct Piece {
     Coefficients coefficients;
     std::array<Vec3, 4> corners;
@@ -163,7 +170,7 @@ double CurvedTetJacobian::volume() const {
 
 double CurvedTetJacobian::coarse_low() const { return least_of(coefficients_) - rounding_; }
 
-// The piece that may have the least value is bisected until it cannot be much less than a value that there is.
+// Bisects the piece that may have the least value until that cannot be much less than a value that is known.
 JacobianBounds CurvedTetJacobian::bounds(double precision) const {
     double size = 0;
     for (const double c : coefficients_) size = std::max(size, std::abs(c));

@@ -15,24 +15,25 @@ inline constexpr std::array<std::array<int, 2>, 6> tet_edges = {{{0, 1}, {1, 2},
 /// The edges of a triangle, in the same way.
 inline constexpr std::array<std::array<int, 2>, 3> triangle_edges = {{{0, 1}, {1, 2}, {0, 2}}};
 
-/// All edges, ascending by their ends. 4 bytes for each corner of an edge in each tetrahedron while it is made; O(n).
+/// All edges, ascending by their ends. While it is made, it takes 4 bytes for each edge of each tetrahedron; O(n) for
+/// bounded vertex degrees.
 class EdgeTable {
  public:
     EdgeTable() = default;
     EdgeTable(const std::vector<Tetrahedron>& tets, std::size_t vertex_count)
         : EdgeTable(tets, vertex_count, tet_edges) {}
-    /// Those of triangles.
+    /// Makes the table of the edges of triangles.
     EdgeTable(const std::vector<Triangle>& triangles, std::size_t vertex_count)
         : EdgeTable(triangles, vertex_count, triangle_edges) {}
 
     std::size_t size() const { return upper_.size(); }
-    /// The number of an edge of the mesh.
+    /// Returns the number of an edge, which must be one of the table.
     std::int32_t find(const UndirectedEdge& edge) const {
         const std::int32_t v = edge[0];
         const auto begin = upper_.begin() + first_[v], end = upper_.begin() + first_[v + 1];
         return std::lower_bound(begin, end, edge[1]) - upper_.begin();
     }
-    /// Whether an edge between two of the vertices is one of them.
+    /// Returns whether the table has an edge, given by two vertices of the mesh.
     bool contains(const UndirectedEdge& edge) const {
         const std::int32_t v = edge[0];
         return std::binary_search(upper_.begin() + first_[v], upper_.begin() + first_[v + 1], edge[1]);
@@ -72,7 +73,7 @@ class EdgeTable {
         upper_.shrink_to_fit();
     }
 
-    std::vector<std::int64_t> first_ = {0};  // of each vertex, the first edge to a vertex with a larger number
+    std::vector<std::int64_t> first_ = {0};  // for each vertex, the number of its first edge to a larger vertex
     std::vector<std::int32_t> upper_;
 };
 

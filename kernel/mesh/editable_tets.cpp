@@ -1,3 +1,12 @@
+// All changes are replace(): old cells go, new ones take their places in the arrays, and links are made by matching
+// faces. `open_` holds faces of which one side is known, by their ascending vertices: first the outer faces of the old
+// cells, with the sides behind them, then each face of a new cell either finds its other side there or waits in it. At
+// the end nothing may wait. The list is searched from end to end, which is quickest for the few faces that a change
+// has. Links of the cells behind are corrected as faces meet, so that only cells next to the change are touched.
+//
+// Cells are marked by complementing vertex 0 while they are looked for; every search takes its marks back. take_mesh()
+// uses the same place for new numbers. Cells made of points stay without gaps, as the last ones move into the places of
+// removed ones; cells made of a mesh keep their numbers, and removed ones leave gaps (`keeps_numbers_`).
 #include "mesh/editable_tets.h"
 
 #include <algorithm>
@@ -79,7 +88,7 @@ void EditableTets::find_star(std::int32_t cell, std::int32_t vertex, std::vector
     cells_[cell].flip_mark();
     for (std::size_t k = 0; k < star.size(); ++k) {
         Cell at = cells_[star[k]];
-        at.flip_mark();  // which all in the star have
+        at.flip_mark();  // all cells of the star have it
         for (int i = 0; i < 4; ++i) {
             const std::int32_t next = cell_of(at.link[i] & ~constraint);
             if (at.vertex[i] == vertex || cells_[next].is_marked()) continue;
@@ -96,7 +105,7 @@ void EditableTets::constrain(CellFace face) {
     is_altered_ = true;
 }
 
-// Before anything is changed.
+// Throws Error(memory) if so many more cells cannot be numbered; called before anything is changed.
 void EditableTets::require_room(std::size_t more_cells) const {
     const std::size_t cells = cells_.size() + more_cells;
     if (cells > static_cast<std::size_t>(most_))

@@ -4,9 +4,9 @@
 // of its two cells is named by 4 * cell + i, as half-edges are on a surface. A link is the name of the same face seen
 // from the other side, with a flag where the face is constrained, or it is below 0 where there is no cell behind.
 //
-// Delaunay insertion (delaunay/triangulation.h) and improvement (improve/edited_mesh.h) are built on this. Whoever
-// changes cells needs three things: find_ring() or find_star() tells which cells there are around an edge or a vertex,
-// cells of one's own choice are made as Tetrahedron, and replace() puts them in their place.
+// Delaunay insertion (delaunay/triangulation.h) and improvement (improve/edited_mesh.h) are built on this. They change
+// cells in three steps: find_ring() or find_star() finds the cells around an edge or a vertex, the caller chooses new
+// cells as Tetrahedron, and replace() puts these in their place.
 #pragma once
 
 #include <bit>
@@ -26,7 +26,8 @@ constexpr CellFace cell_face(std::int32_t cell, int i) { return 4 * cell + i; }
 constexpr std::int32_t cell_of(CellFace face) { return face >> 2; }
 constexpr int index_in_cell(CellFace face) { return face & 3; }
 
-/// Which of the four vertices, which differ, the vertex is; 4 if none. Without branches, which could not be predicted.
+/// Returns the place of a vertex among four different ones; 4 if it is none of them. Without branches, which could not
+/// be predicted.
 inline int index_of(const Tetrahedron& vertices, std::int32_t vertex) {
     const int matches = (vertices[0] == vertex) | (vertices[1] == vertex) << 1 | (vertices[2] == vertex) << 2 |
                         (vertices[3] == vertex) << 3;
@@ -53,44 +54,48 @@ class EditableTets {
     /// Faces of cells are numbered by 30 bits.
     static constexpr std::int32_t most_cells = 1 << 28;
 
-    /// Points without cells. There are never more than `most` cells, which is at most most_cells.
+    /// Takes points without cells. There will never be more than `most` cells, which is at most most_cells.
     explicit EditableTets(std::vector<Vec3> points = {}, std::int32_t most = most_cells);
-    /// The cells of a mesh. Finds their neighbours where the mesh has none. Error (memory) if there are more than
-    /// `most`. Linear.
+    /// Takes the cells of a mesh. Finds their neighbours where the mesh has none. Throws Error(memory) if there are
+    /// more than `most`. Linear.
     EditableTets(TetMesh mesh, std::int32_t most);
-    /// The cells, which have no ghosts, in order, and all points; with neighbours if they are asked for, none across
-    /// constrained faces. Afterwards there are no cells. boundary_vertex_count is left to the caller. Linear.
+    /// Returns the cells, which must have no ghosts, in order, and all points; with neighbours if they are asked for,
+    /// none across constrained faces. Afterwards there are no cells. boundary_vertex_count is left to the caller.
+    /// Linear.
     TetMesh take_mesh(bool with_neighbours);
 
-    // --- what there is ---
+    // --- cells, faces and vertices ---
 
     const std::vector<Vec3>& points() const { return points_; }
-    /// Ghosts and gaps included.
+    /// Returns the number of cells, ghosts and gaps included.
     std::int32_t cell_count() const { return static_cast<std::int32_t>(cells_.size()); }
     bool is_ghost(std::int32_t cell) const { return cells_[cell].vertex[3] < 0; }
-    /// The ghost is always vertex 3, and would see the others counter-clockwise. The first is below 0 in a gap.
+    /// Returns the vertices of a cell. The ghost is always vertex 3, and would see the others counter-clockwise. In a
+    /// gap the first vertex is below 0.
     const Tetrahedron& vertices(std::int32_t cell) const { return cells_[cell].vertex; }
-    /// The same face seen from its other cell; below 0 where there is none.
+    /// Returns the name of a face seen from its other cell; below 0 where there is none.
     CellFace mirror(CellFace face) const { return cells_[cell_of(face)].link[index_in_cell(face)] & ~constraint; }
-    /// The cell behind the face opposite to vertex i; below 0 where there is none.
+    /// Returns the cell behind the face opposite to vertex i; below 0 where there is none.
     std::int32_t neighbour(std::int32_t cell, int i) const { return cell_of(mirror(cell_face(cell, i))); }
     std::int32_t opposite_vertex(CellFace face) const { return cells_[cell_of(face)].vertex[index_in_cell(face)]; }
-    /// The vertices of a face that is not the ghost's, counter-clockwise seen from outside of the cell.
+    /// Returns the vertices of a face that is not the ghost's, counter-clockwise seen from outside of the cell.
     Triangle face_vertices(CellFace face) const {
         const Tetrahedron& corners = cells_[cell_of(face)].vertex;
         const auto& [i, j, k] = tet_faces[index_in_cell(face)];
         return {corners[i], corners[j], corners[k]};
     }
-    /// One of the cells around a vertex; none if it has no cells.
+    /// Returns one of the cells around a vertex; none if it has no cells.
     std::int32_t cell_at(std::int32_t vertex) const { return cell_at_vertex_[vertex]; }
-    /// All cells around a vertex that has some, and is not on a face without a cell behind; ghosts included. Linear.
+    /// Returns all cells around a vertex, ghosts included. The vertex must have cells and be on no face without a cell
+    /// behind. Linear.
     std::vector<std::int32_t> cells_around_vertex(std::int32_t vertex);
-    /// The same in a place of the caller's, and the given cell, one of them, is the first.
+    /// Puts all cells around a vertex into `star`, whose memory is used again. The given cell must be one of them, and
+    /// is the first.
     void find_star(std::int32_t cell, std::int32_t vertex, std::vector<std::int32_t>& star);
 
     // --- faces that stay ---
 
-    /// A face without a cell behind counts as constrained.
+    /// Returns whether a face is constrained, as every face without a cell behind is.
     bool is_constrained(CellFace face) const {
         return (cells_[cell_of(face)].link[index_in_cell(face)] & constraint) != 0;
     }
@@ -99,30 +104,30 @@ class EditableTets {
 
     // --- changes ---
 
-    /// Replaces cells by others that fill the same space and have the same faces around them, constrained
-    /// or not; faces between the cells must not be constrained. Ghost cells may be among both. The numbers of the new
-    /// cells, in the order of `by`, are valid until the next change. Error (memory), and nothing has changed, if there
-    /// would be too many. Quadratic in the number of faces.
+    /// Replaces cells by others that fill the same space and have the same faces around them, constrained or not; faces
+    /// between the cells must not be constrained. Ghost cells may be among both. Returns the numbers of the new cells,
+    /// in the order of `by`; they are valid until the next change. Throws Error(memory), before anything has changed,
+    /// if there would be too many. Quadratic in the number of faces.
     std::span<const std::int32_t> replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
-    /// Removes all cells but those with `is_kept`, which have no ghosts and keep their order. There is no cell behind
-    /// faces between both. Linear.
+    /// Removes all cells but those with `is_kept`, which must have no ghosts and keep their order. Faces between kept
+    /// and removed cells have no cell behind them then. Linear.
     void keep_cells(const std::vector<bool>& is_kept);
-    /// Adds cells where there are none, joined with others at common faces behind which there is no cell.
+    /// Adds cells where there are none, and joins them with others at common faces behind which there is no cell.
     void add_cells(std::span<const Tetrahedron> cells);
 
-    /// The number of a new vertex, which cells get by replace().
+    /// Adds a vertex and returns its number. It gets cells by replace().
     std::int32_t add_vertex(const Vec3& p);
-    /// The cells around the vertex must stay positive.
+    /// Moves a vertex. The cells around it must stay positive.
     void move_vertex(std::int32_t vertex, const Vec3& to) { points_[vertex] = to; }
     /// Forgets the last vertices, which must have no cells, so that `count` are left.
     void remove_unused_vertices(std::size_t count);
 
  protected:
-    struct alignas(32) Cell {  // in one line of the cache
+    struct alignas(32) Cell {  // lies in one line of the cache
         Tetrahedron vertex;
         std::array<CellFace, 4> link;  // with `constraint` where the face is constrained
 
-        // While it is searched. Vertex 0 is never the ghost.
+        // A mark for searches: vertex 0, which is never the ghost, is complemented.
         bool is_marked() const { return vertex[0] < 0; }
         void flip_mark() { vertex[0] = ~vertex[0]; }
     };
@@ -131,45 +136,45 @@ class EditableTets {
 
     CellFace& link(CellFace face) { return cells_[cell_of(face)].link[index_in_cell(face)]; }
     void require_room(std::size_t more_cells) const;
-    // The last cells move to where the removed ones were, and so do their numbers in `followed`.
+    // Removes cells. The last cells move to their places, and numbers in `followed` are changed with them.
     void remove_cells(std::span<const std::int32_t> cells, std::span<std::int32_t> followed);
 
     std::vector<Vec3> points_;
     std::vector<Cell> cells_;
     std::vector<std::int32_t> cell_at_vertex_;
     std::int32_t most_ = most_cells;
-    bool is_altered_ = false;  // faces were constrained, or cells replaced
+    bool is_altered_ = false;  // whether faces were constrained, or cells replaced
 
  private:
-    // A face that has one of its sides.
+    // A face of which one side is known so far.
     struct OpenFace {
         Triangle vertices;  // ascending
-        CellFace side;      // and `constraint` for those that stay
+        CellFace side;      // with `constraint` for faces that stay
     };
 
     bool keeps_numbers_ = false;
-    std::vector<std::int32_t> gaps_;  // the last one is filled first
+    std::vector<std::int32_t> gaps_;  // places of removed cells; the last one is filled first
     std::vector<std::int32_t> places_;
     std::vector<OpenFace> open_;
 };
 
-/// Cells around an edge from a to b: cell i has the corners a, b, ring[i] and ring[i + 1], in positive order; the ghost
-/// may be among the ring.
+/// The cells around an edge from a to b: cell i has the corners a, b, ring[i] and ring[i + 1], in positive order; the
+/// ghost may be among the ring.
 struct EdgeRing {
     std::int32_t a = 0, b = 0;
     std::vector<std::int32_t> cells, ring;
 
     std::size_t size() const { return cells.size(); }
-    /// The place of a vertex in the ring; size() if it has none.
+    /// Returns the place of a vertex in the ring; size() if it has none.
     std::size_t place_of(std::int32_t vertex) const;
 };
 
-/// The ring of the edge from vertex i to vertex j of a cell, which is the first in it. They turn counter-clockwise seen
-/// from b. False if there is a face without a cell behind, or more cells than `most`.
+/// Finds the ring of the edge from vertex i to vertex j of a cell, which is the first in it. Cells turn
+/// counter-clockwise seen from b. Returns false if there is a face without a cell behind, or more cells than `most`.
 bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRing& ring,
                std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Whether the face between cells k - 1 and k of a ring is constrained.
+/// Returns whether the face between cells k - 1 and k of a ring is constrained.
 bool is_spoke_constrained(const EditableTets& tets, const EdgeRing& ring, std::size_t k);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Which sides of tetrahedra are the same face.
+// The sides of tetrahedra that are the same face, matched.
 //
 // Faces are bucketed by their smallest vertex; within a bucket those with the same other two vertices are the same
 // face, and meet in a small table. A tetrahedron a < b < c < d has three faces in the bucket of a and one in that of b.
@@ -17,14 +17,14 @@
 
 namespace kerf {
 
-/// One side of a face: that of the tetrahedron which lies there.
+/// One side of a face: the one on which a tetrahedron lies.
 struct FaceSide {
     std::uint64_t code;  ///< 8 x tetrahedron + 2 x opposite corner + 1 if turned
 
     std::int32_t tet() const { return static_cast<std::int32_t>(code >> 3); }
-    std::size_t corner() const { return code >> 1 & 3; }  ///< of the tetrahedron, opposite to the face
-    /// Whether the vertices in ascending order run clockwise, seen from outside of the tetrahedron as tet_faces has it.
-    /// The two sides of a face between positive tetrahedra differ in this.
+    std::size_t corner() const { return code >> 1 & 3; }  ///< corner of the tetrahedron that is opposite to the face
+    /// Returns whether the vertices in ascending order run clockwise, seen from outside of the tetrahedron as tet_faces
+    /// has it. The two sides of a face between positive tetrahedra differ in this.
     bool is_turned() const { return code & 1; }
 };
 
@@ -32,18 +32,18 @@ namespace detail {
 
 struct KeyedSide {
     static constexpr std::uint64_t taken = ~std::uint64_t{0};
-    std::uint64_t others;  // vertices above the smallest: the lower one in the upper half
-    FaceSide side;         // code `taken`: has found its other side
+    std::uint64_t others;  // the two larger vertices: the lower one in the upper half
+    FaceSide side;         // its code is `taken` once its other side is found
 };
 
 // The corners in ascending order, as 4 x vertex + place in the tetrahedron.
 struct SortedCorners {
     std::array<std::uint64_t, 4> corners;
-    std::uint64_t is_odd = 0;  // the permutation that has sorted them
+    std::uint64_t is_odd = 0;  // whether the permutation that has sorted them is odd
 
     explicit SortedCorners(const Tetrahedron& tet) {
         for (std::size_t i = 0; i < 4; ++i) corners[i] = static_cast<std::uint64_t>(tet[i]) << 2 | i;
-        // A network without branches: which corner is the smallest cannot be foretold.
+        // A network without branches, which could not be predicted.
         order(0, 1);
         order(2, 3);
         order(0, 2);
@@ -51,7 +51,8 @@ struct SortedCorners {
         order(1, 2);
     }
     std::size_t vertex(std::size_t i) const { return corners[i] >> 2; }
-    // The face of the middle and the high corner and a smaller one, opposite to that of the given place in the order.
+    // Returns the side of the face that has the middle and the high corner and a smaller one, and that is opposite to
+    // the corner at the given place in the order.
     KeyedSide side(std::size_t tet, std::size_t middle, std::size_t high, std::size_t opposite) const {
         return {corners[middle] >> 2 << 32 | corners[high] >> 2,
                 {tet << 3 | (corners[opposite] & 3) << 1 | ((is_odd ^ opposite) & 1)}};
@@ -66,7 +67,7 @@ struct SortedCorners {
     }
 };
 
-// Those of one bucket, by a table of the places at which they lie.
+// Matches the sides of one bucket, by a hash table of the places at which they lie.
 template <class Pair, class Single>
 void match_sides(std::span<KeyedSide> sides, std::vector<std::int32_t>& table, const Pair& pair, const Single& single) {
     constexpr std::int32_t nobody = -1;
@@ -114,7 +115,7 @@ void match_faces(std::size_t vertex_count, const std::vector<Tetrahedron>& tets,
         [&](std::size_t, std::span<detail::KeyedSide> sides) { detail::match_sides(sides, table, pair, single); });
 }
 
-/// The same for the faces of a mesh.
+/// Does this for the faces of a mesh.
 template <class Pair, class Single>
 void match_faces(const TetMesh& mesh, const Pair& pair, const Single& single) {
     match_faces(mesh.vertices.size(), mesh.tets, pair, single);

@@ -65,8 +65,8 @@ bool ForcedCells::contains(const Tetrahedron& cell, double smallest_deg) {
     return false;
 }
 
-// Whether the body ends behind a face of a cell, at less than so many times the radius of its largest circle. The cell
-// itself is there, so that it does not end before.
+// Returns whether the body ends behind a face of a cell, at less than `limit` times the radius of the face's inscribed
+// circle. The cell itself lies there, so that the body does not end before `cell_depth` of these radii.
 bool ForcedCells::is_shallow(const Triangle& face, double cell_depth, double limit) {
     if (!tree_) tree_.emplace(vertices_, std::vector<Triangle>(boundary_.facets.begin(), boundary_.facets.end()));
     const auto [centre, radius] = inscribed_circle(vertices_[face[0]], vertices_[face[1]], vertices_[face[2]]);

@@ -20,31 +20,32 @@
 
 namespace kerf {
 
-/// Triangles at which a mesh ends.
+/// The triangles at which a mesh ends.
 struct BoundaryTriangles {
-    std::span<const Triangle> facets;    ///< #F
-    std::span<const char> is_interface;  ///< #F; another part is on the other side, else it is of the user's surface
+    std::span<const Triangle> facets;  ///< #F
+    /// #F; true if another part is on the other side of the triangle, false if it is of the user's surface.
+    std::span<const char> is_interface;
 };
 
 /// Tells which cells the user's surface forces to be sharp: those with a bound below 25 degrees that have at least a
-/// quarter of it. No mesh that keeps the facets has a good cell there. A quarter, because a cell of a thin wall has its
-/// fourth corner above one of the facet's, not above the centre, and then less than a third.
+/// quarter of it. No mesh that keeps the facets has a good cell there. It is a quarter, because a cell of a thin wall
+/// has its fourth corner above one of the facet's, not above the centre, and then less than a third.
 ///
 /// The bounds of a cell are the angles between two of its faces that are both facets, where it fills a sharp edge
-/// alone, and atan(t / r) of each of its facets whose t does not end at an interface. That others are not forced is not
-/// said: cells without facets between two walls that are near to each other are not counted.
+/// alone, and atan(t / r) of each of its facets whose t does not end at an interface. A cell that is not found may be
+/// forced, too: cells without facets between two walls that are near to each other are not counted.
 class ForcedCells {
  public:
-    /// Bounds above it force nothing: cells with larger angles are not bad (ImproveOptions::threshold_deg).
+    /// Largest bound that forces a cell: cells with larger angles are not bad (ImproveOptions::threshold_deg).
     static constexpr double largest_bound_deg = 25;
-    /// The surface is not to blame for cells with less of their bound.
+    /// Least share of its bound that a forced cell has: the surface is not to blame for cells with less.
     static constexpr double least_share = 0.25;
 
-    /// Keeps references to both. Corners must be vertices. O(#V + #F). Memory: 4 bytes a vertex, 8 a facet.
+    /// Keeps references to both arguments. Corners must be vertices. O(#V + #F). Memory: 4 bytes a vertex, 8 a facet.
     ForcedCells(const std::vector<Vec3>& vertices, const BoundaryTriangles& boundary);
 
-    /// Whether a cell with this smallest dihedral angle is forced. A flat one never is. About 1 us where it has facets
-    /// and an angle below 25 degrees. The first call that needs it makes a tree of the facets: O(#F log #F).
+    /// Returns whether a cell with this smallest dihedral angle is forced. A flat one never is. About 1 us where it has
+    /// facets and an angle below 25 degrees. The first call that needs it makes a tree of the facets: O(#F log #F).
     bool contains(const Tetrahedron& cell, double smallest_deg);
 
  private:
@@ -53,8 +54,8 @@ class ForcedCells {
 
     const std::vector<Vec3>& vertices_;
     BoundaryTriangles boundary_;
-    std::vector<std::int32_t> end_;       // #V + 1; of the facets of the user with a smallest corner below this vertex
-    std::vector<UndirectedEdge> others_;  // the other two corners of each, by the smallest one
+    std::vector<std::int32_t> end_;  // #V + 1; number of the user's facets whose smallest corner is below this vertex
+    std::vector<UndirectedEdge> others_;  // the other two corners of each of these facets, by the smallest one
     std::optional<TriangleTree> tree_;
 };
 

@@ -36,7 +36,7 @@ Pair square_root(Pair x) {
 }
 Pair length_of(const VectorPair& a) { return square_root(a.squared_norm()); }
 
-// Smallest and largest of the values named, without a branch.
+// The smallest and the largest of the given values, found without a branch.
 struct Range {
     Pair min = both(std::numeric_limits<double>::infinity());
     Pair max = both(-std::numeric_limits<double>::infinity());
@@ -61,11 +61,11 @@ Pair arc_tangent_near_zero(Pair r) {
     return r + r * z * (even * z_sq + g[0] + z * odd);
 }
 
-// Of the angle with the cotangent x / y, y >= 0 and not both 0: atan2(y, x) in degrees.
+// Returns the angle with the cotangent x / y in degrees, atan2(y, x), for y >= 0 and not both 0.
 Pair degrees_from_cotangent(Pair x, Pair y) {
     constexpr double pi = std::numbers::pi, tan_of_22_5_deg = 0.41421356237309503;
     const Pair across = absolute(x), low = smallest(across, y), high = largest(across, y);
-    const auto beyond = low > tan_of_22_5_deg * high;  // then it is 45 degrees and the rest
+    const auto beyond = low > tan_of_22_5_deg * high;  // then it is 45 degrees and atan of the rest
     const Pair rest = (beyond ? low - high : low) / (beyond ? low + high : high);
     Pair angle = arc_tangent_near_zero(rest) + (beyond ? both(pi / 4) : both(0));
     angle = y > across ? pi / 2 - angle : angle;
@@ -85,8 +85,8 @@ int clamp_to_bins(double position) { return std::clamp(static_cast<int>(position
 
 namespace {
 
-// The measures of the cells in the lanes, in the order of TetQuality. Inlined, so that what the caller does not ask for
-// is not computed.
+// Computes the measures of the cells in the lanes, in the order of TetQuality. Inlined, so that measures that the
+// caller does not ask for are not computed.
 [[gnu::always_inline]] inline std::array<Pair, quality_measures.size()> measure(const VectorPair& a,
                                                                                 const VectorPair& b,
                                                                                 const VectorPair& c,
@@ -131,7 +131,8 @@ TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
     return {q[0][0], q[1][0], q[2][0], q[3][0], q[4][0], q[5][0], q[6][0], q[7][0]};
 }
 
-// Calls take(first, count, measures) for all cells, with those of `count` of them in the lanes.
+// Calls take(first, count, measures) for all cells, with the measures of `count` of them, from `first` on, in the
+// lanes.
 template <class Take>
 [[gnu::always_inline]] inline void measure_in_lanes(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells,
                                                     const Take& take) {
@@ -174,14 +175,14 @@ TriangleAngles triangle_angles(const Vec3& a, const Vec3& b, const Vec3& c) {
     return {angles[0], angles[1]};
 }
 
-// Bins are there once there is something to count: what is told of many parts stays small.
+// The bins are made when the first value is counted, so that messages on many parts stay small.
 Distribution::Distribution(Scale scale, double low, double high)
     : scale_(scale), low_(low), high_(high), log2_low_(low > 0 ? std::log2(low) : 0), bins_per_unit_(1) {
     KERF_CHECK(low < high && (scale == Scale::linear || low > 0));
     bins_per_unit_ = bin_count / position(high);
 }
 
-// Position of a value on the axis of the bins: bin k covers [k, k + 1).
+// Returns the position of a value on the axis of the bins: bin k covers [k, k + 1).
 double Distribution::position(double value) const {
     return bins_per_unit_ * (scale_ == Scale::linear ? value - low_ : std::log2(value / low_));
 }

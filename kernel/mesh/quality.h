@@ -24,23 +24,25 @@ struct TetQuality {
     double max_edge;
 };
 
-/// Angles, radius_edge and aspect are those of the unoriented tetrahedron; volume and shape carry the sign. A flat
-/// tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0. About 60 ns.
+/// Computes the measures of one tetrahedron. Angles, radius_edge and aspect are those of the unoriented tetrahedron;
+/// volume and shape carry the sign. A flat tetrahedron has angles 0 and 180, infinite radius_edge and aspect, shape 0.
+/// About 60 ns.
 TetQuality tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-/// Measures many cells over the points, to the same last bit: quality[i] is that of cells[i]. 30 ns each.
+/// Computes the measures of many cells over the points, equal to the last bit: quality[i] is that of cells[i]. 30 ns
+/// each.
 void measure_cells(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells, std::span<TetQuality> quality);
-/// TetQuality::min_dihedral_deg alone, to the last bit. 15 ns each.
+/// Computes TetQuality::min_dihedral_deg alone, equal to the last bit. 15 ns each.
 void measure_min_dihedrals(const std::vector<Vec3>& points, std::span<const Tetrahedron> cells,
                            std::span<double> degrees);
 
-/// Angles of one triangle; 0 and 180 of one without area.
+/// The angles of one triangle; 0 and 180 of one without area.
 struct TriangleAngles {
     double min_deg, max_deg;
 };
 TriangleAngles triangle_angles(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Distribution of one measure over many cells. Counts lie in fixed fine bins, so that the sum over parts is exact and
-/// independent of order. Percentiles are interpolated in the bins; minimum and maximum are exact.
+/// The distribution of one measure over many cells. Counts lie in fixed fine bins, so that the sum over parts is exact
+/// and independent of order. Percentiles are interpolated in the bins; minimum and maximum are exact.
 class Distribution {
  public:
     enum class Scale { linear, logarithmic };
@@ -50,7 +52,7 @@ class Distribution {
     /// logarithmic scale.
     Distribution(Scale scale, double low, double high);
 
-    void add(double value, std::int64_t times = 1);  ///< must not be NaN; about 4 ns
+    void add(double value, std::int64_t times = 1);  ///< value must not be NaN; about 4 ns
     void add(const Distribution& other);             ///< requires the same scale and range, else throws Error(internal)
 
     Scale scale() const { return scale_; }
@@ -58,20 +60,21 @@ class Distribution {
     std::int64_t count() const { return count_; }
     double min() const { return count_ ? min_ : 0; }
     double max() const { return count_ ? max_ : 0; }
-    /// Value below which the given fraction in [0, 1] of the cells lies: min() at 0, max() at 1, between them exact to
-    /// the width of a bin. 0 for an empty distribution.
+    /// Returns the value below which the given fraction in [0, 1] of the cells lies: min() at 0, max() at 1, between
+    /// them exact to the width of a bin. 0 for an empty distribution.
     double percentile(double fraction) const;
 
     struct Histogram {
-        std::vector<double> edges;         ///< n + 1
-        std::vector<std::int64_t> counts;  ///< n
+        std::vector<double> edges;         ///< n + 1 values, ascending
+        std::vector<std::int64_t> counts;  ///< n counts between them
     };
-    /// The counts gathered into `bins` equal (linear) or equal-ratio (logarithmic) intervals; `bins` must divide 1440,
-    /// else throws Error(internal).
+    /// Returns the counts gathered into `bins` equal (linear) or equal-ratio (logarithmic) intervals; `bins` must
+    /// divide 1440, else throws Error(internal).
     Histogram histogram(int bins) const;
-    /// The histogram of a range: `groups` intervals of `group` bins each, from the bin `first` on. All must be bins.
+    /// Returns the histogram of a range: `groups` intervals of `group` bins each, from the bin `first` on. All must be
+    /// bins.
     Histogram histogram(int first, int group, int groups) const;
-    /// The bin that counts this value, which must not be NaN.
+    /// Returns the bin that counts this value, which must not be NaN.
     int bin_of(double value) const;
 
     template <class Archive>
@@ -86,22 +89,22 @@ class Distribution {
 
     Scale scale_ = Scale::linear;
     double low_ = 0, high_ = 1;
-    double log2_low_ = 0;               // of a logarithmic scale
+    double log2_low_ = 0;               // log2 of low_, of a logarithmic scale
     double bins_per_unit_ = bin_count;  // the unit is that of the measure, or a factor of two on a logarithmic scale
     std::int64_t count_ = 0;
     double min_ = std::numeric_limits<double>::infinity(), max_ = -min_;
     std::vector<std::int64_t> bins_;
 };
 
-/// What a distribution is of.
+/// The quantity that a distribution counts.
 struct Measure {
-    const char* name;   ///< in reports
-    const char* title;  ///< for people
-    const char* unit;   ///< empty: a pure number
-    bool small_is_bad;  ///< else large is
+    const char* name;   ///< name in reports
+    const char* title;  ///< name for people
+    const char* unit;   ///< unit; empty: a pure number
+    bool small_is_bad;  ///< whether small values are bad; else large ones are
 };
 
-/// Distributions of all measures of TetQuality, in the order of quality_measures.
+/// The measures of TetQuality, in the order of QualityDistributions::measures.
 inline constexpr std::array<Measure, 8> quality_measures = {
     {{"min_dihedral_deg", "smallest dihedral angle", "deg", true},
      {"max_dihedral_deg", "largest dihedral angle", "deg", false},
@@ -127,7 +130,7 @@ struct QualityDistributions {
     }
 };
 
-/// Distributions of the angles of triangles, in the order of triangle_measures.
+/// The measures of TriangleAngles, in the order of TriangleDistributions::measures.
 inline constexpr std::array<Measure, 2> triangle_measures = {
     {{"min_angle_deg", "smallest angle of boundary triangles", "deg", true},
      {"max_angle_deg", "largest angle of boundary triangles", "deg", false}}};
@@ -139,8 +142,8 @@ struct TriangleDistributions {
     void add(const TriangleDistributions& other);
 };
 
-/// Distributions of TetQuality::min_dihedral_deg: of cells that the surface forces to be sharp (mesh/forced_cells.h),
-/// and of the others.
+/// The measures of ForcedDistributions: TetQuality::min_dihedral_deg of cells that the surface forces to be sharp
+/// (mesh/forced_cells.h), and of the others.
 inline constexpr Measure forced_measure = {"forced_dihedral_deg", "smallest dihedral angle forced", "deg", true},
                          unforced_measure = {"unforced_dihedral_deg", "smallest dihedral angle not forced", "deg",
                                              true};
@@ -156,8 +159,8 @@ struct ForcedDistributions {
     }
 };
 
-/// The three distributions of the report: all cells, cells with a vertex on an interface, the others. Besides, which of
-/// their small angles are those of the surface.
+/// The three distributions of the report: all cells, cells with a vertex on an interface, the others. Beside them, the
+/// small angles, split into those that the surface forces and those that it does not.
 struct PartQuality {
     QualityDistributions all, interface, interior;
     ForcedDistributions angles;
@@ -172,8 +175,8 @@ struct PartQuality {
     }
 };
 
-/// The distributions of a mesh. Without boundary triangles it has no interface, and no cell is forced. About 75 ns a
-/// cell, and what ForcedCells asks for bad cells at the boundary.
+/// Computes the distributions of a mesh. Without boundary triangles it has no interface, and no cell is forced. About
+/// 75 ns a cell, beside the time that ForcedCells takes for bad cells at the boundary.
 PartQuality measure_quality(const TetMesh& mesh, const BoundaryTriangles& boundary, double length_scale);
 
 }  // namespace kerf

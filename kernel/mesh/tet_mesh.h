@@ -7,13 +7,14 @@
 
 namespace kerf {
 
-/// For each tetrahedron the one across the face opposite to corner i, or -1.
+/// For each tetrahedron and each of its corners i, the tetrahedron across the face opposite to i, or -1.
 using TetNeighbours = std::vector<std::array<std::int32_t, 4>>;
 
-/// The boundary vertices and facets of the subdomain keep their numbers in the mesh; interior vertices follow.
+/// A mesh of one subdomain. The boundary vertices and facets of the subdomain keep their numbers in it; interior
+/// vertices follow.
 struct TetMesh {
-    std::vector<Vec3> vertices;              ///< #V; first those of the surface, bit for bit and in order
-    std::int32_t boundary_vertex_count = 0;  ///< vertices of the surface
+    std::vector<Vec3> vertices;              ///< #V; the vertices of the surface first, bit for bit and in order
+    std::int32_t boundary_vertex_count = 0;  ///< number of the vertices of the surface
     std::vector<Tetrahedron> tets;           ///< #T; positively oriented
     TetNeighbours neighbours;                ///< #T, or none: they follow from `tets` (mesh/adjacency.h)
 

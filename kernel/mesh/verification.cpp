@@ -1,7 +1,7 @@
 // One pass over the cells tells whether all are positive, what volume they have together, and by a sum
 // (mesh/boundary_chain.h) whether the surface is their boundary. Where all of that holds no face needs to be looked
-// for: each point inside lies in as many cells as the surface winds around it, in one, so two cells at most have a
-// face, and from different sides.
+// for. Each point inside lies in as many cells as the surface winds around it, that is in one; so at most two cells
+// have a face, and from different sides.
 //
 // Else, and for a mesh that names its neighbours, broken laws are counted face by face. Interior faces: tetrahedron t
 // and the one across its face i, n = neighbours[t][i], must name each other over a face with the same corners in
@@ -44,7 +44,7 @@ Triangle smallest_first(Triangle t) {
     return t;
 }
 
-// True if both have the same corners in opposite rotation.
+// Whether both triangles have the same corners in opposite rotation.
 bool opposite(const Triangle& s, const Triangle& t) {
     const auto& [a, b, c] = t;
     return s == Triangle{a, c, b} || s == Triangle{b, a, c} || s == Triangle{c, b, a};
@@ -72,7 +72,7 @@ std::vector<OwnedFace> sorted_facets(const std::vector<Triangle>& facets, std::s
     return sorted_faces(std::move(faces), vertex_count);
 }
 
-// Faces of which all corners lie on the boundary: those of the boundary are among them.
+// The faces all of whose corners lie on the boundary: the boundary faces are among them.
 std::vector<OwnedFace> sorted_faces_over_boundary(const TetMesh& mesh) {
     std::vector<OwnedFace> faces;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -100,7 +100,7 @@ void match_facets(const std::vector<OwnedFace>& facets, const std::vector<OwnedF
     }
 }
 
-// True if tetrahedron n names t over the same face as t names n.
+// Whether tetrahedron n names t over the same face as t names n.
 bool names_back(const TetMesh& mesh, std::int32_t n, std::int32_t t, const Triangle& face) {
     for (int j = 0; j < 4; ++j)
         if (mesh.neighbours[n][j] == t && opposite(corners_of_face(mesh.tets[n], j), face)) return true;
@@ -120,10 +120,10 @@ std::int64_t count_mismatched_neighbours(const TetMesh& mesh) {
     return inner_sides - 2 * pairs;
 }
 
-// What is known of all faces.
+// The boundary faces, and the count of wrong faces inside.
 struct Faces {
     std::vector<OwnedFace> boundary;
-    std::int64_t mismatched_sides = 0;  // of the others
+    std::int64_t mismatched_sides = 0;  // sides of all other faces
 
     void add_boundary(const TetMesh& mesh, std::int32_t t, int i) {
         boundary.push_back({smallest_first(corners_of_face(mesh.tets[t], i)), t});
@@ -169,7 +169,7 @@ class CompensatedSum {
     double sum_ = 0, compensation_ = 0;
 };
 
-// What is known of all cells.
+// Sums over all cells.
 struct Cells {
     std::int64_t inverted = 0, without_volume = 0;
     double volume = 0, volume_error = 0;
