@@ -1,5 +1,7 @@
-// Points are inserted in an order in which each lies near the one before, and are kept in that order meanwhile, so that
-// what is needed next is in the cache.
+// All points are inserted one after another (delaunay/triangulation.h), in an order in which each lies near the one
+// before. They are kept in that order meanwhile, so that memory that is needed next is in the cache; at the end
+// vertices get the numbers of their points. The first cell is made of the first four points of the order that do not
+// lie in one plane.
 #include "delaunay/delaunay.h"
 
 #include <algorithm>
@@ -12,7 +14,8 @@ namespace kerf {
 
 namespace {
 
-// Moves four points that do not lie in one plane to the front, as a positive tetrahedron. False if there are none.
+// Moves four points that do not lie in one plane to the front, as a positive tetrahedron. Returns false if there are
+// none.
 bool put_tetrahedron_first(std::vector<std::int32_t>& order, const std::vector<Vec3>& points) {
     const auto point = [&](std::size_t i) -> const Vec3& { return points[order[i]]; };
     std::size_t found = 0;
@@ -31,7 +34,7 @@ bool put_tetrahedron_first(std::vector<std::int32_t>& order, const std::vector<V
     return true;
 }
 
-// Where no triangulation tells which points are the same.
+// Finds equal points by sorting, where no triangulation does.
 std::vector<std::int32_t> representatives_by_sorting(const std::vector<Vec3>& points) {
     std::vector<std::int32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0);
@@ -49,7 +52,7 @@ Triangulation first_cells(const std::vector<std::int32_t>& order, const std::vec
     return Triangulation({points[order[0]], points[order[1]], points[order[2]], points[order[3]]});
 }
 
-// Inserts the others; the vertex of each point is returned.
+// Inserts all points behind the first four, and returns the vertex of each point.
 std::vector<std::int32_t> insert_all(Triangulation& triangulation, const std::vector<std::int32_t>& order,
                                      const std::vector<Vec3>& points) {
     std::vector<std::int32_t> vertex(points.size());

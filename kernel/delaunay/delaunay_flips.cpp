@@ -1,3 +1,10 @@
+// A stack holds cells whose faces may have to be flipped (Lawson 1977, lawson1977; Joe 1991, joe1991). A face with the
+// vertex e behind it, inside of the sphere of its cell with the vertex d, is flipped in one of two ways: two cells
+// become three around the edge d e, where that edge passes through the inside of the face; or, where it passes beyond
+// one edge p q of the face and just three cells lie around that, these become two. Other faces stay. Seen on the
+// paraboloid, each flip replaces upper faces by lower ones, so that no cell comes back and the flips end; in_sphere()
+// has no ties. A cell on the stack may have been replaced, or its number given to another one; its vertices as they
+// were tell.
 #include "delaunay/delaunay_flips.h"
 
 #include <array>
@@ -34,7 +41,7 @@ class DelaunayFlips {
  private:
     struct Entry {
         std::int32_t cell;
-        Tetrahedron vertices;  // when it was pushed
+        Tetrahedron vertices;  // vertices of the cell when it was pushed
     };
 
     const Vec3& point(std::int32_t v) const { return t_.points()[v]; }
@@ -62,7 +69,7 @@ class DelaunayFlips {
         return flat == 1 && remove_edge(face, corners[turned], corners[(turned + 1) % 3]);
     }
 
-    // Three cells around the edge between p and q.
+    // Replaces three cells around the edge between p and q by two. Returns false where that is not possible.
     bool remove_edge(CellFace face, std::int32_t p, std::int32_t q) {
         const Tetrahedron& vertices = t_.vertices(cell_of(face));
         EdgeRing ring;

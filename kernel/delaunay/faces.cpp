@@ -11,13 +11,13 @@ namespace kerf {
 
 namespace {
 
-// Turned so that the smallest vertex is the first one.
+// Returns the triangle turned so that the smallest vertex is the first one.
 Triangle smallest_first(const Triangle& t) {
     if (t[0] < t[1]) return t[0] < t[2] ? t : Triangle{t[2], t[0], t[1]};
     return t[1] < t[2] ? Triangle{t[1], t[2], t[0]} : Triangle{t[2], t[0], t[1]};
 }
 
-// The other two vertices of a triangle that is turned so, as one number.
+// The second and third vertex of a triangle that is turned so, as one number.
 std::uint64_t other_vertices(std::int32_t second, std::int32_t third) {
     return static_cast<std::uint64_t>(second) << 32 | static_cast<std::uint32_t>(third);
 }

@@ -1,6 +1,6 @@
-// Hilbert's curve by the recurrence of hamilton2008. In each octant the curve enters at one corner and leaves at
-// another along an axis; (entry corner, axis) is the state, of which there are 24. The octants of a cube are visited in
-// the order of the Gray code, reflected to the entry corner and rotated to the axis.
+// Hilbert's curve by the recurrence of (Hamilton and Rau-Chaplin 2008, hamilton2008). In each octant the curve enters
+// at one corner and leaves at another along an axis; (entry corner, axis) is the state, of which there are 24. The
+// octants of a cube are visited in the order of the Gray code, reflected to the entry corner and rotated to the axis.
 #include "delaunay/spatial_order.h"
 
 #include <algorithm>
@@ -18,14 +18,15 @@ constexpr unsigned gray(unsigned i) { return i ^ (i >> 1); }
 constexpr unsigned gray_inverse(unsigned g) { return g ^ (g >> 1) ^ (g >> 2); }
 constexpr unsigned rotated_left(unsigned bits, unsigned by) { return ((bits << by) | (bits >> (3 - by))) & 7; }
 
-// Where the curve enters the i-th octant of a cube in the standard state, and the axis along which it leaves it.
+// The corner at which the curve enters the i-th octant of a cube in the standard state, and the axis along which it
+// leaves.
 constexpr unsigned entry(unsigned i) { return i == 0 ? 0 : gray((i - 1) / 2 * 2); }
 constexpr unsigned axis(unsigned i) {
     return i == 0 ? 0 : static_cast<unsigned>(std::countr_one(i % 2 == 0 ? i - 1 : i)) % 3;
 }
 
 struct Step {
-    std::uint8_t place, next_state;  // of an octant on the curve, and the state inside of it
+    std::uint8_t place, next_state;  // place of an octant on the curve, and the state inside of it
 };
 
 constexpr Step step_from(unsigned entry_corner, unsigned along, unsigned octant) {
@@ -43,7 +44,7 @@ constexpr auto steps = [] {
     return table;
 }();
 
-// Which round a point belongs to: 0 for the last and largest one, 1 for the one before, ...
+// The round of a point: 0 for the last and largest one, 1 for the one before, ...
 std::uint64_t rounds_to_go(std::uint64_t point) {
     // The finaliser of a 64-bit hash: every bit of the number has a say in the lower bits of the result.
     point = (point + 1) * 0x9e3779b97f4a7c15;

@@ -1,4 +1,4 @@
-// Which two cells of a star share a face.
+// The pairs of cells of a star that share a face.
 #pragma once
 
 #include <array>
@@ -13,19 +13,20 @@ namespace kerf {
 /// other one without searching: vertices of the surface get small numbers, and edges places in a square table.
 class StarEdges {
  public:
-    /// Of a vertex on the surface; a surface with more than so many is `is_large()`, and has no table.
+    /// The small number of a vertex of the surface. A surface with more vertices than `most_places` is `is_large()`,
+    /// and has no table.
     using Place = std::uint8_t;
     static constexpr std::size_t most_places = 256;
 
-    /// Room for vertices with numbers below this.
+    /// Makes room for vertices with numbers below `count`.
     void reserve_vertices(std::size_t count) { place_.reserve(count); }
-    /// Vertices with numbers below this may be asked for from now on.
+    /// Makes vertices with numbers below `count` known from now on.
     void set_vertex_count(std::size_t count) { place_.resize(count); }
 
     /// Forgets the last star. The ghost, vertex -1, has place 0.
     void clear() { count_ = 1; }
 
-    /// The place of a vertex; is_new is true if it was not asked for since clear().
+    /// Returns the place of a vertex. `is_new` is true if it is asked for the first time since clear().
     Place place(std::int32_t vertex, bool& is_new) {
         if (vertex < 0) return 0;
         Place& place = place_[vertex];
@@ -39,7 +40,7 @@ class StarEdges {
     }
     bool is_large() const { return count_ > most_places; }
 
-    /// After all places are known and before the table is used.
+    /// Makes the table. To be called after all places are known and before at().
     void make_table() {
         stride_ = 32;
         while (stride_ < count_) stride_ *= 2;
@@ -47,9 +48,10 @@ class StarEdges {
     }
     std::int32_t& at(Place a, Place b) { return table_[a * stride_ + b]; }
 
+    // Place of every vertex; valid if vertices_ agrees.
  private:
-    std::vector<Place> place_;                               // of every vertex; valid if vertices_ agrees
-    std::array<std::int32_t, most_places> vertices_ = {-1};  // by place
+    std::vector<Place> place_;
+    std::array<std::int32_t, most_places> vertices_ = {-1};  // vertices by place
     std::size_t count_ = 1;
     std::vector<std::int32_t> table_;
     std::size_t stride_ = 0;

@@ -1,3 +1,15 @@
+// Points are inserted by the method of Bowyer and Watson (bowyer1981, watson1981): walk to the cell of the point
+// (Devillers, Pion and Teillaud 2002, devillers2002), remove the cavity, which is all cells in whose spheres the point
+// lies, and join the point with the faces around it. Both predicates are exact (Shewchuk 1997, shewchuk1997), and
+// in_sphere() decides ties by a perturbation (Devillers and Teillaud 2011, devillers2011), so that the cavity is always
+// star-shaped and the cells depend on the points alone. Ghost cells stand outside of the hull: the sphere of one is the
+// half-space beyond its face.
+//
+// Once faces are constrained or cells were replaced, spheres no longer tell everything. Then the cavity grows only
+// through faces that the point sees, and shrinks until it sees all faces around it; faces are "unseen" if the point is
+// behind them or in their plane. Cells of the cavity are marked (EditableTets::Cell), and every way out of the search
+// takes the marks back. New cells take the places of old ones, and find each other by a square table of edges
+// (delaunay/star_edges.h), or by sorting where a star is too large for it.
 #include "delaunay/triangulation.h"
 
 #include <algorithm>
@@ -9,9 +21,9 @@ namespace kerf {
 
 namespace {
 
-constexpr std::size_t cells_a_vertex = 7;  // a little more than there are among random points
+constexpr std::size_t cells_a_vertex = 7;  // a little more than the mean among random points
 
-// Of the tetrahedron with p in place of its vertex i.
+// Returns the orientation of a cell with p in place of its vertex i.
 int orientation_with(const EditableTets& tets, std::int32_t cell, int i, const Vec3& p) {
     const Tetrahedron& vertex = tets.vertices(cell);
     std::array<const Vec3*, 4> corners;
@@ -19,7 +31,8 @@ int orientation_with(const EditableTets& tets, std::int32_t cell, int i, const V
     return orientation(*corners[0], *corners[1], *corners[2], *corners[3]);
 }
 
-// A face of the cell that the point is beyond; 4 if there is none. The face through which the walk came is not asked.
+// Returns a face of the cell beyond which the point lies; 4 if there is none. The face through which the walk came is
+// not asked.
 int face_towards(const EditableTets& tets, const Vec3& p, std::int32_t cell, int came_from, int first) {
     for (int k = 0; k < 4; ++k) {
         const int i = (first + k) & 3;
@@ -28,8 +41,8 @@ int face_towards(const EditableTets& tets, const Vec3& p, std::int32_t cell, int
     return 4;
 }
 
-// Among Delaunay cells every walk ends (edelsbrunner1990); with constrained faces one that always asks the faces in the
-// same order may turn in circles.
+// Walks from cell to cell towards a point. Among Delaunay cells every walk ends (Edelsbrunner 1990, edelsbrunner1990);
+// with constrained faces, one that always asks faces in the same order may turn in circles, so the first one is random.
 template <bool stops_at_constraints>
 std::int32_t walk(const EditableTets& tets, const Vec3& p, std::int32_t hint) {
     std::int32_t cell = tets.is_ghost(hint) ? tets.neighbour(hint, 3) : hint;
@@ -91,7 +104,7 @@ void Triangulation::reserve(std::size_t vertices) {
     star_edges_.reserve_vertices(vertices);
 }
 
-// --- Where a point is ---
+// --- the place of a point ---
 
 std::int32_t Triangulation::locate(const Vec3& p, std::int32_t hint) const { return walk<false>(*this, p, hint); }
 
@@ -99,7 +112,7 @@ std::int32_t Triangulation::locate_in_sight(const Vec3& p, std::int32_t hint) co
     return walk<true>(*this, p, hint);
 }
 
-// Where others have been replaced, the last cell may be gone; any other one will do.
+// Where the walk begins. After other changes the last cell may be gone; any other one will do.
 std::int32_t Triangulation::start_of(const Vec3& p, std::int32_t hint) const {
     return locate(p, hint == none ? std::min(last_cell_, cell_count() - 1) : hint);
 }
@@ -145,7 +158,7 @@ void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
     unmark_cavity();
 }
 
-// Of a face of a marked cell.
+// Returns the vertices of a face of a marked cell.
 Triangle Triangulation::cavity_face_vertices(CellFace face) const {
     Cell cell = cells_[cell_of(face)];
     cell.flip_mark();
@@ -153,14 +166,14 @@ Triangle Triangulation::cavity_face_vertices(CellFace face) const {
     return {cell.vertex[i], cell.vertex[j], cell.vertex[k]};
 }
 
-// Of a marked cell: 1 where p sees the face from inside of the cell, 0 in its plane.
+// Returns 1 where p sees a face of a marked cell from inside of the cell, 0 where p lies in its plane.
 int Triangulation::side_of(const Vec3& p, CellFace face) const {
     const auto [a, b, c] = cavity_face_vertices(face);
     return orientation(p, points()[a], points()[b], points()[c]);
 }
 
-// By steps through faces that the point sees, or on which it lies: all cells that it sees through others with spheres
-// around it are found, and few that it does not see. False if a face keeps the point off.
+// Grows the cavity by steps through faces that the point sees, or on which it lies. So all cells are found that it sees
+// through others with spheres around it, and few that it does not see. Returns false if a face keeps the point off.
 bool Triangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
     unseen_.clear();
     cavity_.assign(1, start);
@@ -203,8 +216,8 @@ void Triangulation::shrink_cavity(const Vec3& p) {
                 cavity_faces_.push_back({face, link(face)});
 }
 
-// False if the point may not be inserted. Among Delaunay cells the point sees all of its cavity. No vertex is lost: the
-// cell behind it, seen from the point, has the point outside of its sphere.
+// Finds the cavity; returns false if the point may not be inserted. Among Delaunay cells the point sees all of its
+// cavity. No vertex is lost: the cell behind it, seen from the point, has the point outside of its sphere.
 bool Triangulation::find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
     cavity_faces_.clear();
     has_left_cells_ = false;
@@ -249,7 +262,7 @@ void Triangulation::place_cells() {
     cells_.resize(static_cast<std::size_t>(next_cell));
 }
 
-// But for the links to each other.
+// Sets vertices and outer links of the new cells; their links to each other follow.
 void Triangulation::set_cells(std::int32_t vertex) {
     for (const NewCell& made : new_cells_) {
         const int i = index_in_cell(made.face);

@@ -1,8 +1,7 @@
-// The body-centred cubic lattice and its tetrahedra, the best of those that fill space with a single shape.
-//
-// A lattice of edge a: the corners of the cubes of edge a that fill space, and their centres. Sites are told by
-// integers in units of a/2, all three even (corners) or all three odd (centres). A cube has the number of its lowest
-// corner divided by 2, and two sites, this corner and its centre: 2 * cube + parity is the site.
+// The body-centred cubic lattice and its tetrahedra, the best of those that fill space with a single shape. The sites
+// of a lattice of edge a are the corners of the cubes of edge a that fill space, and their centres. Their coordinates
+// are integers in units of a/2, all three even (corners) or all three odd (centres). A cube has the number of its
+// lowest corner divided by 2, and two sites, this corner and its centre: 2 * cube + parity is the site.
 //
 // Each site has 14 neighbours, 6 at distance a along the axes and 8 at sqrt(3)/2 a. A cell is the hull of two edges of
 // length a at right angles, one of corners and one of centres, a/2 apart: 6 cells a site, 24 around each, of volume
@@ -25,24 +24,24 @@ constexpr LatticeSite operator+(const LatticeSite& a, const LatticeSite& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-/// Where the sites of a lattice lie. Its origin and axes are the same for all surfaces, so that all parts of a body
+/// The places of the sites of a lattice. Its origin and axes are the same for all surfaces, so that all parts of a body
 /// have the same points: these depend on edge and site alone.
 class BccLattice {
  public:
-    /// Sites have coordinates below this, so that doubles resolve the jitter.
+    /// Bound of the coordinates of sites, so that doubles resolve the jitter.
     static constexpr std::int32_t most_half_edges = 1 << 30;
-    /// Most that a coordinate of a point is beside its place, by the edge. The sign of a determinant of points in exact
+    /// Most distance of a coordinate of a point from its place, in edges. The sign of a determinant of points in exact
     /// position is 0 as often as not, and slow to find; this much is enough to avoid that, and changes no angle.
     static constexpr double jitter = 1e-6;
 
-    /// Finite and positive.
+    /// Takes the length of an edge, finite and positive.
     explicit BccLattice(double edge) : edge_(edge), half_edge_(edge / 2) { KERF_CHECK(edge > 0); }
 
     double edge() const { return edge_; }
-    /// But for the jitter.
+    /// Returns the volume of a cell, but for the jitter.
     double cell_volume() const { return edge_ * edge_ * edge_ / 12; }
 
-    /// The point of a site. Coordinates below most_half_edges.
+    /// Returns the point of a site, whose coordinates must be below most_half_edges.
     Vec3 point(const LatticeSite& site) const {
         std::uint64_t bits = hash(site);
         Vec3 p;
@@ -53,16 +52,16 @@ class BccLattice {
         }
         return p;
     }
-    /// The coordinates of a point in the units of sites, without jitter.
+    /// Returns the coordinates of a point in the units of sites, without jitter.
     Vec3 coordinates(const Vec3& p) const {
         return {p[0] / half_edge_ - origin[0], p[1] / half_edge_ - origin[1], p[2] / half_edge_ - origin[2]};
     }
 
  private:
-    // Of site 0, in half edges: a place that surfaces in regular position hardly share.
+    // Position of site 0, in half edges: a place that surfaces in regular position hardly share.
     static constexpr std::array<double, 3> origin = {0.8191725134, 0.6710436067, 0.5497004779};
 
-    // 64 bits in which every bit of the site has a say.
+    // Returns 64 bits in which every bit of the site has a say.
     static constexpr std::uint64_t hash(const LatticeSite& site) {
         const auto word = [&](int axis) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(site[axis])); };
         return mixed_bits(word(0) * 0x9e3779b97f4a7c15 ^ word(1) * 0xc2b2ae3d27d4eb4f ^ word(2) * 0x165667b19e3779f9);
@@ -71,10 +70,10 @@ class BccLattice {
     double edge_, half_edge_;
 };
 
-/// The cell at site 0 with these other corners: positively oriented after site 0.
+/// A cell at site 0, by its three other corners: positively oriented after site 0.
 struct LatticeCell {
     std::array<LatticeSite, 3> corners;
-    /// Corner 0 of the cell across the face of the three.
+    /// Corner 0 of the cell across the face of these three.
     LatticeSite mirrored;
 };
 
@@ -121,7 +120,7 @@ constexpr std::array<LatticeCell, 24> make_lattice_cells() {
 
 }  // namespace detail
 
-/// All cells at site 0. Those at all even sites have every cell twice; their first 12 have every cell once.
+/// All cells at site 0. Taken at all even sites, they have every cell twice; their first 12 have every cell once.
 inline constexpr std::array<LatticeCell, 24> lattice_cells = detail::make_lattice_cells();
 inline constexpr int cells_per_cube = 12;
 

@@ -1,3 +1,8 @@
+// One facet after the other takes sites away. Blocks in its box are asked first: by the distance of a block's middle,
+// all of its sites may be far, or all near. Else the sites in the box, of each parity, are tried, by the distance from
+// the facet's plane and then from the facet. A distance from the same corners in another order may differ in its last
+// bit, so the corners of a facet are sorted by their coordinates; that makes the result independent of their order.
+// `slack` covers jitter and rounding, so that no site is lost by a box that is too small.
 #include "lattice/clearance.h"
 
 #include <array>
@@ -13,14 +18,14 @@ namespace kerf {
 
 namespace {
 
-// Cubes from first to last along an axis; none if last < first.
+// The cubes from first to last along an axis; none if last < first.
 struct CubeRange {
     std::int32_t first, last;
 };
 
-// A facet and how far sites must be from it.
+// A facet, and the distance that sites must have from it.
 struct Obstacle {
-    Vec3 a, b, c;  // in an order that depends on the points alone
+    Vec3 a, b, c;  // corners in an order that depends on the points alone
     Vec3 normal;
     double distance;
 
@@ -63,10 +68,10 @@ class SiteRemover {
     }
 
  private:
-    // In edges: far above the jitter and rounding errors.
+    // A length in edges, far above the jitter and rounding errors.
     static constexpr double slack = 1e-5;
 
-    // Those whose site of the parity is between low and high.
+    // Returns the cubes whose site of the parity is between low and high.
     static CubeRange cubes(double low, double high, int parity) {
         const auto limit = [](double x) {
             constexpr double most = BccLattice::most_half_edges;
@@ -107,7 +112,7 @@ class SiteRemover {
             }
     }
 
-    // Which of these sites of a row.
+    // Returns those of the candidates, a bit each in a row, that are near the obstacle.
     unsigned near_sites(const Obstacle& obstacle, const LatticeSite& first, unsigned candidates) const {
         unsigned near = 0;
         for_each_bit(candidates, [&](int x) {
@@ -120,7 +125,7 @@ class SiteRemover {
 
     const BccLattice& lattice_;
     SiteSet& sites_;
-    std::array<std::array<CubeRange, 3>, 2> range_ = {};  // around the obstacle, of both parities
+    std::array<std::array<CubeRange, 3>, 2> range_ = {};  // cubes around the obstacle, for both parities
 };
 
 }  // namespace

@@ -1,3 +1,12 @@
+// All is done on rows of eight sites, a byte each, in blocks padded by their neighbours (PaddedRows): the row of sites
+// a step away is a shift, and sets are combined by bits. With K the kept sites, deep sites are the AND of K over the 14
+// steps to neighbours, boundary sites those of K that are not deep and have a deep neighbour, and free sites the rest
+// of K. Every cell is counted at one even site, as one of 12: it belongs to the core if all corners are deep or
+// boundary and one is deep. A face of the boundary is found from the deep site opposite to it, where its three corners
+// are not deep and neither is the site mirrored at it; all of its corners are boundary sites then.
+//
+// Numbers of sites are unpacked, block by block, into an array with a margin of one, in which a corner is a constant
+// distance away. Places of sites that are not in the set keep old numbers there; no cell names one.
 #include "lattice/lattice_core.h"
 
 #include <algorithm>
@@ -19,7 +28,7 @@ constexpr NeighbourSteps make_neighbour_steps(int parity, std::index_sequence<i.
     return {SiteStep(parity, lattice_neighbours[i])...};
 }
 
-// From a site of each parity.
+// The steps to all neighbours, from a site of each parity.
 constexpr std::array<NeighbourSteps, 2> neighbour_steps = {
     make_neighbour_steps(0, std::make_index_sequence<lattice_neighbours.size()>()),
     make_neighbour_steps(1, std::make_index_sequence<lattice_neighbours.size()>())};
@@ -53,7 +62,7 @@ void for_each_row(const Visit& visit) {
 
 constexpr unsigned full_row = (1U << block_edge) - 1;
 
-// Calls visit(y, z, i, mask) for those cells of a block that belong to the core: bit x of the mask is lattice_cells[i]
+// Calls visit(y, z, i, mask) for the cells of a block that belong to the core: bit x of the mask is lattice_cells[i]
 // at the even site x of the row.
 template <class Visit>
 void for_each_core_cell(const PaddedRows& deep, const PaddedRows& boundary, const Visit& visit) {
@@ -73,7 +82,7 @@ void for_each_core_cell(const PaddedRows& deep, const PaddedRows& boundary, cons
         }
 }
 
-// The numbers of the sites of a block and around it.
+// The numbers of the sites in a block and beside it.
 class PaddedNumbers {
  public:
     static constexpr int width = block_edge + 2;
@@ -81,14 +90,14 @@ class PaddedNumbers {
     static constexpr int place(int parity, int x, int y, int z) {
         return ((parity * width + z + 1) * width + y + 1) * width + x + 1;
     }
-    // What a step adds to the place of a site with parity `from`.
+    // Returns the number that a step adds to the place of a site with parity `from`.
     static constexpr int distance(int from, const SiteStep& step) {
         return place(step.parity, step.dx, step.dy, step.dz) - place(from, 0, 0, 0);
     }
 
     std::int32_t at(int place) const { return number_[place]; }
 
-    // Of the sites in the set; the others keep what they have.
+    // Sets the numbers of the sites in the set; the others keep theirs.
     void set(const SiteBits& bits, const SiteNumbers& numbers, const BlockSurroundings& around, std::int32_t first) {
         for (int dz = -1; dz <= 1; ++dz)
             for (int dy = -1; dy <= 1; ++dy)
@@ -110,7 +119,7 @@ class PaddedNumbers {
     struct Part {
         int first, last;
     };
-    // Of a block at this distance, what lies beside the middle one.
+    // Returns the rows of a block at this distance that lie beside the middle block.
     static constexpr Part part_of(int d) {
         return d < 0 ? Part{block_edge - 1, block_edge - 1} : d > 0 ? Part{0, 0} : Part{0, block_edge - 1};
     }

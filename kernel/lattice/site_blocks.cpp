@@ -1,3 +1,7 @@
+// A block's key has 21 bits for each coordinate, z first, counted from one below the lowest, so that a step of one in
+// any of them neither borrows nor carries. The three blocks along x around a place have consecutive keys; so the 27
+// blocks around a block are found by nine cursors, one for each step in y and z, which only move on. A padded row has
+// 10 bits: the last site of the row before, the eight of its own, and the first of the row behind.
 #include "lattice/site_blocks.h"
 
 #include <algorithm>

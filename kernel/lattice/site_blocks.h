@@ -10,7 +10,7 @@
 
 namespace kerf {
 
-inline constexpr int block_edge = 8;  ///< cubes
+inline constexpr int block_edge = 8;  ///< edge of a block, in cubes
 inline constexpr int rows_per_block = 2 * block_edge * block_edge;
 
 /// A set of sites of a block: bit x of row_number(parity, y, z) is site 2 * (x, y, z) + parity, counted from the
@@ -22,33 +22,34 @@ constexpr int row_number(int parity, int y, int z) { return (parity * block_edge
 /// The place of a block among all, along x, then y, then z.
 using BlockCoordinates = std::array<std::int32_t, 3>;
 
-/// Which blocks there are. They are numbered in the order of z, then y, then x. 8 bytes a block.
+/// The blocks that hold sites, by their coordinates. They are numbered in the order of z, then y, then x. 8 bytes a
+/// block.
 class BlockIndex {
  public:
-    /// Along each axis there are at most so many.
+    /// Most blocks along each axis.
     static constexpr std::int32_t most_blocks = (1 << 21) - 4;
 
     BlockIndex() = default;
-    /// All coordinates will be between `lowest` and most_blocks more.
+    /// Takes the least of all coordinates that will come: these are between `lowest` and most_blocks more.
     explicit BlockIndex(const BlockCoordinates& lowest) : base_{lowest[0] - 1, lowest[1] - 1, lowest[2] - 1} {}
 
-    /// The next one. Must come after the last one in the order.
+    /// Appends a block, which must come after the last one in the order.
     void append(const BlockCoordinates& block);
 
     std::int32_t size() const { return static_cast<std::int32_t>(keys_.size()); }
     BlockCoordinates coordinates(std::int32_t block) const;
-    /// The site with parity 0 of its lowest cube.
+    /// Returns the site with parity 0 of a block's lowest cube.
     LatticeSite lowest_site(std::int32_t block) const;
-    /// The smallest box of coordinates that holds all blocks. Requires some.
+    /// The corners of the smallest box of coordinates that holds all blocks. Requires some.
     const BlockCoordinates& lowest() const { return lowest_; }
     const BlockCoordinates& highest() const { return highest_; }
     std::size_t bytes() const { return keys_.capacity() * sizeof(Key); }
-    /// The number of the first block that does not come before this one. O(log n).
+    /// Returns the number of the first block that does not come before this one. O(log n).
     std::int32_t lower_bound(const BlockCoordinates& block) const;
 
  private:
     friend class BlockSurroundings;
-    using Key = std::uint64_t;  // 21 bits a coordinate, z first: their order is that of the blocks
+    using Key = std::uint64_t;  // 21 bits a coordinate, z first: the order of keys is that of the blocks
     static constexpr int bits = 21;
 
     Key key(const BlockCoordinates& block) const;
@@ -65,9 +66,9 @@ class BlockSurroundings {
 
     explicit BlockSurroundings(const BlockIndex& blocks) : blocks_(&blocks) {}
 
-    /// In ascending order.
+    /// Moves to a block. Blocks must come in ascending order.
     void move_to(std::int32_t block);
-    /// The number of the block at this distance, each of -1, 0 and 1.
+    /// Returns the number of the block at this distance, each of -1, 0 and 1; `none` if there is none.
     std::int32_t at(int dx, int dy, int dz) const { return around_[(dz * 3 + dy) * 3 + dx + 13]; }
 
  private:
@@ -81,10 +82,10 @@ using SiteBits = std::vector<SiteRows>;
 
 /// A step from a site to another one, in cubes.
 struct SiteStep {
-    int parity;  ///< of the other one
+    int parity;  ///< parity of the other site
     int dx, dy, dz;
 
-    /// The step from a site of this parity.
+    /// Takes a step in half edges, from a site of this parity.
     constexpr SiteStep(int from_parity, const LatticeSite& step)
         : parity((from_parity + step[0]) & 1), dx(0), dy(0), dz(0) {
         dx = (from_parity + step[0] - parity) / 2;
@@ -93,12 +94,12 @@ struct SiteStep {
     }
 };
 
-/// The set in a block and in the cubes around it.
+/// The part of a set of sites that lies in a block and in the cubes around it.
 class PaddedRows {
  public:
     PaddedRows(const SiteBits& bits, const BlockSurroundings& around);
 
-    /// Bit x is the site that is a step away from site x of the row.
+    /// Returns a row in which bit x is the site that is a step away from site x of the row (y, z).
     std::uint8_t row(const SiteStep& step, int y, int z) const {
         return static_cast<std::uint8_t>(rows_[step.parity][z + 1 + step.dz][y + 1 + step.dy] >> (1 + step.dx));
     }
@@ -110,18 +111,18 @@ class PaddedRows {
     std::uint16_t rows_[2][block_edge + 2][block_edge + 2] = {};
 };
 
-/// Numbers of the sites of a set, without gaps, in the order of blocks, rows and bits. 260 bytes a block.
+/// The numbers of the sites of a set, without gaps, in the order of blocks, rows and bits. 260 bytes a block.
 class SiteNumbers {
  public:
     SiteNumbers() = default;
-    /// Error (memory) if there are 2^31 or more.
+    /// Numbers the sites. Throws Error(memory) if there are 2^31 or more.
     explicit SiteNumbers(const SiteBits& bits);
 
     std::int32_t count() const { return count_; }
     std::size_t bytes() const {
         return first_.capacity() * sizeof first_[0] + before_row_.capacity() * sizeof before_row_[0];
     }
-    /// The number of the first site in a row that is in the set.
+    /// Returns the number of the first site in a row that is in the set.
     std::int32_t first_of_row(std::int32_t block, int row) const { return first_[block] + before_row_[block][row]; }
 
  private:
@@ -130,13 +131,13 @@ class SiteNumbers {
     std::vector<std::array<std::uint16_t, rows_per_block>> before_row_;
 };
 
-/// Number of bits.
+/// Returns the number of bits that are set.
 constexpr int bit_count(std::uint8_t bits) {
     const unsigned pairs = bits - (bits >> 1 & 0x55U), fours = (pairs & 0x33U) + (pairs >> 2 & 0x33U);
     return static_cast<int>((fours + (fours >> 4)) & 0xfU);
 }
 
-/// Calls visit(x) for each bit, lowest first.
+/// Calls visit(x) for each bit that is set, lowest first.
 template <class Visit>
 void for_each_bit(unsigned bits, const Visit& visit) {
     for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));

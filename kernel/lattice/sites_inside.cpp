@@ -2,7 +2,8 @@
 // to above has a point, the same for both of its facets because it depends on the two ends alone; so a facet in the
 // plane is a segment between two such points, and the segments form closed polygons. A line of sites in the plane
 // crosses a facet if its y is in the half-open interval of the segment: an even number of times, since the ends are
-// shared. Rounding moves points along edges, and polygons on the surface; what is not on it stays on its side.
+// shared. Rounding moves points along edges, and polygons on the surface; a site that is not on the surface stays on
+// its side.
 #include "lattice/sites_inside.h"
 
 #include <algorithm>
@@ -24,13 +25,13 @@ struct LineCrossing {
     auto operator<=>(const LineCrossing&) const = default;
 };
 
-// The first site on a line of this parity that is not before `at`.
+// Returns the first site on a line of this parity that is not before `at`.
 std::int32_t first_site(double at, std::int32_t parity) {
     const auto site = static_cast<std::int32_t>(std::ceil(at));
     return site + ((site ^ parity) & 1);
 }
 
-// A part of the way from a to b, never beyond, whatever rounding does.
+// Returns the point at a part of the way from a to b, never beyond, for any rounding.
 double between(double a, double b, double part) {
     const double x = a + part * (b - a);
     return std::clamp(x, std::min(a, b), std::max(a, b));
@@ -40,13 +41,13 @@ struct PlanePoint {
     double y, x;
 };
 
-// Where the edge crosses the plane. Requires low[2] <= z < high[2].
+// Returns the point at which the edge crosses the plane. Requires low[2] <= z < high[2].
 PlanePoint edge_in_plane(const Vec3& low, const Vec3& high, double z) {
     const double part = (z - low[2]) / (high[2] - low[2]);
     return {between(low[1], high[1], part), between(low[0], high[0], part)};
 }
 
-// Of the two edges of a facet that run from below the plane to above; false if there are none.
+// Finds the points of the two edges of a facet that run from below the plane to above; false if there are none.
 bool facet_in_plane(const std::array<Vec3, 3>& corners, double z, std::array<PlanePoint, 2>& segment) {
     int found = 0;
     for (int i = 0; i < 3; ++i) {
@@ -70,7 +71,7 @@ void add_crossings(const std::array<Vec3, 3>& corners, std::vector<LineCrossing>
     }
 }
 
-// Of all vertices, in the units of sites.
+// Returns the coordinates of all vertices in the units of sites.
 std::vector<Vec3> in_half_edges(const std::vector<Vec3>& vertices, const BccLattice& lattice) {
     std::vector<Vec3> coordinates;
     coordinates.reserve(vertices.size());
@@ -82,7 +83,7 @@ constexpr int half_edges_per_block = 2 * block_edge;
 
 std::int32_t block_of(std::int32_t half_edges) { return half_edges >> 4; }
 
-// The index, still without blocks. No block holds sites outside of the bounding box.
+// Returns the index, still without blocks. No block holds sites outside of the bounding box.
 BlockIndex index_for(const std::vector<Vec3>& coordinates) {
     const Box box = box_around(coordinates);
     if (box.isEmpty()) return {};
@@ -98,7 +99,7 @@ BlockIndex index_for(const std::vector<Vec3>& coordinates) {
     return BlockIndex(lowest);
 }
 
-// Blocks in a row.
+// Blocks in a row along x.
 struct BlockSpan {
     std::int32_t y, first_x, last_x;
     auto operator<=>(const BlockSpan&) const = default;
@@ -112,7 +113,7 @@ struct LineSpan {
 
 LineSpan span_between(const LineCrossing& in, const LineCrossing& out) { return {in.x >> 1, out.x >> 1}; }
 
-// Crossings of one layer of blocks, from `begin` to the result, come in pairs.
+// Returns the end of the crossings of one layer of blocks, from `begin` on. They come in pairs.
 std::size_t end_of_layer(const std::vector<LineCrossing>& crossings, std::size_t begin) {
     std::size_t end = begin;
     while (end < crossings.size() && block_of(crossings[end].z) == block_of(crossings[begin].z)) ++end;
@@ -129,7 +130,7 @@ void append_blocks(std::vector<BlockSpan> spans, std::int32_t z, BlockIndex& blo
     }
 }
 
-// All blocks with sites between the crossings.
+// Appends all blocks with sites between the crossings.
 void append_blocks(const std::vector<LineCrossing>& crossings, BlockIndex& blocks) {
     for (std::size_t begin = 0, end = 0; begin < crossings.size(); begin = end) {
         end = end_of_layer(crossings, begin);
