@@ -4,15 +4,15 @@ namespace kerf {
 
 namespace {
 
-constexpr int most_steps = 24, most_failures = 8;  // one after the other
-constexpr double first_step = 0.3;                 // of the distance to the nearest vertex
+constexpr int most_steps = 24, most_failures = 8;  // failures one after the other
+constexpr double first_step = 0.3;                 // share of the distance to the nearest vertex
 constexpr double longer = 1.4, shorter = 0.8;
 
 // A linear congruential generator (constants of Knuth's MMIX): the same numbers everywhere.
 class Directions {
  public:
     explicit Directions(std::int32_t seed) : state_(static_cast<std::uint64_t>(seed) * 2 + 1) {}
-    // In the cube from -1 to 1.
+    // Returns a vector in the cube from -1 to 1.
     Vec3 next() {
         const double x = number(), y = number(), z = number();
         return {x, y, z};
@@ -28,7 +28,8 @@ class Directions {
 
 }  // namespace
 
-// Anything that is not below the limit, if the worst is not. What has failed is asked first the next time.
+// Returns the worst badness, or some number that is not below the limit if the worst is not. A face that has failed
+// moves to the front, to be asked early the next time.
 double BestPlace::worst_at(const EditedMesh& mesh, const Vec3& p, double limit, double excess) {
     double worst = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < faces_.size(); ++i) {

@@ -1,4 +1,4 @@
-// Where a vertex makes the cells around it best.
+// The place of a vertex that makes the cells around it best.
 #pragma once
 
 #include <vector>
@@ -8,25 +8,25 @@
 namespace kerf {
 
 /// Looks for a point that sees all of some faces, and makes the worst of the cells between it and them as good as can
-/// be: by steps in directions that only look random, which grow where they help and shrink where they do not
-/// (freitag1997 and klingner2007 follow gradients instead).
+/// be: by steps in directions that only look random, which grow where they help and shrink where they do not (Freitag
+/// and Ollivier-Gooch 1997, freitag1997, and Klingner and Shewchuk 2007, klingner2007, follow gradients instead).
 class BestPlace {
  public:
     struct Face {
-        Vec3 a, b, c;  ///< with the point before them a positive cell
+        Vec3 a, b, c;  ///< corners that make a positive cell with the point before them
     };
 
     void clear() { faces_.clear(); }
     void add(const Face& face) { faces_.push_back(face); }
-    /// All faces, in an order of its own once it has searched.
+    /// Returns all faces, in an order of its own once it has searched.
     const std::vector<Face>& faces() const { return faces_; }
 
     struct Place {
         Vec3 at;
-        double badness;  ///< of the worst cell
+        double badness;  ///< badness of the worst cell
     };
-    /// Moves from there to the best place that was found; badness counts from `start.badness` on. Cells may exceed
-    /// their bound of volume by `excess`.
+    /// Searches from `start` and returns the best place that was found; a place counts if its badness is below
+    /// `start.badness`. Cells may exceed their bound of volume by `excess`.
     Place search(const EditedMesh& mesh, Place start, double excess, std::int32_t seed);
 
  private:

@@ -1,8 +1,8 @@
-// How far a cell is from flat, as one number that is cheap to compare.
+// A measure of how far a cell is from flat, as one number that is cheap to compare.
 //
 // The measure is the smallest sine of the six dihedral angles, which sees small angles and large ones alike. It is kept
-// as the square of the cotangent with the sign that the cotangent has: that needs no root and no trigonometry, and
-// falls monotonically as the angle grows from 0 to 180 degrees. See mesh/quality.cpp for the formula.
+// as the square of the cotangent with the sign of the cotangent: that needs no root and no trigonometry, and falls
+// monotonically as the angle grows from 0 to 180 degrees. See mesh/quality.cpp for the formula.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace kerf {
 
-/// The sign of x times its square.
+/// Returns the square of x with the sign of x.
 inline double signed_square(double x) { return x * std::abs(x); }
 
-/// The angle in (0, 180) degrees with this signed square of its cotangent.
+/// Returns the angle in (0, 180) degrees with this signed square of its cotangent.
 inline double degrees_from_square(double square) {
     const double cotangent = std::copysign(std::sqrt(std::abs(square)), square);
     return std::atan2(1.0, cotangent) * (180 / std::numbers::pi);
@@ -29,10 +29,11 @@ inline double square_from_degrees(double angle_deg) {
 
 struct CellShape {
     double sharpest;     ///< signed square of the cotangent of the smallest dihedral angle
-    double flattest;     ///< the same of the angle that the largest one lacks to 180 degrees
-    double six_volumes;  ///< signed
+    double flattest;     ///< the same for the angle that the largest one lacks to 180 degrees
+    double six_volumes;  ///< six times the volume, signed
 
-    /// Smaller is better: 1/8 for the regular tetrahedron, infinity where the volume is not positive.
+    /// Returns the badness of the cell; smaller is better: 1/8 for the regular tetrahedron, infinity where the volume
+    /// is not positive.
     double badness() const { return std::max(sharpest, flattest); }
 };
 
@@ -41,10 +42,10 @@ class CellGeometry {
  public:
     CellGeometry(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) : CellGeometry({a, b}, {c, d}) {}
 
-    /// Signed.
+    /// Returns six times the volume, signed.
     double six_volumes() const { return six_volumes_; }
     double shortest_edge_sq() const { return smallest_of(smallest(smallest(ad_bc_sq_, ac_bd_sq_), cd_ab_sq_)); }
-    /// Times the square of 2 * six_volumes().
+    /// Returns the squared circumradius, times the square of 2 * six_volumes().
     double scaled_circumradius_sq() const {
         const Pair ac_ad_sq = firsts(ac_bd_sq_, ad_bc_sq_);
         const auto sum = [&](Pair n1_n0, Pair n2_n3) {
@@ -58,8 +59,8 @@ class CellGeometry {
     CellShape shape() const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         if (!(six_volumes_ > 0)) return {infinity, infinity, six_volumes_};
-        const double scale = 1 / six_volumes_;  // at once, because the eighth power of a length may be no number
-        // Of the angles at two edges, from the dot products of the faces there.
+        const double scale = 1 / six_volumes_;  // applied at once, because the eighth power of a length may overflow
+        // Returns the signed squares for the angles at two edges, from the dot products of the faces there.
         const auto squares = [&](Pair products, Pair lengths_sq) {
             const Pair cosines = products * scale;
             return cosines * absolute(cosines) / lengths_sq;
@@ -83,11 +84,11 @@ class CellGeometry {
           six_volumes_(-cd_ab.dot(swapped(n1_n0_))[1]) {}
 
     VectorPair n1_n0_, n2_n3_;  // twice the areas, as vectors, of the faces opposite to the corners, by number
-    Pair ad_bc_sq_, ac_bd_sq_, cd_ab_sq_;  // of edges, by the letters of their ends
+    Pair ad_bc_sq_, ac_bd_sq_, cd_ab_sq_;  // squared lengths of edges, by the letters of their ends
     double six_volumes_;
 };
 
-/// About 15 ns.
+/// Returns the shape of the cell with these corners. About 15 ns.
 inline CellShape cell_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return CellGeometry(a, b, c, d).shape();
 }

@@ -1,4 +1,4 @@
-// The best tetrahedra in place of those around an edge, without the edge.
+// The best tetrahedra in the place of those around an edge, without the edge.
 #pragma once
 
 #include "improve/edited_mesh.h"
@@ -6,14 +6,14 @@
 
 namespace kerf {
 
-/// For an edge from a to b inside of n cells, the triangulation of the polygon around it (its vertices in the order of
-/// EdgeRing) whose cells, each triangle joined with a and with b, have the least largest badness (shewchuk2002). Only
-/// what is better than `limit` counts.
+/// Finds, for an edge from a to b inside of n cells, the triangulation of the polygon around it (its vertices in the
+/// order of EdgeRing) whose cells, each triangle joined with a and with b, have the least largest badness (Shewchuk
+/// 2002, shewchuk2002). Only cells that are better than `limit` count.
 class EdgeRemoval {
  public:
-    /// Whether there is one. O(n^3).
+    /// Finds the cells; false if there are none. O(n^3).
     bool find(const EditedMesh& mesh, const EdgeRing& ring, double limit);
-    /// The largest badness of its cells, and these.
+    /// The largest badness of the cells that were found, and these.
     double badness() const { return polygon_.badness(); }
     const std::vector<Tetrahedron>& cells() const { return cells_; }
 

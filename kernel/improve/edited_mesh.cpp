@@ -1,3 +1,8 @@
+// Two bounds of a new cell come from the mesh as it was: its sharpest and its flattest angle, so that the extremes
+// never get worse; and the bound of volumes, which cells may exceed as far as those that they replace did. A volume is
+// first compared with the least bound of all, so that the size field is asked only for cells that could exceed theirs.
+// Angles are compared in doubles as signed squares of cotangents (improve/cell_shape.h), signs of volumes exactly.
+// Fixed are the vertices of the boundary, of faces with a cell on one side only, and of frozen cells.
 #include "improve/edited_mesh.h"
 
 #include "geometry/predicates.h"
@@ -23,7 +28,7 @@ TetMesh EditedMesh::finish() {
     return mesh;
 }
 
-// The shapes of all cells, the worst there are, and which vertices must not move.
+// Finds the shapes of all cells, the worst angles, and the vertices that must not move.
 void EditedMesh::find_limits(const std::function<void(const CellShape&)>& visit) {
     is_fixed_.assign(tets_.points().size(), 0);
     std::fill_n(is_fixed_.begin(), boundary_vertex_count_, 1);

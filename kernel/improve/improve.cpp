@@ -1,5 +1,11 @@
-// Rounds over the bad cells, the worst first. What an operation leaves bad, or makes so, comes back in the same round.
-// Where nothing helps, a cell waits for the next round: its neighbours may have changed.
+// Rounds over the bad cells, by a queue with the worst first. For each, the operations are tried in the order of their
+// cost: an edge is removed, a corner is moved, a vertex is added. Cells that an operation leaves bad, or makes so, come
+// back in the same round; a cell that nothing helps waits for the next one, because its neighbours may have changed by
+// then. An entry of the queue is stale if its cell has another badness by now. A vertex is "settled" if no move has
+// helped it since the cells around it changed. Work is counted by evaluations of new cells, never by a clock, so that
+// the result is the same everywhere; vertices for cells that are not useless anyway may take only a share of that
+// budget. All comparisons are of badness, which is a squared cotangent: constants are given in degrees and converted
+// once.
 #include "improve/improve.h"
 
 #include <array>
@@ -14,21 +20,21 @@ namespace kerf {
 
 namespace {
 
-constexpr double least_gain_of_a_move = 0.1;         // of a move, in squared sines: a degree and a half at 25
+constexpr double least_gain_of_a_move = 0.1;         // gain of a move, in squared sines: a degree and a half at 25
 constexpr double angle_for_a_vertex_deg = 20;        // cells with a smaller one are worth a new vertex, ...
 constexpr double angle_where_sizes_differ_deg = 12;  // ... and here with this one, because vertices crowd
 constexpr int first_round_with_vertices = 2;         // before, much is mended without
-constexpr double first_least_made_deg = 8, later_least_made_deg = 3;  // of cells around a new vertex
-constexpr double much_better = 3;            // in squared cotangents: what a vertex must make of a cell that is worse
-constexpr double share_for_vertices = 0.25;  // of all; more only for ...
-constexpr double angle_of_a_useless_cell_deg = 3;  // ... cells with a smaller one
-constexpr double angle_of_no_volume_deg = 0.01;    // of cells whose volume is lost in rounding
-// Where a vertex under a facet may begin, in lengths of an edge: the first for useless cells, all for those without
-// volume, which long facets of a thin body may have.
+constexpr double first_least_made_deg = 8, later_least_made_deg = 3;  // least angle of cells around a new vertex
+constexpr double much_better = 3;  // gain of a vertex for a cell that is worse, as a ratio of squared cotangents
+constexpr double share_for_vertices = 0.25;        // share of all evaluations; more only for ...
+constexpr double angle_of_a_useless_cell_deg = 3;  // ... cells with a smaller angle
+constexpr double angle_of_no_volume_deg = 0.01;    // angle of cells whose volume is lost in rounding
+// Depths at which a vertex under a facet may begin, in lengths of an edge: the first one for useless cells, all for
+// cells without volume, which long facets of a thin body may have.
 constexpr std::array depths_below_facets = {0.3, 0.1, 0.03};
-constexpr double least_share_of_a_round = 0.1;          // of the bad cells, or there is no other round
+constexpr double least_share_of_a_round = 0.1;  // share of the bad cells that a round must mend, or it is the last
 constexpr std::int64_t evaluations_of_any_mesh = 1000;  // beside those for each of its cells
-constexpr int cells_between_questions = 1024;           // whether it is cancelled
+constexpr int cells_between_questions = 1024;           // number of cells between questions whether it is cancelled
 
 class Improver {
  public:
@@ -86,7 +92,7 @@ class Improver {
         if (is_bad(cell)) queue_.push({mesh_.badness(cell), cell});
     }
 
-    // Cells that have changed.
+    // Takes up cells that have changed.
     void take_up(std::span<const std::int32_t> cells) {
         for (const std::int32_t cell : cells) {
             for (const std::int32_t v : mesh_.corners(cell)) is_settled_[v] = 0;
@@ -94,8 +100,8 @@ class Improver {
         }
     }
 
-    // All that are waiting; then those are that nothing has helped. False if cancelled. The queue is not empty if all
-    // is spent.
+    // Works on all cells that wait. Afterwards those wait that nothing has helped. Returns false if cancelled. The
+    // queue is not empty if the budget is spent.
     bool run_round() {
         ++result_->rounds;
         for (const std::int32_t cell : waiting_) push(cell);
@@ -117,7 +123,7 @@ class Improver {
         return true;
     }
 
-    // The edge without which the worst of the cells around it is best.
+    // Removes the edge without which the worst of the cells around it is best; false if none can be removed.
     bool remove_an_edge(std::int32_t cell) {
         double best = std::numeric_limits<double>::infinity();
         for (int i = 0; i < 4; ++i)
@@ -150,7 +156,7 @@ class Improver {
         return false;
     }
 
-    // Among the cells around it, star_, where that makes the worst of them better by a share.
+    // Moves a vertex among the cells around it, star_, if that makes the worst of them better by a share.
     bool move_to_best_place(std::int32_t vertex) {
         places_.clear();
         double worst = -std::numeric_limits<double>::infinity();
@@ -170,7 +176,7 @@ class Improver {
         const bool may_be = options_->adds_vertices && result_->rounds >= first_round_with_vertices;
         if (!may_be || badness < bad_enough_for_a_vertex_) return false;
         if (badness < useless_ && evaluations_for_vertices_ > share_for_vertices * evaluation_budget_) return false;
-        // A sliver between facets is better replaced by what is still bad, but can be moved.
+        // A sliver between facets is better replaced by cells that are still bad, but whose vertex can be moved.
         const double least_made_deg =
             result_->rounds == first_round_with_vertices ? first_least_made_deg : later_least_made_deg;
         // Anything is better than a cell whose volume is lost in rounding.
@@ -191,7 +197,7 @@ class Improver {
     }
 
     std::int64_t evaluation_budget_;
-    std::vector<char> is_settled_;  // #V; whether the cells around it are those that no move has helped
+    std::vector<char> is_settled_;  // #V; whether the cells around a vertex are those that no move has helped
     EditedMesh mesh_;
     const ImproveOptions* options_;
     Improvement* result_;

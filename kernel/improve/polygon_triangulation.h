@@ -9,13 +9,14 @@
 
 namespace kerf {
 
-/// By dynamic programming over the diagonals (klincsek1980). The polygon is known by its corners' numbers alone, of
-/// which there are at most `most`.
+/// Finds a triangulation by dynamic programming over the diagonals (Klincsek 1980, klincsek1980). The polygon is known
+/// by the numbers of its corners alone, of which there are at most `most`.
 template <std::size_t most>
 class PolygonTriangulation {
  public:
-    /// Whether there is one of n >= 2 corners all of whose triangles have less badness than `limit`.
-    /// badness_of(i, j, k, best) is that of a triangle, or anything that is not below `best`. O(n^3).
+    /// Finds a triangulation of a polygon of n >= 2 corners, all of whose triangles have less badness than `limit`;
+    /// false if there is none. badness_of(i, j, k, best) is the badness of a triangle, or any number that is not below
+    /// `best`. O(n^3).
     template <class Badness>
     bool find(std::size_t n, double limit, const Badness& badness_of) {
         n_ = n;
@@ -35,7 +36,7 @@ class PolygonTriangulation {
             }
         return badness() < infinity;
     }
-    /// The largest of its triangles; infinity if there is none.
+    /// Returns the largest badness of its triangles; infinity if there is no triangulation.
     double badness() const { return best_[0][n_ - 1]; }
     /// Calls visit(i, j, k) with the corners of every triangle, i < j < k.
     template <class Visit>
@@ -56,7 +57,7 @@ class PolygonTriangulation {
     }
 
     std::size_t n_ = 0;
-    // Of the part of the polygon from one corner to another: the least badness, and the third corner of its last
+    // For the part of the polygon from one corner to another: the least badness, and the third corner of the last
     // triangle.
     std::array<std::array<double, most>, most> best_;
     std::array<std::array<std::uint8_t, most>, most> middle_;

@@ -1,3 +1,10 @@
+// For each edge of the cell, the cells around it are a first cavity (Klingner and Shewchuk 2007, klingner2007). A side
+// is a face of the cavity's boundary, with the cell of the cavity behind it; together with the vertex, each side makes
+// a new cell, whose badness is that of the side. The vertex moves to its best place for the sides that there are; then
+// the cavity grows, one cell at a time, across the worst side behind which the new sides would all be better. This goes
+// on in turn, a few times, and the best of all places is kept with its cavity. A vertex that would come to lie inside
+// of the cavity would be lost, so growth that does this is taken back. Cells are judged in doubles; only at the end
+// their signs are checked exactly, and if one fails there is no vertex.
 #include "improve/vertex_insertion.h"
 
 #include "geometry/triangle.h"
@@ -37,7 +44,7 @@ bool VertexInsertion::has_inner_vertex(const EditedMesh& mesh) const {
     return false;
 }
 
-// By the cell behind the worst side for which those behind it are better.
+// Adds the cell behind the worst side for which the sides behind that are better; false if there is none.
 bool VertexInsertion::grow(const EditedMesh& mesh, const Vec3& at) {
     if (cavity_.size() == most_cavity_cells) return false;
     for (Side& side : sides_) side.badness = badness_at(mesh, at, side.cell, side.i);
@@ -65,7 +72,7 @@ double VertexInsertion::worst_at(const EditedMesh& mesh, const Vec3& at) const {
     return worst;
 }
 
-// In turn grows the cavity and moves the place, and keeps the best of both.
+// Moves the place and grows the cavity in turn, and keeps the best of both.
 void VertexInsertion::grow_and_move(const EditedMesh& mesh, const Vec3& start) {
     cavity_ = ring_.cells;
     excess_ = mesh.most_excess(cavity_);
@@ -90,7 +97,7 @@ void VertexInsertion::grow_and_move(const EditedMesh& mesh, const Vec3& start) {
     }
 }
 
-// Of length 1, or zero where no face of the cell is at the boundary.
+// Returns a direction of length 1, or zero where no face of the cell is at the boundary.
 Vec3 VertexInsertion::away_from_boundary(const EditedMesh& mesh, std::int32_t cell) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < 4; ++i) {

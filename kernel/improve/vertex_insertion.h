@@ -1,4 +1,4 @@
-// Better cells around a new vertex in place of a bad one and some around it.
+// Better cells around a new vertex, in the place of a bad cell and some around it.
 #pragma once
 
 #include <optional>
@@ -7,16 +7,17 @@
 
 namespace kerf {
 
-/// A cavity begins as the cells around an edge of the bad one, the vertex in the middle of that, or, for a sliver with
-/// facets where that does not do, below them. Then it grows, across the worst of its faces as seen from the vertex to
-/// what is better, in turn with moves of the vertex to its best place (klingner2007 grow theirs by a measure of what is
-/// gained). Every corner of the cavity stays on its boundary.
+/// Replaces a cavity by cells around a new vertex. The cavity begins as the cells around an edge of the bad cell, and
+/// the vertex in the middle of that edge, or, for a sliver with facets where that does not do, below them. Then the
+/// cavity grows, across the worst of its faces as seen from the vertex to cells that are better, in turn with moves of
+/// the vertex to its best place (Klingner and Shewchuk 2007, klingner2007, let it grow by a measure of the gain). Every
+/// corner of the cavity stays on its boundary.
 class VertexInsertion {
  public:
-    /// `depths`: how far below the facets of the cell the vertex may begin, too, in lengths of an edge and in this
-    /// order until one does, as where those around it are as flat as it is. Returns the cells that the new ones
-    /// replace; none if there is no vertex whose worst cell is better than `limit`, and nothing has changed. The vertex
-    /// has been added, and cells() are those around it.
+    /// Finds the vertex and adds it to the mesh. Returns the cells that the new ones replace, and cells() are the new
+    /// ones; none, and nothing has changed, if there is no vertex whose worst cell is better than `limit`. `depths`:
+    /// depths below the facets of the cell at which the vertex may begin, too, in lengths of an edge, tried in this
+    /// order until one succeeds; needed where the cells around are as flat as the cell is.
     std::span<const std::int32_t> insert(EditedMesh& mesh, std::int32_t cell, double limit,
                                          std::span<const double> depths);
     const std::vector<Tetrahedron>& cells() const { return cells_; }
@@ -25,7 +26,7 @@ class VertexInsertion {
     struct Side {
         std::int32_t cell;
         int i;
-        double badness;  // of the cell between it and the place
+        double badness;  // badness of the cell between the side and the place
     };
 
     static Vec3 away_from_boundary(const EditedMesh& mesh, std::int32_t cell);
