@@ -48,8 +48,8 @@ class StarEdges {
     }
     std::int32_t& at(Place a, Place b) { return table_[a * stride_ + b]; }
 
-    // Place of every vertex; valid if vertices_ agrees.
  private:
+    // Place of every vertex; valid if vertices_ agrees.
     std::vector<Place> place_;
     std::array<std::int32_t, most_places> vertices_ = {-1};  // vertices by place
     std::size_t count_ = 1;

@@ -1,3 +1,14 @@
+// A missing edge is split where a face or an edge of a cell crosses it, nearest to its middle first; a missing triangle
+// with all edges is split where an edge pierces it. The foot is the point that is split, on the given triangle of which
+// the missing one is a part; the vertex lies above it, inwards, by the height of the dome, curvature x (s t |ab|^2 + t
+// u |bc|^2 + u s |ca|^2) for barycentric coordinates s, t, u: the power of the point to the circle of the given
+// triangle. On an edge that is the product of the distances to its ends, so that two given triangles agree there. The
+// vertex goes in by a Delaunay cavity that must contain all cells in the way, or, where that fails, in the place of
+// those cells and of as many others as it needs to see all faces around. If neither works, it is tried nearer to the
+// foot.
+//
+// Cells between a triangle and its parts are caps; flips of parts within one given triangle, which keep these Delaunay
+// in their plane, add a cap each. Orientation is exact, so a cap is never flat or turned.
 #include "shell/boundary_splitting.h"
 
 #include <algorithm>
@@ -14,14 +25,15 @@ namespace kerf {
 
 namespace {
 
-constexpr double most_rise = 0.3;  // by the distance to the next edge
+constexpr double most_rise = 0.3;  // share of the distance to the next edge
 constexpr double smaller = 0.125;
 constexpr int most_tries = 4;
 constexpr std::size_t most_cells_of_a_cavity = 60;
-// Twice, from both ends. Where more is in the way, the edge is halved: halves are crossed by less.
+// Crossings are counted from both ends, so twice. Where there are more, the edge is halved: halves have fewer.
 constexpr std::size_t most_crossings_of_an_edge = 6;
 
-// Inwards from both planes, the further the better. The triangles, seen from outside, are (a, b, c) and (b, a, d).
+// Returns a direction that leads inwards from the planes of both triangles, as far from each as can be. Seen from
+// outside they are (a, b, c) and (b, a, d).
 Vec3 between(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 along = (b - a).normalized();
     const Vec3 n = (c - a).cross(b - a).normalized(), m = (b - a).cross(d - a).normalized();
@@ -52,7 +64,7 @@ bool contains(const All& all, const One& one) {
 
 }  // namespace
 
-// Where something crosses it near its middle first: a vertex next to another makes thin cells.
+// Tries crossings near the middle of the edge first: a vertex next to another makes thin cells.
 bool BoundarySplitting::split_edge(std::int32_t a, std::int32_t b) {
     struct Candidate {
         Crossing crossing;
@@ -171,8 +183,8 @@ Vec3 BoundarySplitting::inward_normal(std::int32_t origin) const {
     return (point(c) - point(a)).cross(point(b) - point(a)).normalized();
 }
 
-// The power of a point to the circle around its triangle, with the sign that is positive inside, by its barycentric
-// coordinates; on an edge it is the product of the distances to its ends, whatever the triangle.
+// Returns the height of the dome: by barycentric coordinates, the power of a point to the circle around its triangle,
+// with the sign that is positive inside. On an edge it is the product of the distances to its ends, for any triangle.
 double BoundarySplitting::height(std::int32_t origin, const Vec3& p) {
     if (curvature_ == 0) {
         double longest_sq = 0;
@@ -228,7 +240,7 @@ void BoundarySplitting::flip_part(std::int32_t number, int i) {
 
 // --- the cells ---
 
-// Nothing where the edge or a face at it must stay.
+// Returns the cells around an edge, but ghosts; none where the edge or a face at it must stay.
 std::vector<std::int32_t> BoundarySplitting::cavity_of_edge(std::int32_t cell, std::int32_t p, std::int32_t q) const {
     if (is_kept_(p, q)) return {};
     EdgeRing ring;
@@ -243,8 +255,8 @@ bool BoundarySplitting::is_behind(const Vec3& p, const Triangle& triangle) const
     return orientation(p, point(triangle[0]), point(triangle[1]), point(triangle[2])) > 0;
 }
 
-// By the cells behind sides that the point does not see, until it sees them all: flat cells leave it no room. False if
-// one of them must stay.
+// Grows the cavity by the cells behind sides that the point does not see, until it sees all sides: flat cells leave it
+// no room. Returns false if one of them must stay.
 bool BoundarySplitting::grow(std::vector<std::int32_t>& cavity, const Vec3& p) const {
     for (bool is_seen = false; !is_seen;) {
         is_seen = true;
@@ -268,7 +280,7 @@ double BoundarySplitting::distance_to_next(const Place& place) const {
     return std::sqrt(least_sq);
 }
 
-// The new vertex; none if there is no place for it.
+// Inserts the new vertex; returns none if there is no place for it.
 std::optional<std::int32_t> BoundarySplitting::insert(const Place& place) {
     double rise = std::min(place.rise, most_rise * distance_to_next(place));
     for (int tries = 0; tries < most_tries; ++tries, rise *= smaller) {
@@ -289,8 +301,8 @@ std::optional<std::int32_t> BoundarySplitting::insert(const Place& place) {
     return std::nullopt;
 }
 
-// In the place of cells whose spheres contain it and whose outer faces it sees; on this side of all triangles that are
-// there.
+// Inserts a vertex in the place of cells whose spheres contain it and whose outer faces it sees, on this side of all
+// triangles that are faces already.
 template <class Accepts>
 std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Place& place, const Accepts& accepts) {
     const auto before = static_cast<std::int32_t>(t_.points().size());
@@ -303,7 +315,7 @@ std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Pl
     return vertex == before ? std::optional(vertex) : std::nullopt;
 }
 
-// In the place of what it must remove, and of what leaves it no room.
+// Inserts a vertex in the place of the cells that it must remove, and of those that leave it no room.
 std::optional<std::int32_t> BoundarySplitting::insert_alone(const Vec3& p, const Place& place) {
     std::vector<std::int32_t> cavity = place.cavity;
     if (!grow(cavity, p)) return std::nullopt;

@@ -1,3 +1,8 @@
+// A line from a to b is followed by exact orientations alone (Shewchuk 1997, shewchuk1997). It leaves a cell through
+// the face whose three edges all have it on their inner side; one orientation of zero says that it leaves through that
+// edge, two that it meets a vertex, which is no crossing. The walk stops there, because behind an edge it could go on
+// in more than one cell. An edge pierces a triangle if its ends are on different sides of the plane, and all edges of
+// the triangle turn around it the same way; touching counts as no.
 #include "shell/crossing.h"
 
 #include <algorithm>
@@ -15,7 +20,7 @@ int orient(const Triangulation& t, std::int32_t a, std::int32_t b, std::int32_t 
     return orientation(p[a], p[b], p[c], p[d]);
 }
 
-// Whether the line leaves the cell through the face.
+// Whether the line from a to b leaves the cell through the face, or through an edge of it; fills `crossing` if so.
 bool leaves_through(const Triangulation& t, CellFace face, std::int32_t a, std::int32_t b, Crossing& crossing) {
     const Triangle corners = t.face_vertices(face);
     int zeros = 0, on_edge = 0;

@@ -1,3 +1,13 @@
+// Recovery goes from the least change to the largest, and each step is repeated as long as it makes many of the missing
+// triangles. While no face is constrained, missing edges are made by flips that remove other edges first, to a depth
+// that grows from round to round (Si 2015, si2015). Then faces that are there are constrained, and missing triangles
+// are made, with edges that other triangles need kept. What is left gets vertices behind it, and at last is split
+// (shell/boundary_splitting.h). These two may lead into a dead end that depends on a number chosen by trial, so each
+// begins anew from a copy for the next number of its list, until nothing is missing.
+//
+// Notation: a triangle is "given" if it is of the surface, and "missing" if it is to become a face: a given one, or a
+// part that stands for one that was split. "Origin" is the given triangle of a part. A surface whose triangles were
+// split is enclosed by the faces of the parts, without pairs that are one face seen from both sides, and by caps.
 #include "shell/face_recovery.h"
 
 #include <algorithm>
@@ -16,12 +26,13 @@ namespace {
 // To remove an edge, others are removed first only as deep as it must be: that changes least.
 constexpr int most_depth_of_rounds = 12, most_rounds_in_vain = 3;
 constexpr FlipLimits anything = {40, true}, anything_and_vertices = {40, true, NewVertices::allowed};
-// What is done for all missing ones is done again as long as it leaves fewer of them than this share.
+// A step over all missing triangles is repeated as long as it leaves fewer of them than this share.
 constexpr double most_left = 0.95;
-// Of BoundarySplitting. What one loses, a smaller one may find: parts of the boundary may be nearer to each other then.
+// Offsets of BoundarySplitting. A smaller one may find triangles that another loses: parts of the boundary may be
+// nearer to each other then.
 constexpr std::array offsets = {1e-2, 1e-4, 1e-6};
-// By a vertex that comes behind a triangle, see FlipRecovery::insert_behind(). What is lost with one of them, another
-// may find.
+// Most cells that a vertex behind a triangle removes, see FlipRecovery::insert_behind(). One number may find triangles
+// that another loses.
 constexpr std::array<std::size_t, 4> most_removed_cells = {200, 1000, 60, 20};
 // Where long thin triangles lie close together, splits make others of the kind, and there is no end.
 constexpr std::int64_t most_parts_of_a_triangle = 60, most_parts_of_any = 600;
@@ -31,7 +42,7 @@ Triangle ascending(Triangle t) {
     return t;
 }
 
-// No triangle may be there twice.
+// Returns the triangles without pairs of opposite ones. No triangle may be there twice in one direction.
 std::vector<Triangle> without_opposites(std::vector<Triangle> triangles) {
     std::sort(triangles.begin(), triangles.end(),
               [](const Triangle& s, const Triangle& t) { return ascending(s) < ascending(t); });
@@ -98,7 +109,7 @@ class FaceRecovery {
         return edges;
     }
 
-    // Those that are there then are no longer among them.
+    // Makes edges, and removes those from the list that are there then.
     void recover(std::vector<UndirectedEdge>& edges, const FlipLimits& limits) {
         std::erase_if(edges, [&](const UndirectedEdge& edge) { return flips_.recover_edge(edge[0], edge[1], limits); });
     }
@@ -127,7 +138,7 @@ class FaceRecovery {
         repeat([&] { return missing_.missing_count(); }, [&] { for_each_missing(visit); });
     }
 
-    // Those that come on the way, too, as long as there are not too many.
+    // Visits all missing triangles, also those that come on the way, as long as there are not too many.
     template <class Visit>
     void for_each_missing(const Visit& visit) {
         for (std::int32_t number = 0; number < missing_.count() && missing_.count() < most_triangles_; ++number)
@@ -176,7 +187,7 @@ class FaceRecovery {
 
     // --- splits ---
 
-    // The caps.
+    // Splits missing triangles and returns the caps; none if some are still missing.
     std::vector<Tetrahedron> split_missing() {
         const Triangulation unsplit = t_;
         const MissingTriangles missing = missing_;
@@ -192,7 +203,7 @@ class FaceRecovery {
         return {};
     }
 
-    // False if none could be made or split.
+    // Splits or makes missing triangles; false if there was none for which that is possible.
     bool split_all(BoundarySplitting& splitting) {
         bool any = false;
         for_each_missing([&](std::int32_t number) { any |= split_side(splitting, number); });
@@ -201,7 +212,7 @@ class FaceRecovery {
         return any;
     }
 
-    // At an edge between parts of different given triangles.
+    // Splits at an edge between parts of different given triangles.
     bool split_side(BoundarySplitting& splitting, std::int32_t number) {
         const Triangle triangle = missing_.triangle(number);
         for (int i = 0; i < 3; ++i) {
@@ -213,7 +224,7 @@ class FaceRecovery {
         return false;
     }
 
-    // At an edge that is not there; in the middle if all are.
+    // Splits at an edge that is not there; in the middle if all are.
     bool split(BoundarySplitting& splitting, std::int32_t number) {
         const Triangle triangle = missing_.triangle(number);
         bool has_edges = true;
@@ -226,8 +237,8 @@ class FaceRecovery {
         return has_edges && splitting.split_triangle(number);
     }
 
-    // What was there by itself, and what was made, but for two that are the same face seen from both sides: between
-    // them there is nothing but caps.
+    // Returns the triangles that were faces by themselves or were made, without pairs that are the same face seen from
+    // both sides: between them there are only caps.
     std::vector<Triangle> boundary(const std::vector<CellFace>& faces) const {
         std::vector<Triangle> all;
         for (std::size_t k = 0; k < triangles_.size(); ++k)
@@ -242,7 +253,8 @@ class FaceRecovery {
     SurfaceEdges edges_;
     MissingTriangles missing_;
     FlipRecovery flips_;
-    std::int64_t most_triangles_ = std::numeric_limits<std::int64_t>::max();  // missing ones and all that were
+    std::int64_t most_triangles_ =
+        std::numeric_limits<std::int64_t>::max();  // bound of the number of triangles, missing now or before
 };
 
 }  // namespace

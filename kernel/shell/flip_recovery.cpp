@@ -1,5 +1,7 @@
-// An edge that is missing is crossed by faces and edges, and a triangle whose edges are there by edges. What is in the
-// way is removed, nearest to an end first.
+// An edge that is missing is crossed by faces and edges, and a triangle whose edges are there by edges (Si 2015,
+// si2015). These crossings are removed one after another, the one next to an end first. A removal may change cells and
+// still fail; that counts as progress, because other crossings may become removable, and the number of flips and of
+// rings that are looked at is bounded.
 #include "shell/flip_recovery.h"
 
 #include <algorithm>
@@ -14,9 +16,9 @@ namespace kerf {
 namespace {
 constexpr int most_flips_of_an_edge = 1000;
 constexpr int most_flips_of_a_triangle = 100;
-constexpr int most_rings = 500;  // that are looked at for an edge or a triangle
+constexpr int most_rings = 500;  // most rings that are looked at for an edge or a triangle
 constexpr int most_places_of_a_vertex = 4;
-constexpr double farthest_behind = 0.4;  // of a triangle's longest edge
+constexpr double farthest_behind = 0.4;  // share of a triangle's longest edge
 }  // namespace
 
 // --- edges ---
@@ -75,7 +77,7 @@ bool FlipRecovery::clear_face(const Triangle& triangle) {
 
 // --- vertices ---
 
-// Behind, because in front of the triangle may be nothing.
+// The vertex comes behind the triangle, because in front of it there may be no cell.
 bool FlipRecovery::insert_behind(const Triangle& triangle, const Vec3& p, std::size_t most_removed) {
     const Vec3 a = t_.points()[triangle[0]], b = t_.points()[triangle[1]], c = t_.points()[triangle[2]];
     const Vec3 inwards = (c - a).cross(b - a).normalized();
@@ -93,7 +95,7 @@ bool FlipRecovery::insert_behind(const Triangle& triangle, const Vec3& p, std::s
     return false;
 }
 
-// From 0 to 1, different each time, the same in every run.
+// Returns a number from 0 to 1, different each time, but the same in every run.
 double FlipRecovery::some_share() { return static_cast<double>(random_()) / std::minstd_rand::max(); }
 
 }  // namespace kerf

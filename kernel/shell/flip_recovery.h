@@ -1,4 +1,4 @@
-// Edges and triangles that a triangulation lacks, made by flips of what is in their way.
+// Edges and triangles that a triangulation lacks, made by flips that remove all that is in their way.
 #pragma once
 
 #include <random>
@@ -10,28 +10,30 @@
 
 namespace kerf {
 
-/// What flips may do to make an edge or a triangle.
+/// The limits of flips that make an edge or a triangle.
 struct FlipLimits {
-    int depth = 0;  ///< to remove an edge, others around it are removed first, and so on: how deep
-    bool is_anywhere =
-        false;  ///< whether anything that an edge crosses may be removed, not only what is next to an end
+    /// Depth to which other edges are removed first, to remove an edge.
+    int depth = 0;
+    /// Whether all that an edge crosses may be removed, not only the face or edge next to an end.
+    bool is_anywhere = false;
     NewVertices new_vertices = NewVertices::none;  ///< whether vertices may be added where there are no positive cells
 };
 
-/// Flips leave the triangulation no longer Delaunay. They remove no constrained face and no edge that is to be kept.
-/// Exact, deterministic.
+/// Recovers edges and triangles by flips. Afterwards the triangulation is no longer Delaunay. Flips remove no
+/// constrained face and no edge that is to be kept. Exact, deterministic.
 class FlipRecovery {
  public:
     FlipRecovery(Triangulation& triangulation, const IsKept& is_kept)
         : t_(triangulation), is_kept_(is_kept), removal_(triangulation, is_kept) {}
 
-    /// Makes an edge. False if it is still not there. A face that it crosses is flipped; one that cannot be, as one of
-    /// its edges is reflex, goes with that edge (si2015).
+    /// Makes an edge. Returns false if it is still not there. A face that the edge crosses is flipped; one that cannot
+    /// be, because one of its edges is reflex, goes with that edge (Si 2015, si2015).
     bool recover_edge(std::int32_t a, std::int32_t b, const FlipLimits& limits);
-    /// Makes a triangle whose edges are there by removing those that go through it. False if it is still not there.
+    /// Makes a triangle whose edges are there, by removing edges that go through it. Returns false if it is still not
+    /// there.
     bool recover_face(const Triangle& triangle, const FlipLimits& limits);
     /// Inserts a vertex near p, behind a triangle: it takes away long cells that are in the way, not many more than
-    /// `most_removed`. False if none of a few places is free.
+    /// `most_removed`. Returns false if none of a few places is free.
     bool insert_behind(const Triangle& triangle, const Vec3& p, std::size_t most_removed);
 
  private:

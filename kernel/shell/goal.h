@@ -1,4 +1,4 @@
-// What flips are for.
+// The goal of flips.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,21 @@
 
 namespace kerf {
 
-/// An edge or a triangle that a triangulation is to get: nothing that is made on the way may cross it.
+/// An edge or a triangle that a triangulation is to get: no face or edge that is made on the way may cross it.
 class Goal {
  public:
-    /// Nothing is to be made.
+    /// Makes an empty goal, which allows everything.
     Goal() = default;
     static Goal edge(std::int32_t a, std::int32_t b) { return {{a, b, Triangulation::none}, 2}; }
     static Goal triangle(const Triangle& corners) { return {corners, 3}; }
 
     bool is_edge() const { return count_ == 2; }
-    /// Two corners of an edge, three of a triangle.
+    /// Returns the corners: two of an edge, three of a triangle.
     std::span<const std::int32_t> corners() const { return {corners_.data(), count_}; }
 
-    /// Whether a face may be made: it does not cross the edge. Faces with the ghost may be. Exact.
+    /// Returns whether a face may be made: it must not cross the edge. Faces with the ghost may be. Exact.
     bool allows_face(const Triangulation& triangulation, const Triangle& face) const;
-    /// Whether an edge may be made: it does not cross the triangle. Edges to the ghost may be. Exact.
+    /// Returns whether an edge may be made: it must not cross the triangle. Edges to the ghost may be. Exact.
     bool allows_edge(const Triangulation& triangulation, std::int32_t p, std::int32_t q) const;
 
  private:

@@ -10,30 +10,30 @@
 
 namespace kerf {
 
-/// Triangles by numbers, which never change: those that are missing, those that are faces now, and those that others
-/// stand for.
+/// Triangles by numbers, which never change: those that are missing, those that are faces now, and those for which
+/// others stand.
 class MissingTriangles {
  public:
-    /// A triangle that is missing, a part of the given triangle `origin`.
+    /// Adds a triangle that is missing, a part of the given triangle `origin`.
     void add(const Triangle& triangle, std::int32_t origin);
-    /// The triangle is a face now.
+    /// Notes that the triangle is a face now.
     void set_made(std::int32_t number);
-    /// Others, which are missing, stand for the triangle.
+    /// Replaces a missing triangle by others, which are missing then.
     void replace(std::int32_t number, std::span<const Triangle> by);
 
-    /// How many there are, whatever became of them.
+    /// Returns the number of triangles that were ever added.
     std::int32_t count() const { return static_cast<std::int32_t>(triangles_.size()); }
     std::int64_t missing_count() const { return missing_count_; }
     bool is_missing(std::int32_t number) const { return state_[number] == State::missing; }
     bool is_made(std::int32_t number) const { return state_[number] == State::made; }
     const Triangle& triangle(std::int32_t number) const { return triangles_[number]; }
     std::int32_t origin(std::int32_t number) const { return origin_[number]; }
-    /// The origins of missing ones, ascending, each once.
+    /// Returns the origins of missing triangles, ascending, each once.
     std::vector<std::int32_t> missing_origins() const;
 
-    /// The numbers of the missing ones with this edge, in either direction; ascending.
+    /// Returns the numbers of the missing triangles with this edge, in either direction; ascending.
     std::vector<std::int32_t> at_edge(std::int32_t a, std::int32_t b) const;
-    /// Whether a missing one has this edge, so that it should stay where it is there.
+    /// Returns whether a missing triangle has this edge, so that the edge must stay where it is there.
     bool has_edge(std::int32_t a, std::int32_t b) const { return at_edge_.contains(undirected(a, b)); }
 
  private:

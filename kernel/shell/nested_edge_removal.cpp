@@ -1,3 +1,10 @@
+// The ring of an edge is its cells in order, and spoke k of it leads to the ring's vertex k (Si 2015, si2015, for the
+// recursion). Removing an edge with a ring of n cells needs a triangulation of the ring's polygon; where there is none
+// with positive cells, a flip of a face at the edge takes a vertex out of the ring. A face cannot be flipped where an
+// edge from its spoke's vertex to an end of the edge is reflex; then that edge is removed by the same method, one level
+// deeper. `above_` is the stack of edges for which this is done. The cells around them must stay as they are, so that a
+// ring which shares more than two cells with theirs, or a face next to them, is not touched. After a removal cells may
+// have other numbers: a ring is found again by a cell with its edge (cell_with()).
 #include "shell/nested_edge_removal.h"
 
 #include <algorithm>
@@ -33,7 +40,7 @@ bool NestedEdgeRemoval::remove(std::int32_t cell, std::int32_t a, std::int32_t b
     return remove(cell, undirected(a, b), {});
 }
 
-// `kept`: two vertices of the ring whose edge must be there afterwards.
+// Removes an edge. `kept`: two vertices of the ring whose edge must be there afterwards, or none.
 bool NestedEdgeRemoval::remove(std::int32_t cell, const UndirectedEdge& edge, std::span<const std::int32_t> kept) {
     if (is_kept_(edge[0], edge[1])) return false;
     EdgeRing ring = ring_around(t_, cell, edge[0], edge[1]);
@@ -48,7 +55,8 @@ bool NestedEdgeRemoval::remove(std::int32_t cell, const UndirectedEdge& edge, st
     return false;
 }
 
-// For an edge that is removed for itself, what is to be made is made of its ring if that has all corners of it.
+// Removes the edge with all cells of its ring. At the top level, the goal is made of the ring if that has all of its
+// corners.
 bool NestedEdgeRemoval::remove_at_once(const EdgeRing& ring, std::span<const std::int32_t> kept) {
     const Goal& goal = limits_.goal;
     const NewVertices new_vertices = limits_.new_vertices;
@@ -71,7 +79,8 @@ bool NestedEdgeRemoval::is_at_ring_above(const EdgeRing& ring, std::size_t k) co
     });
 }
 
-// But for the two cells at the face between an edge and the one for which it is removed.
+// Whether a ring has cells of rings above, beside the two cells at the face between an edge and the one for which it is
+// removed.
 bool NestedEdgeRemoval::overlaps_rings_above(const EdgeRing& ring) const {
     int common = 0;
     for (const std::int32_t cell : ring.cells)
@@ -79,7 +88,7 @@ bool NestedEdgeRemoval::overlaps_rings_above(const EdgeRing& ring) const {
     return common > 2;
 }
 
-// False if none of the faces at the edge can be flipped.
+// Flips a face at the edge; false if none can be flipped.
 bool NestedEdgeRemoval::flip_face(const EdgeRing& ring) {
     const auto& p = t_.points();
     for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -94,7 +103,8 @@ bool NestedEdgeRemoval::flip_face(const EdgeRing& ring) {
     return false;
 }
 
-// False if there is none that could be removed. The ring is as before then, though its cells may have other numbers.
+// Removes a reflex edge of the ring; false if none could be removed. The ring is as before then, though its cells may
+// have other numbers.
 bool NestedEdgeRemoval::remove_reflex_edge(EdgeRing& ring) {
     if (static_cast<int>(above_.size()) >= limits_.depth) return false;
     const UndirectedEdge edge = undirected(ring.a, ring.b);
@@ -115,8 +125,8 @@ bool NestedEdgeRemoval::remove_reflex_edge(EdgeRing& ring) {
     return false;
 }
 
-// The end of a ring's edge from where the edge to vertex k of the ring is reflex; none if neither is, or the cells
-// there must stay.
+// Returns the end of a ring's edge from which the edge to vertex k of the ring is reflex; none if there is none, or if
+// the cells there must stay.
 std::int32_t NestedEdgeRemoval::reflex_end(const EdgeRing& ring, std::size_t k) const {
     const Spoke at = spoke(ring, k);
     if (at.has_ghost() || is_at_ring_above(ring, k)) return Triangulation::none;
@@ -126,7 +136,7 @@ std::int32_t NestedEdgeRemoval::reflex_end(const EdgeRing& ring, std::size_t k) 
     return Triangulation::none;
 }
 
-// One of the cells around an edge, most often one of those that were; none if it is gone.
+// Returns one of the cells around an edge, most often one of those that it had; none if the edge is gone.
 std::int32_t NestedEdgeRemoval::cell_with(const UndirectedEdge& edge, const EdgeRing& before) {
     for (const std::int32_t cell : before.cells)
         if (cell < t_.cell_count() && has_edge(t_.vertices(cell), edge)) return cell;

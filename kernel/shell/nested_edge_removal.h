@@ -1,4 +1,4 @@
-// An edge of a triangulation is removed by flips, of which others around it make way for the last one.
+// Removal of an edge of a triangulation by flips, for which others around it may be removed first.
 #pragma once
 
 #include <span>
@@ -11,33 +11,33 @@
 
 namespace kerf {
 
-/// Flips leave the triangulation no longer Delaunay. They remove no constrained face and no edge that is to be kept.
-/// Exact, deterministic.
+/// Removes edges by flips. Afterwards the triangulation is no longer Delaunay. Flips remove no constrained face and no
+/// edge that is to be kept. Exact, deterministic.
 class NestedEdgeRemoval {
  public:
-    /// How far to go, and for what.
+    /// The limits of removals, and their goal.
     struct Limits {
         Goal goal;
-        int depth = 0;  ///< how deep edges are removed to remove others
-        int rings = 0;  ///< how many rings may be looked at until the next begin()
+        int depth = 0;  ///< depth to which edges are removed to remove others
+        int rings = 0;  ///< number of rings that may be looked at until the next begin()
         NewVertices new_vertices = NewVertices::none;
     };
 
     NestedEdgeRemoval(Triangulation& triangulation, IsKept is_kept) : t_(triangulation), is_kept_(std::move(is_kept)) {}
 
-    /// What holds for the removals from now on.
+    /// Sets the limits of all removals until the next call.
     void begin(const Limits& limits) { limits_ = limits; }
-    /// None is left of those of the limits.
+    /// Returns whether Limits::rings is used up.
     bool is_exhausted() const { return limits_.rings <= 0; }
 
-    /// Removes an edge of a cell: all cells of its ring at once if that is possible (see remove_ring_edge); else its
-    /// ring is made smaller until it is. What makes it smaller is a flip of one of the faces at the edge, or where
-    /// edges of the ring are reflex, so that none of them can be flipped, the removal of one that leads from there to
-    /// an end of the edge, by the same means (si2015). Such removals leave the cells of the edges for which they
-    /// are done as they are. False if the edge is still there. Even then its ring may be smaller than before, see
-    /// has_changed().
+    /// Removes an edge of a cell: all cells of its ring at once if that is possible (see remove_ring_edge()); else its
+    /// ring is made smaller until it is. A ring gets smaller by a flip of one of the faces at the edge; or, where edges
+    /// of the ring are reflex, so that none of them can be flipped, by the removal of an edge that leads from there to
+    /// an end of the edge, by the same means (Si 2015, si2015). Such removals leave the cells of the edges for which
+    /// they are done as they are. Returns false if the edge is still there. Even then its ring may be smaller than
+    /// before, see has_changed().
     bool remove(std::int32_t cell, std::int32_t a, std::int32_t b);
-    /// Whether anything has changed in the last removal.
+    /// Returns whether the last removal has changed any cell.
     bool has_changed() const { return has_changed_; }
 
  private:
@@ -53,7 +53,7 @@ class NestedEdgeRemoval {
     Triangulation& t_;
     IsKept is_kept_;
     Limits limits_;
-    std::vector<UndirectedEdge> above_;  // those for which the others are removed
+    std::vector<UndirectedEdge> above_;  // edges for which others are removed, the outermost first
     std::vector<std::int32_t> star_;
     bool has_changed_ = false;
 };

@@ -1,3 +1,10 @@
+// Delaunay refinement (Ruppert 1995, ruppert1995; Shewchuk 1998, shewchuk1998) in a body whose boundary must not be
+// split. A cell is to be divided if it is too large or too slender; the one with the largest sphere comes first, and a
+// point goes to its circumcentre. Faces that stay cannot give way, so a point is refused instead: inside of the
+// smallest sphere around a constrained face that it sees, too near to a vertex, or if it made a cell that is bad and
+// worse than all that it replaces. Least lengths of new edges are why this ends. Where flips have left cells that are
+// not Delaunay, a point may not remove all in whose spheres it lies; flips follow (delaunay/delaunay_flips.h). A cell
+// in the list is stale if its vertices are others by now.
 #include "shell/refinement.h"
 
 #include <algorithm>
@@ -13,21 +20,21 @@ namespace kerf {
 
 namespace {
 
-// No cell is made with a dihedral angle that is smaller, or lacks less to 180 degrees: next to faces that stay it is
-// hard to mend.
+// Least angles of new cells, also to 180 degrees; larger at faces that stay, where a bad cell is hard to mend.
 constexpr double least_angle_at_face_deg = 12, least_angle_deg = 5;
-// Of an edge to a new point, by the wanted length. A bound of the volume is to be kept on coarse facets, too.
+// Least length of an edge to a new point, as a share of the wanted one. A bound of the volume is to be kept on coarse
+// facets, too.
 constexpr double least_edge_share = 0.65, least_edge_share_of_bound = 0.4;
-// Of a cell's circumradius: of an edge to the point for it.
+// Least length of an edge to the point for a cell, as a share of the cell's circumradius.
 constexpr double least_radius_share = 0.5;
 
 struct BadCell {
     std::int32_t cell;
-    Tetrahedron vertices;  // when it was found
+    Tetrahedron vertices;  // vertices of the cell when it was found
 };
 
-// Those with the largest spheres come first: where there is much room, points do no harm. Radii count in steps of a
-// fifth, and within a step the last one that was found comes first, which lies where the caches are.
+// Bad cells, those with the largest spheres first: where there is much room, points do no harm. Radii count in steps of
+// a fifth, and within a step the cell that was found last comes first, because it is in the cache.
 class CellsByRadius {
  public:
     void add(double radius_sq, const BadCell& bad) {
@@ -47,7 +54,7 @@ class CellsByRadius {
  private:
     static constexpr std::size_t count = 4096;
 
-    // Two to a factor of two.
+    // Returns the step of a radius: two steps to a factor of two in its square.
     static std::size_t step_of(double radius_sq) {
         int exponent = 0;
         const double mantissa = std::frexp(radius_sq, &exponent);
@@ -95,7 +102,7 @@ class Refinement {
         return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
     }
 
-    // The square of the circumradius of a cell that is to be divided; 0 of another one.
+    // Returns the square of the circumradius of a cell that is to be divided; 0 for any other.
     double radius_sq_to_divide(const CellGeometry& cell, const Vec3& a, const Vec3& b, const Vec3& c,
                                const Vec3& d) const {
         const double scaled = cell.scaled_circumradius_sq(), scale = 4 * cell.six_volumes() * cell.six_volumes();
@@ -114,16 +121,16 @@ class Refinement {
                          (x - u).squaredNorm(), (x - w).squaredNorm()});
     }
 
-    // From corner 0.
+    // Returns the circumcentre, counted from corner 0.
     static Vec3 circumcentre_from_first(const Corners& corners) {
         const Vec3 &a = corners[0], u = corners[1] - a, w = corners[2] - a, x = corners[3] - a;
         const Vec3 sum = u.squaredNorm() * w.cross(x) + w.squaredNorm() * x.cross(u) + x.squaredNorm() * u.cross(w);
         return sum / (2 * u.cross(w).dot(x));
     }
 
-    // A large cell gets no edge that is much shorter than wanted, a slender one none that is shorter than its own: so
-    // this ends. Nor one that is much shorter than its radius: where cells are Delaunay there is none, but where flips
-    // have left others, a few short edges would fill the body with their like.
+    // Inserts a point for a cell. A large cell gets no edge that is much shorter than wanted, a slender one none that
+    // is shorter than its own: so this ends. Neither gets one that is much shorter than its radius: where cells are
+    // Delaunay there is none, but where flips have left others, a few short edges would fill the body with their like.
     bool insert_for(std::int32_t cell) {
         const Corners corners = corners_of(cell);
         const Vec3 from_first = circumcentre_from_first(corners), circumcentre = corners[0] + from_first;
@@ -139,7 +146,7 @@ class Refinement {
                                  insert(centroid, least_edge_sq, cell, false));
     }
 
-    // Whether the smallest sphere around a face contains it.
+    // Whether the smallest sphere around a face contains the point.
     bool is_near_face(const Vec3& p, const Triangle& face) const {
         const Vec3 &a = point(face[0]), u = point(face[1]) - a, v = point(face[2]) - a;
         const Vec3 normal = u.cross(v);
@@ -148,8 +155,8 @@ class Refinement {
         return (p - a - centre).squaredNorm() < centre.squaredNorm();
     }
 
-    // To a vertex of the cell in which it lies. is_good() would say so, too, but where cells are not Delaunay, most
-    // points are, and very many cells may be in their way.
+    // Whether the point is too near to a vertex of the cell in which it lies. is_good() would say so, too; but where
+    // cells are not Delaunay, most points are too near, and very many cells may be in their way.
     bool is_too_near(const Vec3& p, double least_edge_sq, std::int32_t cell) const {
         const Corners corners = corners_of(cell);
         return std::any_of(corners.begin(), corners.end(),
@@ -163,7 +170,7 @@ class Refinement {
         InsertionConditions conditions = {.accepts = [&](const Star& star) { return is_good(p, least_edge_sq, star); }};
         if (keeps_off_faces) conditions.is_kept_off_by = [&](const Triangle& face) { return is_near_face(p, face); };
         const std::int32_t vertex = t_.insert_if(p, at, conditions);
-        if (vertex < before) return false;  // or Triangulation::none
+        if (vertex < before) return false;  // refused, or there was a vertex already
         for (std::size_t k = made_radius_sq_.size(); k-- > 0;) {
             const std::int32_t made = t_.made_cells()[k];
             if (made_radius_sq_[k] > 0) bad_.add(made_radius_sq_[k], {made, t_.vertices(made)});
@@ -172,11 +179,11 @@ class Refinement {
         return true;
     }
 
-    // Whether no new cell is bad, or worse than all that it replaces. One that will be divided anyway may be, but not
-    // next to a face that stays. Says in made_radius_sq_ which ones are to be divided.
+    // Whether no new cell is both bad and worse than all that it replaces. A cell that will be divided anyway may be
+    // so, but not next to a face that stays. Fills made_radius_sq_.
     bool is_good(const Vec3& p, double least_edge_sq, const Star& star) {
         made_radius_sq_.clear();
-        double allowed = -infinity;  // of those removed, if it was asked for
+        double allowed = -infinity;  // worst badness of the cells removed; negative: not computed yet
         return std::all_of(star.faces.begin(), star.faces.end(), [&](const Star::Face& face) {
             const Vec3 &a = point(face.vertices[0]), &b = point(face.vertices[1]), &c = point(face.vertices[2]);
             if (std::min({(a - p).squaredNorm(), (b - p).squaredNorm(), (c - p).squaredNorm()}) < least_edge_sq)
@@ -204,7 +211,7 @@ class Refinement {
     const SizeField& size_;
     double most_ratio_sq_, most_at_face_, most_;
     CellsByRadius bad_;
-    std::vector<double> made_radius_sq_;  // of the cells of a star, in its order: see radius_sq_to_divide()
+    std::vector<double> made_radius_sq_;  // results of radius_sq_to_divide() for the cells of a star, in its order
 };
 
 }  // namespace

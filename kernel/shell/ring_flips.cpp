@@ -1,5 +1,10 @@
-// Polygons of a ring's vertices are divided into triangles, each of which makes two cells, one with either end of the
-// edge (klincsek1980).
+// The cells of a ring are replaced by triangles of the polygon of its vertices, each of which makes two cells, one with
+// either end of the edge (Klincsek 1980, klincsek1980, for the best triangulation). `kept` vertices divide the polygon
+// into one on each side of the edge between them, or three around a triangle. Only signs of exact orientations decide
+// whether cells are positive; their badness decides which are best, and is finite for positive cells that are flat in
+// doubles. The ghost may be a vertex of the ring: cells with it lie outside, and the ring's edge must lie in the plane
+// of the two other vertices. Where a polygon has no positive cells, a new vertex next to its closing edge may see all
+// of its outer faces.
 #include "shell/ring_flips.h"
 
 #include <algorithm>
@@ -15,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_cells_of_a_ring = 40;
 constexpr double least_share_of_star = 1e-4;
-// So that the new vertex does not lie in the plane of the polygon, where other triangles may be wanted.
+// A share that keeps the new vertex out of the plane of the polygon, where other triangles may be wanted.
 constexpr double share_towards_end = 0.2;
 constexpr double impossible = std::numeric_limits<double>::infinity();
 
@@ -36,7 +41,7 @@ double badness_of(const Triangulation& t, const Tetrahedron& v) {
     return badness_of(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
 }
 
-// Of the cells between a point, the polygon of a ring's vertices, and the ring's two ends.
+// Returns the worst badness of the cells between a point, the polygon of a ring's vertices, and the ring's two ends.
 double badness_of_star(const Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                        const Vec3& centre) {
     const auto& points = t.points();
@@ -48,15 +53,15 @@ double badness_of_star(const Triangulation& t, const EdgeRing& ring, const std::
     return worst;
 }
 
-// The point of the line through a and b that is nearest to the one through c and d; the middle of a and b if that lies
-// beyond one of them.
+// Returns the point of the line through a and b that is nearest to the one through c and d; the middle of a and b if
+// that lies beyond one of them.
 Vec3 nearest_to_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 u = b - a, v = d - c, normal = u.cross(v);
     const double share = (c - a).cross(v).dot(normal) / normal.squaredNorm();
     return share > 0 && share < 1 ? Vec3(a + share * u) : Vec3((a + b) / 2);
 }
 
-// The ghost, if it is a corner, moves to the last place.
+// Returns the cell with the ghost, if it is a corner, in the last place.
 Tetrahedron with_ghost_last(Tetrahedron v) {
     const auto i = std::find(v.begin(), v.end(), Triangulation::ghost) - v.begin();
     if (i >= 3) return v;
@@ -65,8 +70,8 @@ Tetrahedron with_ghost_last(Tetrahedron v) {
     return v;
 }
 
-// Of the two cells of a triangle in the ring. With the ghost they lie outside, and the edge in the plane of the other
-// two.
+// Returns the worse badness of the two cells of a triangle in the ring. With the ghost they lie outside, and the edge
+// must lie in the plane of the other two vertices.
 double badness_of_pair(const Triangulation& t, const EdgeRing& ring, std::int32_t p, std::int32_t q, std::int32_t r) {
     const Tetrahedron below = {ring.a, p, q, r}, above = {p, q, r, ring.b};
     if (std::min({p, q, r}) >= 0) return std::max(badness_of(t, below), badness_of(t, above));
@@ -74,8 +79,8 @@ double badness_of_pair(const Triangulation& t, const EdgeRing& ring, std::int32_
     return orientation_of(t, {ring.a, ring.b, u, v}) == 0 ? 0 : impossible;
 }
 
-// Whether what the two cells of a triangle p, q, r in the ring have that others have not may be made; its edge from p
-// to r is new, too, if `has_diagonal`.
+// Whether the goal allows the faces and edges that come with the two cells of a triangle p, q, r in the ring; the edge
+// from p to r is new, too, if `has_diagonal`.
 bool allows_pair(const Triangulation& t, const EdgeRing& ring, const Triangle& triangle, bool has_diagonal,
                  const Goal& goal) {
     const auto& [p, q, r] = triangle;

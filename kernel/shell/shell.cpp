@@ -1,5 +1,8 @@
-// All points are triangulated at once; facets of surface and core that are missing are recovered; what lies between
-// them is refined and cut out.
+// All points of surface and core are triangulated at once, together with free points of the core's lattice, so that
+// nearly all facets are faces. Facets that are missing are recovered; vertices that this took are merged away or moved,
+// and flips make the cells Delaunay again as far as they can. Only then the space is refined, and where sizes differ,
+// points that came too close are merged. The faces of the core are turned round, so that they and the facets enclose
+// the shell alone; everything else, ghosts included, is cut out before points are added.
 #include "shell/shell.h"
 
 #include <fmt/format.h>
@@ -43,7 +46,7 @@ Triangulation triangulate(std::vector<Vec3> points) {
     return std::move(result.triangulation);
 }
 
-// Only what lies between surface and core is left.
+// Removes all cells but those between surface and core, and adds the caps.
 void cut_out(Triangulation& triangulation, const RecoveredFaces& boundary) {
     const auto behind = cells_behind(triangulation, boundary.faces);
     if (!behind) throw Error(ErrorCode::subdomain, "The facets do not enclose a body.");
@@ -51,7 +54,7 @@ void cut_out(Triangulation& triangulation, const RecoveredFaces& boundary) {
     if (!boundary.caps.empty()) triangulation.add_cells(boundary.caps);
 }
 
-// Throws where the surface meets itself, or nearly so, that no double lies between.
+// Recovers all triangles. Throws where the surface meets itself, or so nearly that no double lies between.
 RecoveredFaces recover(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
     RecoveredFaces found = recover_faces(triangulation, triangles);
     if (!found.lost.empty())
@@ -60,7 +63,7 @@ RecoveredFaces recover(Triangulation& triangulation, const std::vector<Triangle>
     return found;
 }
 
-// Merging has taken some away.
+// Drops vertices that merging has left without cells.
 void drop_unused_vertices(TetMesh& mesh) {
     std::vector<std::int32_t> number(mesh.vertices.size(), -1);
     for (const Tetrahedron& tet : mesh.tets)

@@ -10,7 +10,7 @@
 
 namespace kerf {
 
-/// What is filled already: its boundary, and points around it that belong to the shell.
+/// The part of the body that is filled already: its boundary, and points around it that belong to the shell.
 struct ShellCore {
     std::vector<Vec3> points;
     std::vector<Triangle> faces;  ///< over `points`, counter-clockwise seen from the shell
@@ -18,14 +18,15 @@ struct ShellCore {
 };
 
 struct FilledShell {
-    TetMesh mesh;  ///< vertices: of the surface, of the core, others; the first two are its boundary. With neighbours.
+    TetMesh mesh;  ///< mesh with neighbours; its vertices are those of the surface, of the core, and others; the first
+                   ///< two are its boundary
     FacetRecovery recovery;
     std::int64_t refining_points = 0;
 };
 
-/// Delaunay tetrahedra between the surface, which must be well-formed and closed, and the core, with points added for
-/// the bounds. Every facet of either is kept, and none is added. Throws Error(subdomain) where facets are missing and
-/// cannot be recovered. Deterministic. 3 us a point, 10 us a point that is added.
+/// Fills the space between the surface, which must be well-formed and closed, and the core with Delaunay tetrahedra,
+/// with points added for the bounds. Every facet of either is kept, and none is added. Throws Error(subdomain) where
+/// facets are missing and cannot be recovered. Deterministic. 3 us a point, 10 us a point that is added.
 FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const RefinementBounds& bounds);
 
 }  // namespace kerf

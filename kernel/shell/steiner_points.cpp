@@ -12,15 +12,15 @@ namespace kerf {
 namespace {
 
 constexpr int most_visits = 3;
-constexpr double least_step = 1e-3;     // of the way to the middle of the neighbours
-constexpr double good_enough_deg = 10;  // to do without a vertex
+constexpr double least_step = 1e-3;     // share of the way to the middle of the neighbours
+constexpr double good_enough_deg = 10;  // cells this good may always replace a vertex
 
 struct Place {
     Vec3 at;
     double badness;
 };
 
-// Towards the middle of its neighbours, as far as that makes the worst of its cells best.
+// Returns the place towards the middle of a vertex's neighbours that makes the worst of its cells best.
 Place best_place(const VertexStar& star, const std::vector<Vec3>& points) {
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t u : star.neighbours()) middle += points[u];
@@ -36,7 +36,7 @@ Place best_place(const VertexStar& star, const std::vector<Vec3>& points) {
     return best;
 }
 
-// Whether the vertex is gone.
+// Merges or moves a vertex; true if it is gone.
 bool settle(EditableTets& tets, std::int32_t v) {
     VertexStar star(tets, v);
     const Place place = best_place(star, tets.points());

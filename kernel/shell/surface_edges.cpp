@@ -4,7 +4,7 @@
 
 namespace kerf {
 
-// Of a closed surface, each edge is taken in the direction in which it ascends; that is once.
+// Each edge is taken in the direction in which it ascends; on a closed surface that is once.
 SurfaceEdges::SurfaceEdges(const std::vector<Triangle>& triangles, std::size_t vertices) : start_(vertices + 1) {
     const auto for_each_ascending = [&](const auto& visit) {
         for (const Triangle& t : triangles)

@@ -1,4 +1,4 @@
-// Which pairs of vertices are edges of a surface.
+// The pairs of vertices that are edges of a surface.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ class SurfaceEdges {
     SurfaceEdges() = default;
     SurfaceEdges(const std::vector<Triangle>& triangles, std::size_t vertices);
 
-    /// Whether it is one of them, in either direction. Linear in the number of edges to greater vertices at the
-    /// smaller.
+    /// Returns whether the surface has an edge, in either direction. Linear in the number of edges from its smaller
+    /// vertex to greater ones.
     bool contains(std::int32_t a, std::int32_t b) const {
         if (a > b) std::swap(a, b);
         if (a < 0 || static_cast<std::size_t>(a) + 1 >= start_.size()) return false;
@@ -25,7 +25,8 @@ class SurfaceEdges {
     }
 
  private:
-    std::vector<std::int32_t> start_, other_;  // by smaller vertices: the greater ones
+    // For each vertex, the greater ends of its edges.
+    std::vector<std::int32_t> start_, other_;
 };
 
 }  // namespace kerf

@@ -10,7 +10,7 @@ namespace kerf {
 namespace {
 
 constexpr double least_merged_angle_deg = 12;
-constexpr double least_kept_edge_share = 0.7;  // of the wanted length
+constexpr double least_kept_edge_share = 0.7;  // share of the wanted length
 
 void merge_if_close(EditableTets& tets, std::int32_t v, const SizeField& size) {
     VertexStar star(tets, v);

@@ -1,4 +1,4 @@
-// Fewer points where cells are smaller than wanted.
+// Removal of points where cells are smaller than wanted.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace kerf {
 
 /// Merges vertices from number `first` on, none of which lies on the boundary, with a neighbour if an edge of theirs is
 /// shorter than 0.7 times the wanted length, and no cell gets too large (is_too_large()) or worse than the worst of
-/// those that it replaces, or than 12 degrees. Slender cells bring such vertices. They are left without cells.
-/// Deterministic.
+/// those that it replaces, or than 12 degrees. Refinement of slender cells brings such vertices. Those that are merged
+/// are left without cells. Deterministic.
 void merge_close_vertices(EditableTets& tets, std::int32_t first, const SizeField& size);
 
 }  // namespace kerf
