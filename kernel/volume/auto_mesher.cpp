@@ -1,4 +1,4 @@
-// Which mesher a part gets if its user has not said: the lattice, which asks TetGen where it fails itself, but TetGen
+// The mesher of a part if the user has not named one: the lattice, which asks TetGen where it fails itself, but TetGen
 // if there are switches for it.
 #include "volume/meshers.h"
 
@@ -28,7 +28,7 @@ Reproducer auto_reproducer(const SurfaceArrays& surface, const MesherOptions& op
 
 }  // namespace
 
-// TetGen with switches is not known in advance.
+// The forecast is that of the lattice, as nothing is known in advance of TetGen with switches.
 extern const Mesher auto_mesher = {.name = "auto",
                                    .forecast = lattice_forecast,
                                    .check = check_auto_options,

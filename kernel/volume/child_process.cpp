@@ -1,6 +1,6 @@
 // A child has three pipes (its standard streams) and a process descriptor that becomes readable when it ends.
-// wait_any() sleeps in poll() on all of these, moves what can be moved without blocking, and reaps. A child counts as
-// ended when its process has ended, not when its pipes close: it may close them early, or leave them to a process of
+// wait_any() sleeps in poll() on all of these, moves bytes as far as it can without blocking, and reaps. A child counts
+// as ended when its process has ended, not when its pipes close: it may close them early, or leave them to a process of
 // its own.
 #include "volume/child_process.h"
 
@@ -36,7 +36,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t log_bytes = 4096;
-// How often to look for the end of a child on a system that gives no process descriptors.
+// Time between looks for the end of a child on a system that gives no process descriptors.
 constexpr double fallback_seconds = 0.01;
 constexpr double forever = std::numeric_limits<double>::infinity();
 
@@ -103,7 +103,8 @@ class SigpipeGuard {
     bool was_pending_;
 };
 
-// What posix_spawn does in the child: streams from the pipes, no other file, all signals as at the start of a program.
+// The set-up of a child by posix_spawn: streams from the pipes, no other file, all signals as at the start of a
+// program.
 class SpawnSetup {
  public:
     SpawnSetup(const Pipe& input, const Pipe& output, const Pipe& log) {
@@ -147,7 +148,7 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
     return pid;
 }
 
-// Writes what the pipe takes of `bytes` behind the first `written`; closes it at the end or when nobody reads.
+// Writes as many of `bytes` behind the first `written` as the pipe takes; closes it at the end or when nobody reads.
 void feed(FileDescriptor& pipe, const Bytes& bytes, std::size_t& written) {
     const SigpipeGuard guard;
     while (written < bytes.size()) {
@@ -160,8 +161,8 @@ void feed(FileDescriptor& pipe, const Bytes& bytes, std::size_t& written) {
     pipe.close();
 }
 
-// Hands what the pipe holds to `take`; closes it at its end. One read of the pipe's capacity takes all that was there,
-// while reading until it is empty could follow a fast writer for ever.
+// Hands the bytes in the pipe to `take`; closes it at its end. One read of the pipe's capacity takes all that was
+// there, while reading until it is empty could follow a fast writer for ever.
 template <class Take>
 void drain(FileDescriptor& pipe, Take take) {
     if (!pipe.is_open()) return;

@@ -10,27 +10,30 @@
 
 namespace kerf {
 
-/// How a child process ended.
+/// The end of a child process, and its output.
 struct ChildResult {
     enum class End { exited, signalled, timed_out };
     End end = End::exited;
-    int exit_code = 0;                ///< if exited
-    int signal = 0;                   ///< if signalled
-    Bytes output;                     ///< all it wrote to its standard output
-    std::string log;                  ///< the last 4 KiB of its standard error
-    double seconds = 0;               ///< wall clock
-    double timeout_seconds = 0;       ///< the limit it was given, 0: none
-    std::int64_t peak_rss_bytes = 0;  ///< Linux counts from the start, so at least this process's own at that moment
+    int exit_code = 0;           ///< its exit code, if it exited
+    int signal = 0;              ///< the signal that killed it, if one did
+    Bytes output;                ///< all it wrote to its standard output
+    std::string log;             ///< the last 4 KiB of its standard error
+    double seconds = 0;          ///< wall clock
+    double timeout_seconds = 0;  ///< the limit it was given, 0: none
+    /// Peak of memory; Linux counts from the fork, so at least this process's own at that moment.
+    std::int64_t peak_rss_bytes = 0;
 
-    /// "ended with exit code 3", "was killed by signal 9 (Killed)", "ran longer than its 30 s and was stopped".
+    /// Returns a few words on the end: "ended with exit code 3", "was killed by signal 9 (Killed)", "ran longer than
+    /// its 30 s and was stopped".
     std::string describe() const;
 };
 
-/// Starts `program` with `arguments` by posix_spawn, feeds `input` to its standard input and collects its output.
+/// Runs child processes side by side: start() starts a program by posix_spawn, feeds `input` to its standard input and
+/// collects its output.
 ///
-/// Several children run at once; `wait_any` serves all their pipes until one ends, without busy waiting. A child that
-/// exceeds its time limit is killed. The destructor kills and reaps what still runs. A child inherits no other open
-/// file. Not thread-safe; one pool per thread.
+/// Several children run at once; wait_any() serves all their pipes until one ends, without busy waiting. A child that
+/// exceeds its time limit is killed. The destructor kills and reaps all children that still run. A child inherits no
+/// other open file. Not thread-safe; one pool per thread.
 class ChildPool {
  public:
     ChildPool();
@@ -38,8 +41,8 @@ class ChildPool {
     ChildPool& operator=(const ChildPool&) = delete;
     ~ChildPool();
 
-    /// `tag` comes back with the result. `timeout_seconds` 0: none. Throws Error(io) if the program cannot be started,
-    /// std::bad_alloc if there is no memory for it.
+    /// Starts `program` with `arguments`. `tag` comes back with the result. `timeout_seconds` 0: none. Throws Error(io)
+    /// if the program cannot be started, std::bad_alloc if there is no memory for it.
     void start(int tag, const std::string& program, const std::vector<std::string>& arguments, Bytes input,
                double timeout_seconds);
     std::size_t running() const;
@@ -50,8 +53,8 @@ class ChildPool {
         int tag;
         ChildResult result;
     };
-    /// Blocks until a child has ended, at most `wait_seconds` (negative: without end). Nothing if the time is over.
-    /// Requires running() > 0.
+    /// Blocks until a child has ended, at most `wait_seconds` (negative: without end), and returns its result; nothing
+    /// if the time is over. Requires running() > 0.
     std::optional<Finished> wait_any(double wait_seconds = -1);
 
  private:

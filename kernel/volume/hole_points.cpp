@@ -1,8 +1,8 @@
 // A candidate is the centroid of a facet of the void shell, moved a little along the normal, which points out of the
 // material and so into the void. It is proven by the shells around it, found by the parity of crossings of a ray with
 // each shell: they must be the shells around the void shell and the void shell itself, and outward and inward ones must
-// cancel. Where the body touches itself a shell is what bounds one room outside of it, because the meshers fill rooms
-// that are apart but for an edge or a vertex.
+// cancel. Where the body touches itself, a shell is the boundary of one room outside of it, because the meshers fill
+// rooms that meet only at an edge or a vertex.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -93,7 +93,8 @@ Vec3 centroid_of(const SurfaceArrays& surface, const Triangle& t) {
     return (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
 }
 
-// On no other shell: a vertex, or where all of them are touching ones the middle of a facet.
+// Returns a point of the shell that lies on no other one: a vertex, or, where all of them may be on others, the middle
+// of a facet.
 Vec3 point_of(const SurfaceArrays& surface, const NestedShells& nested, const Shell& shell) {
     for (const Triangle& t : shell.facets)
         for (const std::int32_t v : t)

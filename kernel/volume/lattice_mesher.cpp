@@ -1,6 +1,7 @@
-// The lattice as a row of the table: a core of lattice cells, which is stamped, and a shell between it and the surface.
-// Where sizes differ, or there is no room, the shell is all. Where facets cannot be recovered, TetGen fills the
-// surface.
+// The lattice as a row of the table: a core of lattice cells, which is stamped (lattice/lattice_core.h), and a shell
+// between it and the surface (shell/shell.h). Where sizes differ, or there is no room, the shell is all. Where facets
+// cannot be recovered, TetGen fills the surface, and the filling says so. The core's cells come first in the mesh, so
+// that they are counted by one number and stay frozen; the shell alone is improved, before both are joined.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +23,7 @@ namespace {
 // mostly without further points; with 0.7 as many as TetGen's come out for the same bound, with 0.6 it is fastest.
 constexpr double volume_share = 0.6;
 
-constexpr double lattice_angle_deg = 60;  // the smallest one of a cell of the core
+constexpr double lattice_angle_deg = 60;  // the smallest dihedral angle of a cell of the core
 
 double edge_for(double max_volume) { return cube_root(12 * volume_share * max_volume); }
 
@@ -39,9 +40,9 @@ void check_lattice_options(const MesherOptions& options) {
                                 options.tetgen.switches));
 }
 
-// A cell on a facet of area A that is not above the bound V is at most 3V/A high; over the radius of the circle in an
-// equilateral facet that is the tangent of its dihedral angle. Where most facets are so coarse that the angle must be
-// small, no time is spent on such cells.
+// Returns the threshold of improvement. A cell on a facet of area A that is not above the bound V is at most 3V/A high;
+// over the radius of the circle in an equilateral facet that is the tangent of its dihedral angle. Where most facets
+// are so coarse that the angle must be small, no time is spent on such cells.
 double angle_to_improve_deg(const SurfaceArrays& surface, const MesherOptions& options) {
     constexpr double least_deg = 10, share = 0.8, squared_radius_by_area = 0.19245;  // 1 / (3 sqrt 3)
     const double usual_deg = ImproveOptions().threshold_deg;
@@ -56,7 +57,7 @@ double angle_to_improve_deg(const SurfaceArrays& surface, const MesherOptions& o
     return std::clamp(share * possible_deg, least_deg, usual_deg);
 }
 
-// Improved before it is joined with the core, whose cells are as they should be.
+// Fills the shell and improves it. That is done before it is joined with the core, whose cells need no improvement.
 Filling fill_shell_alone(const SurfaceArrays& surface, ShellCore core, const MesherOptions& options) {
     FilledShell shell = fill_shell(surface, std::move(core), {options.size, options.radius_edge});
     Filling filling{std::move(shell.mesh), "shell alone"};
@@ -65,7 +66,8 @@ Filling fill_shell_alone(const SurfaceArrays& surface, ShellCore core, const Mes
     return filling;
 }
 
-// The core's cells first; vertices of the surface, of the core's boundary, others of the shell, others of the core.
+// Joins core and shell: the core's cells come first; vertices are those of the surface, of the core's boundary, others
+// of the shell, others of the core.
 TetMesh join(const SurfaceArrays& surface, const LatticeCore& core, TetMesh shell) {
     TetMesh mesh;
     mesh.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
@@ -104,7 +106,7 @@ Filling fill_with_lattice(const SurfaceArrays& surface, const MesherOptions& opt
     }
 }
 
-// TetGen, and what it has for failures but the lattice.
+// Returns the calls of this mesher: as asked for, then those of TetGen but the one that asks the lattice.
 std::vector<MesherCall> lattice_calls(const MesherOptions& wanted) {
     std::vector<MesherCall> calls = {{.fallback = "", .options = wanted}};
     for (MesherCall& call : find_mesher("tetgen").calls(for_tetgen(wanted))) {

@@ -25,9 +25,10 @@ bool has_cell_without_volume(const TetMesh& mesh) {
     });
 }
 
-// A cell that is not inverted may be so thin that it has no volume as doubles have it: behind two facets in one plane,
-// for instance, whose corners are rounded. Who computes with it divides by zero, so that others are put in its place,
-// also where cells stay as they are otherwise. Where nothing else helps, those around it change, too.
+// Replaces cells without volume. A cell that is not inverted may be so thin that it has no volume as doubles have it:
+// behind two facets in one plane, for instance, whose corners are rounded. Programs that compute with it divide by
+// zero, so others are put in its place, also where cells are not to be improved. Where nothing else helps, those around
+// it change, too.
 void replace_cells_without_volume(Filling& filling, const MesherOptions& options) {
     for (const double threshold_deg : {0.001, 1.0, ImproveOptions().threshold_deg}) {
         if (!has_cell_without_volume(filling.mesh)) return;

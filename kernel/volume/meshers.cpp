@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-// A line for each file of this folder that defines `const Mesher NAME_mesher`.
+// The table has a line for each file of this folder that defines `const Mesher NAME_mesher`.
 #define KERF_MESHERS(mesher) mesher(auto) mesher(lattice) mesher(tetgen)
 
 namespace kerf {

@@ -1,4 +1,4 @@
-// The meshers that there are: one file of this folder and one line in meshers.cpp each.
+// The table of meshers: one file of this folder and one line in meshers.cpp for each.
 #pragma once
 
 #include <array>
@@ -12,26 +12,27 @@
 
 namespace kerf {
 
-/// What a mesher makes of a body with F facets and volume V where tetrahedra of volume a are wanted, and what that
-/// takes: means over many bodies. V/a is the integral of dV/a where sizes differ.
+/// The known numbers of tetrahedra, time and memory of a mesher, for a body with F facets and volume V where tetrahedra
+/// of volume a are wanted: means over many bodies. Where sizes differ, V/a stands for the integral of dV/a.
 struct MesherForecast {
-    /// Tetrahedra for each facet, beside those of the volume, where the edge that is wanted there over that of the
-    /// facet is 1/4, 1/4 sqrt(2), 1/2, ... 8: coarse facets have a neighbourhood of small cells, fine ones one that
-    /// grows.
+    /// Tetrahedra for each facet, beside those of the volume. Entry i is for a ratio of 2^(i/2 - 2), from 1/4 to 8, of
+    /// the edge that is wanted there over that of the facet: coarse facets have a neighbourhood of small cells, fine
+    /// ones one in which cells grow.
     std::array<double, 11> tets_by_edge_ratio;
-    double tets_per_volume_bound;  ///< of a constant size, in V/a
-    double tets_per_sized_volume;  ///< the same where sizes differ
-    double most_tets_per_facet;    ///< where there must be room: four fifths of all bodies have less
-    double seconds_per_facet;      ///< of one worker, at the pace of a core of 2.5 GHz
-    double seconds_per_tet;        ///< beside them
-    double bytes_per_tet;          ///< resident, of its worker
+    double tets_per_volume_bound;  ///< tetrahedra of the volume for a constant size, in V/a
+    double tets_per_sized_volume;  ///< tetrahedra of the volume where sizes differ, in V/a
+    double most_tets_per_facet;    ///< for all that must have room: four fifths of all bodies have less
+    double seconds_per_facet;      ///< seconds of one worker, at the pace of a core of 2.5 GHz
+    double seconds_per_tet;        ///< seconds beside those of facets
+    double bytes_per_tet;          ///< resident memory of its worker
     double volume_weight;          ///< work = F + volume_weight V/a, in the units of LoadModel
-    double most_tets;              ///< that one call can count
+    double most_tets;              ///< most tetrahedra that one call can count
 };
 
-/// The mesher `lattice` has this one, and so has who asks it. Of 10 surfaces of well-shaped facets and 8 sizes between
-/// a quarter of their edges and eight of them, nearly all meshes have 0.9 to 1.1 times as many tetrahedra; with no
-/// size, surfaces of any shape have 1.2 to 6.6 for each facet. Where sizes differ there are 0.7 to 1.15 times as many.
+/// The forecast of the mesher `lattice`, and of those that ask it. Of 10 surfaces of well-shaped facets and 8 sizes
+/// between a quarter of their edges and eight of them, nearly all meshes have 0.9 to 1.1 times as many tetrahedra; with
+/// no size, surfaces of any shape have 1.2 to 6.6 for each facet. Where sizes differ there are 0.7 to 1.15 times as
+/// many.
 inline constexpr MesherForecast lattice_forecast = {
     .tets_by_edge_ratio = {31, 11, 1.6, 0.9, 0.48, 0.43, 1, 1.6, 2.05, 2.2, 2.3},
     .tets_per_volume_bound = 1.667,
@@ -43,43 +44,44 @@ inline constexpr MesherForecast lattice_forecast = {
     .volume_weight = 0.1,
     .most_tets = (std::int64_t{1} << 31) - 2};
 
-/// What repeats a failed call without Kerf.
+/// A file and a command that repeat a failed call without Kerf.
 struct Reproducer {
-    std::string ending;   ///< of the file beside the text that tells of the failure, with its dot
-    std::string bytes;    ///< of that file
-    std::string command;  ///< to be run in its folder
-    std::string note;     ///< what the command leaves out: whole lines, or nothing
+    std::string ending;   ///< ending of the file beside the text that tells of the failure, with its dot
+    std::string bytes;    ///< content of that file
+    std::string command;  ///< command to be run in its folder
+    std::string note;     ///< whole lines on options that the command leaves out; empty if there are none
 };
 
-/// One way to fill surfaces. No function is null. None checks what check_mesher_options() and mesh_volume() do.
+/// One way to fill surfaces. No function is null. None of them repeats the checks of check_mesher_options() and
+/// mesh_volume().
 struct Mesher {
-    const char* name;  ///< of --mesher
+    const char* name;  ///< value of --mesher
     MesherForecast forecast;
 
-    /// Throws Error(usage), naming the option, for what this mesher does not take.
+    /// Throws Error(usage), naming the option, for options that this mesher does not take.
     void (*check)(const MesherOptions& options);
-    /// See mesh_volume().
+    /// Fills a surface, see mesh_volume().
     Filling (*fill)(const SurfaceArrays& surface, const MesherOptions& options);
-    /// See mesher_calls(). The calls may name another mesher.
+    /// Returns the calls for mesher_calls(). They may name another mesher.
     std::vector<MesherCall> (*calls)(const MesherOptions& wanted);
-    /// The files are called `stem` and their endings.
+    /// Makes the reproducer of a failed call. Its files are called `stem` and their endings.
     Reproducer (*reproducer)(const SurfaceArrays& surface, const MesherOptions& options, const std::string& stem);
 };
 
-/// All of them, in the order of the help; the first one is the default.
+/// Returns all meshers, in the order of the help; the first one is the default.
 std::span<const Mesher* const> meshers();
-/// The names of all meshers, in the order of the table.
+/// Returns the names of all meshers, in the order of the table.
 std::vector<std::string> mesher_names();
-/// Finds one by its name. Throws Error(usage) with the names that there are.
+/// Returns the mesher with a name. Throws Error(usage) with all names if there is none.
 const Mesher& find_mesher(std::string_view name);
 
-/// Improves the cells of a filling with dihedral angles below the threshold, if that is wanted, and says so in it: a
-/// mesher's last step.
+/// Improves the cells of a filling with dihedral angles below the threshold, if that is wanted, and counts that in it:
+/// a mesher's last step.
 void improve_filling(Filling& filling, const MesherOptions& options,
                      double threshold_deg = ImproveOptions().threshold_deg);
 
-/// A closed surface with its hole points as a .smesh of TetGen, counted from 0, with 17 digits: Kerf reads it, too. No
-/// hole points where one cannot be found: that may be the very reason of a failure.
+/// Returns a closed surface with its hole points as a .smesh of TetGen, counted from 0, with 17 digits: Kerf reads it,
+/// too. There are no hole points where one cannot be found: that may be the very reason of a failure.
 std::string smesh_text(const SurfaceArrays& surface);
 
 }  // namespace kerf

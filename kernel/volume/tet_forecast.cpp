@@ -1,6 +1,6 @@
-// Beside a facet lie small cells if it is coarse: its neighbourhood is as large as the cube of its edge, and ends in
-// the middle of the body. Fine facets have one in which cells grow to the wanted size, in as many layers as the
-// logarithm of the depth has; there needles need more cells than others.
+// Beside a coarse facet lie small cells: its neighbourhood is as large as the cube of its edge, and ends in the middle
+// of the body. Beside a fine facet cells grow to the wanted size, in a number of layers like the logarithm of the
+// depth; there needles need more cells than other facets.
 #include "volume/tet_forecast.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace kerf {
 
 namespace {
 
-constexpr double least_ratio = 0.25, steps_per_octave = 2;  // of MesherForecast::tets_by_edge_ratio
+constexpr double least_ratio = 0.25, steps_per_octave = 2;  // places of MesherForecast::tets_by_edge_ratio
 // Fitted to 12 surfaces of well-shaped facets with 8 sizes each, and to 8 others.
 constexpr double coarse_ratio = 0.5, reach_of_coarse = 2.45;  // in edges
 constexpr double growing_octaves = 3, tets_by_depth = 0.43, usual_depth = 2.1, least_by_depth = -0.9;

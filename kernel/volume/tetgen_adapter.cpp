@@ -65,7 +65,7 @@ std::vector<std::int32_t> shuffled_order(std::size_t count, std::mt19937& random
     return order;
 }
 
-// What TetGen's numbers stand for.
+// The vertices and facets of the surface in the order of TetGen's numbers.
 struct InputOrder {
     std::vector<std::int32_t> vertices;
     std::vector<std::int32_t> facets;
@@ -157,14 +157,15 @@ tetgenbehavior behaviour_of(const MesherOptions& options, const Normalisation& f
     return behaviour;
 }
 
-// TetGen asks a plain function without an argument for what it should know. It is not thread-safe anyway.
+// The field that is_unsuitable() asks: TetGen calls a plain function, to which no argument can be given. It is not
+// thread-safe anyway.
 struct AskedField {
     const SizeField& size;
     const Normalisation& frame;
 };
 const AskedField* asked_field = nullptr;
 
-// Of a tetrahedron in TetGen's coordinates.
+// Whether a tetrahedron, in TetGen's coordinates, is too large.
 bool is_unsuitable(REAL* p, REAL* q, REAL* r, REAL* s, REAL*, REAL) {
     const auto point = [](const REAL* x) { return asked_field->frame.from_unit(Eigen::Map<const Vec3>(x)); };
     return is_too_large(asked_field->size, {point(p), point(q), point(r), point(s)});
@@ -216,7 +217,7 @@ void check_vertices_kept(const tetgenio& in, const tetgenio& out, const std::vec
                                 order[kept]));
 }
 
-// As soon as it is copied.
+// Frees a list of TetGen as soon as it is copied.
 void drop(REAL*& list) { delete[] std::exchange(list, nullptr); }
 void drop(int*& list) { delete[] std::exchange(list, nullptr); }
 

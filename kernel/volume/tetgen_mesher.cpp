@@ -1,4 +1,7 @@
-// TetGen as a row of the table: what is known of it, and what is done when it fails.
+// TetGen (Si 2015, si2015) as a row of the table: its forecast, and the ladder of calls that are tried when it fails.
+// The ladder goes from changes that cost nothing in the mesh, another order of the vertices or another tolerance, to
+// those that give up more and more of what was asked for; the lattice stands between, because it keeps everything. The
+// numbers of the forecast are measured. With switches of an expert bounds are not touched.
 #include <malloc.h>
 
 #include <fmt/format.h>
@@ -19,7 +22,7 @@ void check_tetgen_options(const MesherOptions& options) { check_tetgen_switches(
 
 Filling fill_with_tetgen(const SurfaceArrays& surface, const MesherOptions& options) {
     Filling filling{mesh_with_tetgen(surface, hole_points(surface), options), ""};
-    ::malloc_trim(0);  // TetGen has let go of several times what is left, which other workers may need
+    ::malloc_trim(0);  // TetGen has freed several times the memory that is still used; other workers may need it
     improve_filling(filling, options);
     return filling;
 }
@@ -29,9 +32,9 @@ MesherOptions for_lattice(MesherOptions options) {
     return options;
 }
 
-// Other orders of the vertices, other tolerances, the lattice, which gives all that was asked for, a weaker bound of
-// the shape, none, the part cut in two, eight times the wanted volume. With the expert's switches only the order
-// changes, and the part is cut in two.
+// Returns the ladder: other orders of the vertices, other tolerances, the lattice, which gives all that was asked for,
+// a weaker bound of the shape, none, the part cut in two, eight times the wanted volume. With the expert's switches
+// only the order changes, and the part is cut in two.
 std::vector<MesherCall> tetgen_calls(const MesherOptions& wanted) {
     std::vector<MesherCall> calls = {{.fallback = "", .options = wanted}};
     const auto add = [&](const std::string& fallback) -> MesherOptions& {
@@ -76,7 +79,7 @@ std::string command_line_switches(const MesherOptions& options) {
     return switches;
 }
 
-// What the command of tetgen cannot say.
+// Returns a note on sizes, which the command of tetgen cannot express.
 std::string note_on_sizes(const MesherOptions& options) {
     if (options.size.is_constant() || !options.tetgen.switches.empty()) return "";
     return "The wanted sizes differ from place to place: the command leaves them out, and may succeed where the run "
