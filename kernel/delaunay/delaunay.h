@@ -8,7 +8,7 @@ namespace kerf {
 struct Delaunay {
     /// The triangulation. Vertices have the numbers of their points. Without cells if all points lie in one plane.
     Triangulation triangulation;
-    /// For each point, the smallest number of a point in the same place. All others there have no cells.
+    /// The smallest number of a point in the place of each point. All others there have no cells.
     std::vector<std::int32_t> representative;
 };
 

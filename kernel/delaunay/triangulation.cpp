@@ -112,7 +112,8 @@ std::int32_t Triangulation::locate_in_sight(const Vec3& p, std::int32_t hint) co
     return walk<true>(*this, p, hint);
 }
 
-// Where the walk begins. After other changes the last cell may be gone; any other one will do.
+// Returns the cell of a point. Without a hint the walk begins at the last cell made; where others have been replaced,
+// that may be gone, and any other one will do.
 std::int32_t Triangulation::start_of(const Vec3& p, std::int32_t hint) const {
     return locate(p, hint == none ? std::min(last_cell_, cell_count() - 1) : hint);
 }

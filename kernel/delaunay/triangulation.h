@@ -24,9 +24,9 @@ struct Star {
 /// The conditions of Triangulation::insert_if().
 struct InsertionConditions {
     std::function<bool(const Star&)> accepts;  ///< whether the point may come, asked when its star is known
-    /// Whether a constrained face that the point sees forbids it. Asked before all cells that the point would remove
+    /// Whether a constrained face that the point sees keeps it off. Asked before all cells that the point would remove
     /// are known, so that a yes saves time; only once faces have been constrained or cells replaced. Empty: no face
-    /// forbids it. Must not throw, nor ask for cells.
+    /// keeps it off. Must not throw, nor ask for cells.
     std::function<bool(const Triangle&)> is_kept_off_by = {};
     /// Most cells to be removed, where cells are not Delaunay anyway: the nearest to the point are, by steps from cell
     /// to cell.
@@ -83,7 +83,7 @@ class Triangulation : public EditableTets {
     // A face between a cell of the cavity and one that stays.
     struct CavityFace {
         CellFace inside;
-        CellFace outside;  // with `constraint` where the face is constrained
+        CellFace outside;  // name of the face from the other side, with `constraint` where it is constrained
     };
     // A new cell, in the place of the cell inside of such a face.
     struct NewCell {

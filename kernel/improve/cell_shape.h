@@ -29,7 +29,7 @@ inline double square_from_degrees(double angle_deg) {
 
 struct CellShape {
     double sharpest;     ///< signed square of the cotangent of the smallest dihedral angle
-    double flattest;     ///< the same for the angle that the largest one lacks to 180 degrees
+    double flattest;     ///< signed square of the cotangent of 180 degrees less the largest one
     double six_volumes;  ///< six times the volume, signed
 
     /// Returns the badness of the cell; smaller is better: 1/8 for the regular tetrahedron, infinity where the volume

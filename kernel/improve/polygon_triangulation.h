@@ -57,7 +57,7 @@ class PolygonTriangulation {
     }
 
     std::size_t n_ = 0;
-    // For the part of the polygon from one corner to another: the least badness, and the third corner of the last
+    // The least badness of the part of the polygon from one corner to another, and the third corner of its last
     // triangle.
     std::array<std::array<double, most>, most> best_;
     std::array<std::array<std::uint8_t, most>, most> middle_;

@@ -1,7 +1,8 @@
-// The body-centred cubic lattice and its tetrahedra, the best of those that fill space with a single shape. The sites
-// of a lattice of edge a are the corners of the cubes of edge a that fill space, and their centres. Their coordinates
-// are integers in units of a/2, all three even (corners) or all three odd (centres). A cube has the number of its
-// lowest corner divided by 2, and two sites, this corner and its centre: 2 * cube + parity is the site.
+// The body-centred cubic lattice and its tetrahedra, the best of those that fill space with a single shape.
+//
+// The sites of a lattice of edge a are the corners of the cubes of edge a that fill space, and their centres. Their
+// coordinates are integers in units of a/2, all three even (corners) or all three odd (centres). A cube has the number
+// of its lowest corner divided by 2, and two sites, this corner and its centre: 2 * cube + parity is the site.
 //
 // Each site has 14 neighbours, 6 at distance a along the axes and 8 at sqrt(3)/2 a. A cell is the hull of two edges of
 // length a at right angles, one of corners and one of centres, a/2 apart: 6 cells a site, 24 around each, of volume

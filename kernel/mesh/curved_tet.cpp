@@ -25,7 +25,7 @@ namespace {
 
 using Coefficients = std::array<double, 20>;
 
-constexpr int deepest_bisection = 15;  // of a piece: its edges are a 32nd of the cell's
+constexpr int deepest_bisection = 15;  // depth at which the edges of a piece are a 32nd of the cell's
 constexpr int most_pieces = 1000;
 constexpr double determinant_roundings = 64;  // rounding of products of three slopes, in units of the last place
 constexpr double precision_of_scaled = 1e-3;

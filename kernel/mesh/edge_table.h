@@ -73,7 +73,7 @@ class EdgeTable {
         upper_.shrink_to_fit();
     }
 
-    std::vector<std::int64_t> first_ = {0};  // for each vertex, the number of its first edge to a larger vertex
+    std::vector<std::int64_t> first_ = {0};  // number of each vertex's first edge to a larger vertex
     std::vector<std::int32_t> upper_;
 };
 

@@ -125,7 +125,7 @@ class EditableTets {
  protected:
     struct alignas(32) Cell {  // lies in one line of the cache
         Tetrahedron vertex;
-        std::array<CellFace, 4> link;  // with `constraint` where the face is constrained
+        std::array<CellFace, 4> link;  // other sides of the faces, with `constraint` where a face is constrained
 
         // A mark for searches: vertex 0, which is never the ghost, is complemented.
         bool is_marked() const { return vertex[0] < 0; }
@@ -149,7 +149,7 @@ class EditableTets {
     // A face of which one side is known so far.
     struct OpenFace {
         Triangle vertices;  // ascending
-        CellFace side;      // with `constraint` for faces that stay
+        CellFace side;      // known side, with `constraint` for faces that stay
     };
 
     bool keeps_numbers_ = false;

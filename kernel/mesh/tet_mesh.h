@@ -7,7 +7,7 @@
 
 namespace kerf {
 
-/// For each tetrahedron and each of its corners i, the tetrahedron across the face opposite to i, or -1.
+/// The neighbours of each tetrahedron: number i is the tetrahedron across the face opposite to corner i, or -1.
 using TetNeighbours = std::vector<std::array<std::int32_t, 4>>;
 
 /// A mesh of one subdomain. The boundary vertices and facets of the subdomain keep their numbers in it; interior

@@ -1,4 +1,4 @@
-// One pass over the cells tells whether all are positive, what volume they have together, and by a sum
+// One pass over the cells tells whether all are positive, the sum of their volumes, and by a sum
 // (mesh/boundary_chain.h) whether the surface is their boundary. Where all of that holds no face needs to be looked
 // for. Each point inside lies in as many cells as the surface winds around it, that is in one; so at most two cells
 // have a face, and from different sides.
@@ -198,7 +198,7 @@ Cells sum_cells(const TetMesh& mesh) {
     }
     cells.volume = volume.value() / 6;
     const auto count = static_cast<double>(mesh.tets.size());
-    const double of_sum = 6 * count * count * 0x1p-106;  // of terms of six products each
+    const double of_sum = 6 * count * count * 0x1p-106;  // error of a sum of terms of six products each
     cells.volume_error = 1.01 * ((doubt + of_sum) * sum_of_largest / 6 + 4 * 0x1p-53 * std::abs(cells.volume)) +
                          8 * (count + 1) * std::numeric_limits<double>::denorm_min();
     return cells;

@@ -43,8 +43,8 @@ class EventLog : public RunListener {
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
     void on_part(const PartEvent& event) override;
-    /// Write the events of a solution: its equations, each iteration with the seconds that are left, and that a stage
-    /// goes on.
+    /// Write the events of a solution: the number of unknowns, an iteration with the seconds that are left, and the
+    /// progress of a stage that goes on.
     void on_equations(std::int64_t unknowns);
     void on_solver_iteration(int iteration, double residual, double wanted, double seconds_left);
     void on_working(const std::string& stage, std::size_t done, std::size_t total, double stage_seconds);

@@ -20,7 +20,7 @@ std::int64_t count_beyond(const Distribution& values, double bound) {
 }  // namespace
 
 std::vector<ExceededBound> exceeded_bounds(const RunReport& report) {
-    constexpr std::size_t radius_edge = 2, volume = 5;  // of TetQuality
+    constexpr std::size_t radius_edge = 2, volume = 5;  // numbers of these measures in quality_measures
     std::vector<ExceededBound> exceeded;
     if (report.quality.all.measures.size() <= volume) return exceeded;  // nothing was meshed
     const auto add = [&](const char* option, double bound, const Distribution& values) {

@@ -12,7 +12,7 @@ namespace kerf {
 /// A bound of cells, and how far it was missed. The surface may leave no room to hold it: facets and interfaces stay as
 /// they are, and cells that replace sharp ones have the better angles, not the smaller bound.
 struct ExceededBound {
-    const char* option;  ///< as users write it, without "--"
+    const char* option;  ///< name of the option as users write it, without "--"
     double bound = 0;  ///< value of the option: of --max-volume in units of the surface, of --radius-edge a pure number
     /// Number of cells beyond the bound. Cells in the bin of Distribution in which the bound lies are not counted.
     std::int64_t cells = 0;

@@ -9,14 +9,15 @@ namespace kerf {
 class SecondOrderParts;
 class StoredParts;
 
-/// A part has ended, well or not; all numbers are those of the whole run, over all ranks.
+/// The event that a part has ended, well or not; all numbers are those of the whole run, over all ranks.
 struct PartEvent {
-    const PartReport* part = nullptr;  ///< with the sums of its result, but without the distributions of its quality
-    std::size_t done = 0, total = 0;   ///< numbers of parts that have ended, this one included, and of all
-    double load_done = 0;              ///< share of the predicted work that is done, in [0, 1]
-    std::int64_t tets = 0;             ///< cells of the parts that are done
-    double tets_expected = 0;          ///< forecast for all parts (RunningForecast)
-    double seconds_left = -1;          ///< forecast until the last part ends; negative: not known yet
+    /// The part, with the sums of its result, but without the distributions of its quality.
+    const PartReport* part = nullptr;
+    std::size_t done = 0, total = 0;  ///< numbers of parts that have ended, this one included, and of all
+    double load_done = 0;             ///< share of the predicted work that is done, in [0, 1]
+    std::int64_t tets = 0;            ///< cells of the parts that are done
+    double tets_expected = 0;         ///< forecast for all parts (RunningForecast)
+    double seconds_left = -1;         ///< forecast until the last part ends; negative: not known yet
 };
 
 /// Is told of the progress; on the root rank, of the progress of all ranks. Without a listener nothing is copied, and

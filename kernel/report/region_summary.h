@@ -21,7 +21,7 @@ struct RegionSummary {
     double volume = 0;
     std::int64_t shells = 0;
     double outer_area = 0;          ///< area of the facets with nothing on their other side
-    std::vector<CommonWall> walls;  ///< in the order of the regions
+    std::vector<CommonWall> walls;  ///< its walls, in the order of the other regions
 };
 
 /// Returns the regions of a soup that has been repaired, in the order of Soup::region_names; none if it has no sides.

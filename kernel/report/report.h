@@ -36,7 +36,7 @@ struct PartReport : PartOutcome {
     /// Interface area with that of each facet divided by the square of CutOptions::max_interface_edge() there.
     double interface_in_squared_edges = 0;
     std::vector<NodeId> neighbours;  ///< numbers of the parts behind its interfaces, ascending
-    /// For order 2, number of vertices and nodes on edges; known to each rank once parts are written.
+    /// Number of vertices and nodes on edges of a part of order 2; known to each rank once parts are written.
     std::int64_t mesh_nodes = 0;
 
     Eigen::AlignedBox3d box() const { return {box_low, box_high}; }
@@ -66,8 +66,8 @@ struct RunVerification {
     std::int64_t moved_vertices = 0;       ///< vertices whose coordinates differ between parts, or from the input
     std::int64_t misnumbered = 0;      ///< global numbers that are missing, or used by two interior vertices or edges
     std::int64_t changed_volumes = 0;  ///< result of count_changed_volumes()
-    std::int64_t unequal_edge_nodes = 0;    ///< of order 2: edges whose nodes differ between parts
-    std::int64_t invalid_curved_cells = 0;  ///< of order 2: cells that are not proven to have a positive Jacobian
+    std::int64_t unequal_edge_nodes = 0;    ///< edges whose nodes differ between parts, for order 2
+    std::int64_t invalid_curved_cells = 0;  ///< cells that are not proven to have a positive Jacobian, for order 2
 
     /// Returns whether the volumes agree within the bound and every count is zero.
     bool all_hold() const;
@@ -141,21 +141,22 @@ struct RunReport {
     RunOptions options;
     std::optional<FoundSize> found_size;  ///< size that was found for the number of tetrahedra that was asked for
     int ranks = 1;
-    std::vector<TreeNode> nodes;    ///< ascending by number
-    std::vector<PartReport> parts;  ///< in the order of the tree
+    std::vector<TreeNode> nodes;    ///< nodes of the tree, ascending by number
+    std::vector<PartReport> parts;  ///< all parts, in the order of the tree
     RunVerification verification;
     std::int64_t split_facets = 0;  ///< facets of the input that straight cuts have split
     StageSeconds seconds;
     WorkerSeconds worker_seconds;
     std::int64_t vertices = 0;      ///< number of distinct vertices of the whole mesh
-    std::int64_t mesh_nodes = 0;    ///< of order 2, number of vertices and nodes on edges; 0 of order 1
+    std::int64_t mesh_nodes = 0;    ///< number of vertices and nodes on edges for order 2; 0 for order 1
     std::int64_t curved_nodes = 0;  ///< number of the nodes that are on edges but not in their middle
     std::int64_t tets = 0;
     std::map<std::string, std::int64_t> parts_by_way;  ///< number of parts that were filled, by PartResult::way()
     std::int64_t parts_by_tetgen = 0;                  ///< number of these that TetGen has filled, asked for or not
     FacetRecovery recovery;                            ///< sum over the parts
     double imbalance = 1;                              ///< largest over mean of the part seconds summed for each worker
-    /// Sum over the ranks, each with that of the largest worker for each of its workers.
+    /// Peak of resident memory: sum over the ranks, each with as many times that of the largest worker as it has
+    /// workers.
     std::int64_t peak_rss_bytes = 0;
     PartQuality quality;
     Improvement improvement;  ///< sum over the parts, and so are its seconds

@@ -70,7 +70,7 @@ class PartsCurver {
         const Part part = parts_.load(index);
         const EdgeTable edges(part.mesh.tets, part.mesh.vertices.size());
         std::vector<CurvedEdge> wanted;
-        std::vector<std::int32_t> surface_edge;  // of `wanted`
+        std::vector<std::int32_t> surface_edge;  // numbers of the edges in `wanted`
         edges.for_all([&](std::int64_t e, const UndirectedEdge& ends) {
             if (std::max(ends[0], ends[1]) >= part.mesh.boundary_vertex_count) return;
             const std::int32_t found = surface_edge_of(part.global_id[ends[0]], part.global_id[ends[1]]);

@@ -193,7 +193,8 @@ void CutsOnRanks::begin(Complex& complex) {
     }
     if (ranks_.rank() != first_rank) return;
     const Branch whole{1, 0, options_.parts, {}};
-    if (!range_.contains(0)) return take(whole, complex.take_only_region());  // of fewer parts than ranks it has none
+    if (!range_.contains(0))
+        return take(whole, complex.take_only_region());  // of fewer parts than ranks, this rank may have none
     begin([this, whole, surface = complex.take_only_region()]() mutable {
         return decompose_branch(std::move(surface), whole, options_, range_, *this, this);
     });

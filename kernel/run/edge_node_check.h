@@ -19,8 +19,8 @@ class EdgeNodeCheck {
     void add(const Part& part);
     /// Takes over the parts that another check was shown, as if they had been shown to this one after its own.
     void add(const EdgeNodeCheck& of_others);
-    /// Ends the check when all parts were shown: adds all that is broken to `laws`. `vertices`: their number in the
-    /// mesh.
+    /// Ends the check when all parts were shown: adds all that is broken to `laws`. `vertices`: number of the mesh's
+    /// vertices.
     void finish(std::int64_t vertices, RunVerification& laws);
 
     /// Numbers of distinct nodes on edges, and of those among them that are not in the middle of their edges; valid

@@ -31,11 +31,12 @@ constexpr double bytes_of_worker = 14e6;
 // The limit of a worker is one of its address space, of which libraries take a share; and a forecast may be low.
 constexpr double reserved_bytes = 100e6, safety = 1.5;
 constexpr double least_tets_per_part = 1000;
-constexpr std::int32_t parts_per_worker = 4;    // so that the last one is short against all of them
-constexpr double area_per_squared_edge = 0.69;  // of an interface triangle, and of its longest wanted edge
+constexpr std::int32_t parts_per_worker = 4;  // so that the last one is short against all of them
+constexpr double area_per_squared_edge =
+    0.69;  // area of an interface triangle over the square of its longest wanted edge
 constexpr double tets_at_interface_facet = 0.5;
-constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // of the store, of one format but vtu
-constexpr double vtu_bytes_per_tet = 31, field_bytes_per_tet = 4;     // of vtu, and of each field of its cells
+constexpr double stored_bytes_per_tet = 22, file_bytes_per_tet = 70;  // bytes of the store, and of any format but vtu
+constexpr double vtu_bytes_per_tet = 31, field_bytes_per_tet = 4;     // bytes of vtu, and of each field of its cells
 
 constexpr double certain = 0.5;  // nearly every mesh is larger than this share of its forecast
 

@@ -77,8 +77,8 @@ class RunningForecast {
     const RunOptions& options_;
     int workers_;
     double tets_ahead_ = 0, seconds_ahead_ = 0;        // forecast of parts that have not ended
-    double tets_forecast_ = 0, tets_found_ = 0;        // of parts that have ended well
-    double seconds_forecast_ = 0, seconds_found_ = 0;  // of parts that have ended in this run
+    double tets_forecast_ = 0, tets_found_ = 0;        // forecast and result of parts that have ended well
+    double seconds_forecast_ = 0, seconds_found_ = 0;  // forecast and result of parts that have ended in this run
 };
 
 }  // namespace kerf

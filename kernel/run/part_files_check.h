@@ -48,7 +48,7 @@ struct PartFindings {
     std::vector<std::array<std::int64_t, 2>> interior = {};
     /// Number of the vertices inside, if the file leaves their numbers to its reader; else 0.
     std::int64_t unnumbered_interior = 0;
-    EdgeNodeCheck edge_nodes = {};  ///< of parts of order 2
+    EdgeNodeCheck edge_nodes = {};  ///< nodes of a part of order 2
 };
 
 /// Checks parts one by one, each by verify_mesh(). From any thread.

@@ -52,7 +52,7 @@ class PartHandOut {
     std::vector<std::int32_t> host_of_rank_;
     std::function<void(std::size_t)> on_taken_;
     std::size_t wishes_ = 0;        // without an answer
-    bool is_anything_left_ = true;  // as far as this rank knows
+    bool is_anything_left_ = true;  // whether parts are left, as far as this rank knows
 };
 
 }  // namespace kerf

@@ -98,7 +98,7 @@ RunFolder open_folder(const RunContext& run) {
     });
 }
 
-// From the beginning on the run can be continued by the name of its folder, however it ends.
+// Makes the run one that can be continued by the name of its folder from the beginning on, however it ends.
 void keep_folder(const RunContext& run, RunFolder& folder) {
     in_agreement(run.ranks, [&] {
         if (!run.is_root() || !run.options.volume || run.options.transient) return;

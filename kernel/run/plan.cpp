@@ -130,7 +130,7 @@ class ProcessorsOfHost {
 
  private:
     std::vector<int> own_ = allowed_processors(), all_;
-    int ranks_ = 0;  // of the host
+    int ranks_ = 0;  // number of ranks of the host
 };
 
 // The options as far as a rank resolves them by itself.

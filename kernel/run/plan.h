@@ -16,7 +16,7 @@ namespace kerf {
 /// All choices of a run; none of them changes while its stages go on.
 struct RunPlan {
     RunOptions options;  ///< resolved: K, lengths in units of the input, sizes over the surface that is cut
-    std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
+    std::optional<FoundSize> found_size;  ///< size that was found for the number of tetrahedra that was asked for
     std::string worker_hash;  ///< hash of the program that meshes the parts; empty if nothing is meshed, or the run is
                               ///< transient
     SurfaceNodes surface_nodes = {};  ///< nodes on edges, for cells of order 2; else none

@@ -18,11 +18,11 @@ struct Trace {
     std::string input;      ///< path of the surface file, as it was given
     SurfaceArrays surface;  ///< the surface that was cut: welded and oriented; of several regions each facet once
     std::vector<FacetSides> sides;          ///< sides of its facets, empty for one region
-    std::vector<std::string> region_names;  ///< of several regions; empty for one
-    std::vector<NodeId> region_roots;       ///< for each region, the node that is the whole of it
+    std::vector<std::string> region_names;  ///< names of several regions; empty for one
+    std::vector<NodeId> region_roots;       ///< node that is the whole of each region; empty for one
     bool remeshed = false;                  ///< whether the surface is not that of the file, but Input::remeshed
     std::vector<std::string> patch_names;   ///< names by number of surface.patch
-    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< those of Input
+    std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< colours of the patches, as in Input
     std::vector<OptionText> options;                         ///< options that shape the parts, resolved
     std::vector<Cut> cuts;  ///< cuts of all nodes where one was tried, ascending by number; recorded, with seconds 0
 

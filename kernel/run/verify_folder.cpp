@@ -1,5 +1,8 @@
 // Nothing of the run that wrote the files is trusted but the plan of its parts in report.json. The hashes tell any
-// change since then; what follows from the mesh is computed again, in case somebody has computed the hashes again.
+// change since then; all that follows from the mesh is computed again, in case somebody has computed the hashes again.
+// Each part is checked by itself, on threads (run/part_files_check.h), and only its boundary is kept: vertices,
+// interface triangles and pieces of input facets of all parts are then sorted and compared, so that memory follows the
+// surface. These laws of the whole are left out where a part cannot be read, as each of them would only repeat that.
 #include "run/verify_folder.h"
 
 #include <algorithm>
@@ -90,12 +93,12 @@ ComparedFiles compare_files(const std::string& folder, const std::string& report
     return compared;
 }
 
-// Whether a file cannot be read because it is not what the run has written, whatever its hash says.
+// Whether an error says that a file is not as the run has written it, whatever its hash is.
 bool is_damage(const Error& error) { return error.code() == ErrorCode::io || error.code() == ErrorCode::verification; }
 
 struct CheckedPart {
     std::optional<PartFindings> found;
-    std::string why_not = {};  // it cannot be read
+    std::string why_not = {};  // reason why it cannot be read
 };
 
 CheckedPart checked_part(const PartFilesCheck& check, const nlohmann::json& of_report) {
@@ -107,7 +110,7 @@ CheckedPart checked_part(const PartFilesCheck& check, const nlohmann::json& of_r
     }
 }
 
-// How the paths of all files of a part begin.
+// Returns the beginning of the paths of all files of a part.
 std::string stem_of_part_files(NodeId part) {
     const std::string name = part_file_name(part);
     return "parts/" + name.substr(0, name.rfind('.') + 1);
@@ -161,13 +164,13 @@ class FolderVerifier {
     VerifyOptions options_;
     std::string report_text_;
     nlohmann::json report_;
-    bool is_of_this_version_;  // another one may write the same mesh with other headers
+    bool is_of_this_version_;  // another version may write the same mesh with other headers
     int order_;
     FolderVerification result_;
     double volume_ = 0;
-    std::vector<PlacedVertex> boundary_;                  // of all parts; after check_shared_vertices() each once
-    std::vector<std::array<std::int64_t, 2>> interiors_;  // first number and how many, of every part
-    std::int64_t unnumbered_interior_ = 0;                // vertices of files that leave the numbers to who reads them
+    std::vector<PlacedVertex> boundary_;  // vertices of all parts; after check_shared_vertices() each once
+    std::vector<std::array<std::int64_t, 2>> interiors_;  // first number and count of every part
+    std::int64_t unnumbered_interior_ = 0;  // vertices inside, of files that leave their numbers to the reader
     std::vector<InputPiece> pieces_;
     std::vector<InterfaceFacet> interfaces_;
     RunNames names_;

@@ -12,7 +12,7 @@ namespace kerf {
 struct VerifyOptions {
     std::string input;                        ///< path of the surface now; empty: the path that the run has read
     bool without_input = false;               ///< true: the input is not compared, the laws of the mesh are enough
-    const Input* surface = nullptr;           ///< in place of a file, an input of make_input() or read_input()
+    const Input* surface = nullptr;           ///< input of make_input() or read_input(), in place of a file
     std::function<bool()> is_cancelled = {};  ///< asked between parts, by the caller's thread alone: true ends it with
                                               ///< Error(cancelled)
 };

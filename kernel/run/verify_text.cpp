@@ -1,4 +1,4 @@
-// What kerf verify found, for people and for programs.
+// The findings of kerf verify as text, for people and for programs.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -30,7 +30,7 @@ namespace kerf {
 namespace {
 
 constexpr int root = 0;
-// How long a rank sleeps before it looks for messages and signals. Those with workers wake when one ends. A worker is
+// Sleep of a rank between looks for messages and signals. Those with workers wake when one ends. A worker is
 // idle between a wish and its answer.
 constexpr double seconds_between_looks = 0.02, seconds_between_answers = 0.002;
 

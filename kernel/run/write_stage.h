@@ -16,7 +16,7 @@ namespace kerf {
 /// A format and the place of its files.
 struct FormatPlace {
     const Format* format;
-    std::string sub_folder;  ///< of the folder of the whole export; may be empty
+    std::string sub_folder;  ///< path below the folder of the whole export; may be empty
 };
 
 /// Returns the places of formats in a run folder: export/NAME, but for `vtu` the folder itself.

@@ -36,8 +36,7 @@ struct PiercingEdge {
 };
 
 /// Finds edges that go through the inside of a triangle, opposite to its first corner. Where the triangle's own edges
-/// are there, and it is no face, there is at least one. Exact. Linear in the number of cells around
-/// that corner.
+/// are there, and it is no face, there is at least one. Exact. Linear in the number of cells around that corner.
 std::vector<PiercingEdge> edges_through(Triangulation& triangulation, const Triangle& triangle);
 
 /// Finds the face that is the triangle, seen from the cell that sees it clockwise; none if it is no face. Linear in the

@@ -33,7 +33,8 @@ class MissingTriangles {
 
     /// Returns the numbers of the missing triangles with this edge, in either direction; ascending.
     std::vector<std::int32_t> at_edge(std::int32_t a, std::int32_t b) const;
-    /// Returns whether a missing triangle has this edge, so that the edge must stay where it is there.
+    /// Returns whether a missing triangle has this edge, so that the edge must not be removed where the triangulation
+    /// has it.
     bool has_edge(std::int32_t a, std::int32_t b) const { return at_edge_.contains(undirected(a, b)); }
 
  private:

@@ -13,7 +13,7 @@ namespace kerf {
 /// The part of the body that is filled already: its boundary, and points around it that belong to the shell.
 struct ShellCore {
     std::vector<Vec3> points;
-    std::vector<Triangle> faces;  ///< over `points`, counter-clockwise seen from the shell
+    std::vector<Triangle> faces;  ///< triangles over `points`, counter-clockwise seen from the shell
     std::vector<Vec3> free_points;
 };
 

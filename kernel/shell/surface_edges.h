@@ -25,7 +25,8 @@ class SurfaceEdges {
     }
 
  private:
-    // For each vertex, the greater ends of its edges.
+    // The greater ends of all edges, in a list by their smaller ends, and the place in it at which those of a vertex
+    // start.
     std::vector<std::int32_t> start_, other_;
 };
 

@@ -212,7 +212,7 @@ struct ChildPool::Child {
         killed = true;
     }
 
-    // True if the process has ended; its result is complete then.
+    // Returns whether the process has ended; its result is complete then.
     bool reap() {
         int status = 0;
         rusage usage{};

@@ -20,7 +20,7 @@ struct ChildResult {
     std::string log;             ///< the last 4 KiB of its standard error
     double seconds = 0;          ///< wall clock
     double timeout_seconds = 0;  ///< the limit it was given, 0: none
-    /// Peak of memory; Linux counts from the fork, so at least this process's own at that moment.
+    /// Peak of resident memory. Linux counts from the start, so it is at least this process's own at that moment.
     std::int64_t peak_rss_bytes = 0;
 
     /// Returns a few words on the end: "ended with exit code 3", "was killed by signal 9 (Killed)", "ran longer than

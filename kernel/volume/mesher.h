@@ -38,7 +38,7 @@ inline constexpr std::string_view way_by_tetgen = "TetGen: the shell has failed"
 
 /// The result of a mesher.
 struct Filling {
-    TetMesh mesh;             ///< with its neighbours only if the mesher knows them anyway
+    TetMesh mesh;             ///< mesh, with neighbours only if the mesher knows them anyway
     std::string strategy;     ///< the way that the mesher went, in a few words for the report; empty if it has only one
     std::string reason = {};  ///< reason why it did not go its first way, in a sentence; empty if it did
     std::int64_t core_tets = 0;    ///< number of the first cells that were stamped; the others are of the shell

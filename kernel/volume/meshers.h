@@ -21,7 +21,7 @@ struct MesherForecast {
     std::array<double, 11> tets_by_edge_ratio;
     double tets_per_volume_bound;  ///< tetrahedra of the volume for a constant size, in V/a
     double tets_per_sized_volume;  ///< tetrahedra of the volume where sizes differ, in V/a
-    double most_tets_per_facet;    ///< for all that must have room: four fifths of all bodies have less
+    double most_tets_per_facet;    ///< number for all that must have room: four fifths of all bodies have less
     double seconds_per_facet;      ///< seconds of one worker, at the pace of a core of 2.5 GHz
     double seconds_per_tet;        ///< seconds beside those of facets
     double bytes_per_tet;          ///< resident memory of its worker

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double least_ratio = 0.25, steps_per_octave = 2;  // places of MesherForecast::tets_by_edge_ratio
 // Fitted to 12 surfaces of well-shaped facets with 8 sizes each, and to 8 others.
-constexpr double coarse_ratio = 0.5, reach_of_coarse = 2.45;  // in edges
+constexpr double coarse_ratio = 0.5, reach_of_coarse = 2.45;  // ratio of edges, and a length in edges
 constexpr double growing_octaves = 3, tets_by_depth = 0.43, usual_depth = 2.1, least_by_depth = -0.9;
 constexpr double usual_slenderness = 1.06, largest_slenderness = 1.6, power_of_slenderness = 1.5;
 
