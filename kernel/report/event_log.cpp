@@ -1,7 +1,7 @@
 // Each event is one line of JSON, flushed at once, so that a reader of a pipe sees it when it happens. A reader that
 // leaves ends the log, not the run: ReaderLeft closes the file, and later events go nowhere; other errors of writing
 // are those of the run, but for the last event, which comes when it has ended. Progress is told once for each stage,
-// not for each step. Members that would be empty are left out.
+// not for each step. Members of a part's event that would be empty are left out.
 #include "report/event_log.h"
 
 #include <filesystem>

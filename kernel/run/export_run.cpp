@@ -1,8 +1,8 @@
 // An export writes all files into a folder of its own inside of the target, so that a disk that is full or a program
 // that is killed leaves no half of them under the names of whole ones. Then the list of files is written, which makes
 // all of them known as Kerf's, and last they are renamed to their places; files of an earlier export that are not
-// written again go away. Files that the list did not have are never replaced, and no link is followed. The target's
-// list is report.json for a run and kerf_export.json for another folder.
+// written again go away, but never those of a run. Files that the list did not have are never replaced, and no link is
+// followed. The target's list is report.json for a run and kerf_export.json for another folder.
 #include "run/export_run.h"
 
 #include <algorithm>
