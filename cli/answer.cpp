@@ -1,7 +1,7 @@
 #include "cli/answer.h"
 
 #include "cli/ranks.h"
-#include "io/standard_streams.h"
+#include "files/io/standard_streams.h"
 
 namespace kerf {
 

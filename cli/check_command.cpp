@@ -6,11 +6,11 @@
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/option_flags.h"
+#include "files/io/offenders_writer.h"
+#include "files/io/output_file.h"
+#include "files/io/standard_streams.h"
 #include "help/program_help.h"
-#include "io/offenders_writer.h"
-#include "io/output_file.h"
-#include "io/standard_streams.h"
-#include "report/file_diagnosis.h"
+#include "run/report/file_diagnosis.h"
 
 namespace kerf {
 

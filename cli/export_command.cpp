@@ -1,23 +1,23 @@
 // kerf export: a finished run in the formats of solvers, also on the ranks of a job. The line goes into an
-// ExportRequest, and export_run() (run/export_run.h) does all else; formats, their names and their help come from the
-// table of export/formats.cpp, so that a new format needs no code here. The request lives in a shared pointer that the
-// callback of the parsed command keeps, as all commands have it: the function that adds the command has returned when
-// it runs.
+// ExportRequest, and export_run() (run/run/export_run.h) does all else; formats, their names and their help come from
+// the table of files/export/formats.cpp, so that a new format needs no code here. The request lives in a shared pointer
+// that the callback of the parsed command keeps, as all commands have it: the function that adds the command has
+// returned when it runs.
 #include <memory>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
+#include "base/core/number_text.h"
 #include "cli/commands.h"
 #include "cli/option_flags.h"
 #include "cli/progress.h"
 #include "cli/ranks.h"
-#include "core/error.h"
-#include "core/number_text.h"
-#include "export/format.h"
+#include "files/export/format.h"
+#include "files/io/standard_streams.h"
 #include "help/number_option.h"
-#include "io/standard_streams.h"
-#include "run/export_run.h"
+#include "run/run/export_run.h"
 
 namespace kerf {
 

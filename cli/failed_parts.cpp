@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "io/run_folder.h"
-#include "io/standard_streams.h"
+#include "files/io/run_folder.h"
+#include "files/io/standard_streams.h"
 
 namespace kerf {
 

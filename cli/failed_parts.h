@@ -1,7 +1,7 @@
 // Messages about parts that could not be meshed.
 #pragma once
 
-#include "report/report.h"
+#include "run/report/report.h"
 
 namespace kerf {
 

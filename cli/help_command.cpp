@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/other_programs.h"
-#include "core/error.h"
 #include "help/help_text.h"
 #include "help/usage_error.h"
 

@@ -1,10 +1,10 @@
-// The main function of kerf-cad and kerf-3mf: a file becomes a CadAnswer (io/cad_body.h), body or error, which kerf
-// reads from standard output. These are programs of their own, because OpenCASCADE takes longer to load than a small
-// mesh takes, may crash, and need not be installed, nor need lib3mf. The libraries print to standard output, too, so
-// that it is moved away first: its descriptor is kept for the answer alone, and prints go to standard error. Nothing is
-// written to a terminal, where the answer would be of no use. An error is in the answer as well as in a message and the
-// exit code, so that kerf can tell its kind and elements. The process ends by _exit(), as the library's own end would
-// take longer.
+// The main function of kerf-cad and kerf-3mf: a file becomes a CadAnswer (files/io/cad_body.h), body or error, which
+// kerf reads from standard output. These are programs of their own, because OpenCASCADE takes longer to load than a
+// small mesh takes, may crash, and need not be installed, nor need lib3mf. The libraries print to standard output, too,
+// so that it is moved away first: its descriptor is kept for the answer alone, and prints go to standard error. Nothing
+// is written to a terminal, where the answer would be of no use. An error is in the answer as well as in a message and
+// the exit code, so that kerf can tell its kind and elements. The process ends by _exit(), as the library's own end
+// would take longer.
 #include "cli/import_program.h"
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 #include <unistd.h>
 
-#include "core/error.h"
-#include "core/out_of_memory.h"
-#include "io/compressed.h"
-#include "io/file_bytes.h"
-#include "io/output_file.h"
+#include "base/core/error.h"
+#include "base/core/out_of_memory.h"
+#include "files/io/compressed.h"
+#include "files/io/file_bytes.h"
+#include "files/io/output_file.h"
 
 namespace kerf {
 

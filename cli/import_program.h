@@ -1,17 +1,17 @@
 // Programs that read a file for kerf in a process of their own, because of the library that they need. They are started
-// by kerf, which reads the answer from standard output (io/cad_body.h).
+// by kerf, which reads the answer from standard output (files/io/cad_body.h).
 //
 //     PROGRAM FILE [--solid N] [--unite] [--no-imprint] [--on-faces] [--unit mm|cm|m|inch|ft] [--deflection D]
 //             [--project] [--output OUT]
 //
-// With --project, which kerf-cad has, points are read from standard input (io/cad_points.h), and the answer is their
-// places on the faces of the file.
+// With --project, which kerf-cad has, points are read from standard input (files/io/cad_points.h), and the answer is
+// their places on the faces of the file.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-#include "io/cad_body.h"
+#include "files/io/cad_body.h"
 
 namespace kerf {
 

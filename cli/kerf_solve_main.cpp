@@ -13,6 +13,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
+#include "base/core/out_of_memory.h"
+#include "base/core/version.h"
+#include "base/parallel/processors.h"
 #include "cli/answer.h"
 #include "cli/failed_parts.h"
 #include "cli/option_flags.h"
@@ -20,16 +24,12 @@
 #include "cli/own_ranks.h"
 #include "cli/progress.h"
 #include "cli/ranks.h"
-#include "core/error.h"
-#include "core/out_of_memory.h"
-#include "core/version.h"
+#include "files/io/output_file.h"
+#include "files/io/standard_streams.h"
 #include "help/number_option.h"
 #include "help/program_help.h"
-#include "io/output_file.h"
-#include "io/standard_streams.h"
-#include "parallel/processors.h"
-#include "solve/mesh_and_solve.h"
-#include "solve/useful_ranks.h"
+#include "solve/run/mesh_and_solve.h"
+#include "solve/run/useful_ranks.h"
 
 namespace kerf {
 

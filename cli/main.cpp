@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
+#include "base/core/out_of_memory.h"
+#include "base/core/version.h"
+#include "base/parallel/failure_deadline.h"
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/other_programs.h"
 #include "cli/ranks.h"
 #include "cli/terminal.h"
-#include "core/error.h"
-#include "core/out_of_memory.h"
-#include "core/version.h"
+#include "files/io/standard_streams.h"
 #include "help/program_help.h"
-#include "io/standard_streams.h"
-#include "parallel/failure_deadline.h"
 
 namespace kerf {
 

@@ -7,12 +7,12 @@
 
 #include "cli/answer.h"
 #include "cli/commands.h"
-#include "export/merged_file.h"
+#include "files/export/merged_file.h"
+#include "files/io/json.h"
+#include "files/io/path_text.h"
+#include "files/io/standard_streams.h"
 #include "help/number_option.h"
 #include "help/usage_error.h"
-#include "io/json.h"
-#include "io/path_text.h"
-#include "io/standard_streams.h"
 
 namespace kerf {
 

@@ -10,7 +10,7 @@
 #include "cli/mesh_run.h"
 #include "cli/option_flags.h"
 #include "help/program_help.h"
-#include "request/saved_run.h"
+#include "run/request/saved_run.h"
 
 namespace kerf {
 

@@ -12,12 +12,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "core/error.h"
-#include "export/format.h"
-#include "export/merged_file.h"
+#include "base/core/error.h"
+#include "files/export/format.h"
+#include "files/export/merged_file.h"
 #include "help/nearest.h"
-#include "request/config_file.h"
-#include "request/saved_run.h"
+#include "run/request/config_file.h"
+#include "run/request/saved_run.h"
 
 namespace kerf {
 

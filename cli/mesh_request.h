@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "request/options.h"
+#include "run/request/options.h"
 
 namespace CLI {
 class App;

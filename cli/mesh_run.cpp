@@ -1,9 +1,9 @@
-// kerf mesh and kerf decompose on the ranks of a job: checks of outputs, the log of events, the run (run/pipeline.h),
-// the merge into one file, and the messages. Every step that only the first rank does and that may fail is done
-// in_agreement(), so that an error of it ends all ranks alike; run_together() does the same for the whole. Outputs are
-// checked before the run, as an error after hours would be late. If the merge fails, the run's folder stays, because it
-// holds the whole mesh. The log of events outlives an error, which is its last line. Messages go to standard error,
-// from the first rank.
+// kerf mesh and kerf decompose on the ranks of a job: checks of outputs, the log of events, the run
+// (run/run/pipeline.h), the merge into one file, and the messages. Every step that only the first rank does and that
+// may fail is done in_agreement(), so that an error of it ends all ranks alike; run_together() does the same for the
+// whole. Outputs are checked before the run, as an error after hours would be late. If the merge fails, the run's
+// folder stays, because it holds the whole mesh. The log of events outlives an error, which is its last line. Messages
+// go to standard error, from the first rank.
 #include "cli/mesh_run.h"
 
 #include <cstdlib>
@@ -12,19 +12,19 @@
 
 #include <fmt/format.h>
 
+#include "base/core/error.h"
+#include "base/core/shell_word.h"
 #include "cli/failed_parts.h"
 #include "cli/progress.h"
 #include "cli/ranks.h"
 #include "cli/terminal.h"
-#include "core/error.h"
-#include "core/shell_word.h"
-#include "export/merged_file.h"
-#include "io/output_file.h"
-#include "io/program_finder.h"
-#include "io/run_manifest.h"
-#include "io/standard_streams.h"
-#include "report/tree_text.h"
-#include "run/pipeline.h"
+#include "files/export/merged_file.h"
+#include "files/io/output_file.h"
+#include "files/io/program_finder.h"
+#include "files/io/run_manifest.h"
+#include "files/io/standard_streams.h"
+#include "run/report/tree_text.h"
+#include "run/run/pipeline.h"
 
 namespace kerf {
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "export/format.h"
+#include "files/export/format.h"
+#include "files/part/vtu_writer.h"
 #include "help/command_help.h"
-#include "part/vtu_writer.h"
 
 namespace kerf {
 

@@ -1,7 +1,7 @@
 // The options of the kernel's table as flags of a command.
 #pragma once
 
-#include "request/options.h"
+#include "run/request/options.h"
 
 namespace CLI {
 class App;

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "io/program_finder.h"
-#include "volume/child_process.h"
+#include "base/core/error.h"
+#include "files/io/program_finder.h"
+#include "fill/volume/child_process.h"
 
 namespace kerf {
 

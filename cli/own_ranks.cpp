@@ -22,8 +22,8 @@
 
 #include <fmt/format.h>
 
+#include "base/core/error.h"
 #include "cli/ranks.h"
-#include "core/error.h"
 
 namespace kerf {
 

@@ -17,10 +17,10 @@
 
 #include <fmt/format.h>
 
+#include "base/core/number_text.h"
 #include "cli/own_ranks.h"
 #include "cli/terminal.h"
-#include "core/number_text.h"
-#include "io/standard_streams.h"
+#include "files/io/standard_streams.h"
 
 namespace kerf {
 

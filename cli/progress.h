@@ -6,9 +6,9 @@
 #include <string>
 #include <thread>
 
-#include "core/stopwatch.h"
-#include "report/event_log.h"
-#include "solve/solve_listener.h"
+#include "base/core/stopwatch.h"
+#include "run/report/event_log.h"
+#include "solve/run/solve_listener.h"
 
 namespace kerf {
 

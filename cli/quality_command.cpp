@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
 #include "cli/answer.h"
 #include "cli/commands.h"
-#include "core/error.h"
-#include "io/output_file.h"
-#include "io/standard_streams.h"
-#include "quality/compared_quality.h"
+#include "files/io/output_file.h"
+#include "files/io/standard_streams.h"
+#include "files/quality/compared_quality.h"
 
 namespace kerf {
 

@@ -5,16 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel/processors.h"
 #include "cli/own_ranks.h"
-#include "parallel/processors.h"
 
 #ifdef KERF_WITH_MPI
 #include <unistd.h>
 
 #include <string_view>
 
-#include "mpi/host_processors.h"
-#include "parallel/failure_deadline.h"
+#include "base/mpi/host_processors.h"
+#include "base/parallel/failure_deadline.h"
 #endif
 
 namespace kerf {

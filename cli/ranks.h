@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "parallel/communicator.h"
+#include "base/parallel/communicator.h"
 
 namespace kerf {
 

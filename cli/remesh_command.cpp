@@ -10,10 +10,10 @@
 #include "cli/commands.h"
 #include "cli/option_flags.h"
 #include "cli/progress.h"
+#include "files/io/standard_streams.h"
 #include "help/program_help.h"
-#include "io/standard_streams.h"
-#include "prepare/remeshed_file.h"
-#include "report/report.h"
+#include "run/prepare/remeshed_file.h"
+#include "run/report/report.h"
 
 namespace kerf {
 

@@ -7,11 +7,11 @@
 #include "cli/commands.h"
 #include "cli/option_flags.h"
 #include "cli/progress.h"
+#include "files/io/standard_streams.h"
 #include "help/program_help.h"
-#include "io/standard_streams.h"
-#include "prepare/repaired_file.h"
-#include "report/repair_json.h"
-#include "report/repair_text.h"
+#include "run/prepare/repaired_file.h"
+#include "run/report/repair_json.h"
+#include "run/report/repair_text.h"
 
 namespace kerf {
 

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
 #include "cli/answer.h"
 #include "cli/commands.h"
-#include "core/error.h"
-#include "html/report_page.h"
-#include "io/output_file.h"
-#include "io/standard_streams.h"
+#include "files/html/report_page.h"
+#include "files/io/output_file.h"
+#include "files/io/standard_streams.h"
 
 namespace kerf {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "io/standard_streams.h"
+#include "files/io/standard_streams.h"
 
 namespace kerf {
 

@@ -5,8 +5,8 @@
 
 #include "cli/answer.h"
 #include "cli/commands.h"
-#include "io/standard_streams.h"
-#include "run/verify_folder.h"
+#include "files/io/standard_streams.h"
+#include "run/run/verify_folder.h"
 
 namespace kerf {
 

@@ -1,4 +1,4 @@
-// kerf-worker: one call of a mesher in a process of its own, started by kerf; work/part_job.h has the protocol.
+// kerf-worker: one call of a mesher in a process of its own, started by kerf; run/work/part_job.h has the protocol.
 // Standard input and output are a message channel, so that all that meshers print to standard output goes to standard
 // error instead.
 #include <sys/prctl.h>
@@ -11,12 +11,12 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/bytes.h"
-#include "core/error.h"
-#include "core/out_of_memory.h"
-#include "core/stopwatch.h"
-#include "parallel/process_memory.h"
-#include "work/part_job.h"
+#include "base/core/bytes.h"
+#include "base/core/error.h"
+#include "base/core/out_of_memory.h"
+#include "base/core/stopwatch.h"
+#include "base/parallel/process_memory.h"
+#include "run/work/part_job.h"
 
 namespace kerf {
 

@@ -1,4 +1,4 @@
-// Options that are numbers, with the same sentences for all commands (core/user_number.h).
+// Options that are numbers, with the same sentences for all commands (base/core/user_number.h).
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/user_number.h"
+#include "base/core/user_number.h"
 
 namespace kerf {
 

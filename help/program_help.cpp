@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "help/completion.h"
 #include "help/help_text.h"
 #include "help/man_page.h"

@@ -10,7 +10,7 @@
 
 #include <pybind11/numpy.h>
 
-#include "core/types.h"
+#include "base/core/types.h"
 
 namespace kerf::python {
 

@@ -2,9 +2,9 @@
 
 #include <pybind11/stl.h>
 
+#include "base/parallel/communicator.h"
 #include "kerf/mesh_on_ranks.h"
 #include "kerf/rank_mesh.h"
-#include "parallel/communicator.h"
 #include "python/arrays.h"
 #include "python/options.h"
 #include "python/surface_object.h"

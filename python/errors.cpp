@@ -4,7 +4,7 @@
 
 #include <pybind11/stl.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "kerf/kerf.h"
 #include "python/defects.h"
 #include "python/text.h"

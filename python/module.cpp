@@ -11,7 +11,7 @@
 #include "python/surface.h"
 #include "python/tree.h"
 
-#include "io/program_finder.h"
+#include "files/io/program_finder.h"
 #include "kerf/kerf.h"
 
 PYBIND11_MODULE(_kerf, module) {

@@ -6,7 +6,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "mpi/host_processors.h"
+#include "base/mpi/host_processors.h"
 
 namespace py = pybind11;
 

@@ -1,7 +1,7 @@
-// The table of options comes from the kernel (request/options.h), so that keyword arguments, their kinds, defaults and
-// help follow it without a list of their own; their text is made in kerf/options.py. A Watch is asked from any thread
-// of a call without the interpreter's lock, and takes the lock to look at signals, at most every 100 ms, and to call
-// `progress`. An exception of Python cannot cross the kernel: the first is kept, the call ends as cancelled, and
+// The table of options comes from the kernel (run/request/options.h), so that keyword arguments, their kinds, defaults
+// and help follow it without a list of their own; their text is made in kerf/options.py. A Watch is asked from any
+// thread of a call without the interpreter's lock, and takes the lock to look at signals, at most every 100 ms, and to
+// call `progress`. An exception of Python cannot cross the kernel: the first is kept, the call ends as cancelled, and
 // without_lock() raises it again.
 #include "python/options.h"
 
@@ -12,7 +12,7 @@
 
 #include "help/nearest.h"
 #include "python/sizes.h"
-#include "request/options.h"
+#include "run/request/options.h"
 
 namespace kerf::python {
 

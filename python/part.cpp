@@ -8,7 +8,7 @@
 
 #include <pybind11/stl.h>
 
-#include "part/part.h"
+#include "files/part/part.h"
 #include "python/arrays.h"
 #include "python/pickling.h"
 

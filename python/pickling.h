@@ -10,8 +10,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "core/bytes.h"
-#include "core/version.h"
+#include "base/core/bytes.h"
+#include "base/core/version.h"
 
 namespace kerf::python {
 

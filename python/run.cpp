@@ -6,17 +6,17 @@
 
 #include <pybind11/stl.h>
 
-#include "export/merged_file.h"
+#include "base/parallel/processors.h"
+#include "files/export/merged_file.h"
+#include "files/part/run_parts.h"
+#include "files/part/solution_parts.h"
+#include "files/quality/compared_quality.h"
 #include "kerf/progress_listener.h"
-#include "parallel/processors.h"
-#include "part/run_parts.h"
-#include "part/solution_parts.h"
 #include "python/arrays.h"
 #include "python/options.h"
 #include "python/surface_object.h"
-#include "quality/compared_quality.h"
-#include "run/export_run.h"
-#include "run/verify_folder.h"
+#include "run/run/export_run.h"
+#include "run/run/verify_folder.h"
 
 namespace kerf::python {
 

@@ -6,14 +6,14 @@
 
 #include <pybind11/stl.h>
 
-#include "prepare/input.h"
 #include "python/arrays.h"
 #include "python/options.h"
 #include "python/surface_arrays.h"
 #include "python/surface_object.h"
 #include "python/text.h"
-#include "report/repair_json.h"
-#include "surface/solid_properties.h"
+#include "run/prepare/input.h"
+#include "run/report/repair_json.h"
+#include "surface/complex/solid_properties.h"
 
 namespace kerf::python {
 

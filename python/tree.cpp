@@ -11,7 +11,7 @@
 #include "python/options.h"
 #include "python/pickling.h"
 #include "python/surface_object.h"
-#include "report/tree_text.h"
+#include "run/report/tree_text.h"
 
 namespace kerf::python {
 

@@ -13,10 +13,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "export/whole_mesh.h"
+#include "base/core/error.h"
+#include "files/export/whole_mesh.h"
+#include "fill/mesh/verification.h"
 #include "kerf/array_edge_nodes.h"
-#include "mesh/verification.h"
 
 namespace kerf {
 

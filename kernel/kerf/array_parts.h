@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "files/part/part.h"
+#include "files/part/shared_vertices.h"
 #include "kerf/kerf.h"
-#include "part/part.h"
-#include "part/shared_vertices.h"
 
 namespace kerf {
 

@@ -14,7 +14,7 @@
 
 #include <fmt/format.h>
 
-#include "export/whole_mesh.h"
+#include "files/export/whole_mesh.h"
 
 namespace kerf {
 

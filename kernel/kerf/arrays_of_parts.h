@@ -1,8 +1,8 @@
 // Parts as the arrays of one mesh.
 #pragma once
 
+#include "files/part/part_store.h"
 #include "kerf/kerf.h"
-#include "part/part_store.h"
 
 namespace kerf {
 

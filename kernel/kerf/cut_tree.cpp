@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/host_name.h"
+#include "base/core/host_name.h"
+#include "base/parallel/processors.h"
 #include "kerf/progress_listener.h"
 #include "kerf/run_request.h"
-#include "parallel/processors.h"
-#include "prepare/gathered_nodes.h"
-#include "run/cut_stage.h"
-#include "run/plan.h"
-#include "run/prepare_stage.h"
+#include "run/prepare/gathered_nodes.h"
+#include "run/run/cut_stage.h"
+#include "run/run/plan.h"
+#include "run/run/prepare_stage.h"
 
 namespace kerf {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "decompose/tree_node.h"
+#include "cut/decompose/tree_node.h"
 #include "kerf/kerf.h"
-#include "work/part_job.h"
+#include "run/work/part_job.h"
 
 namespace kerf {
 

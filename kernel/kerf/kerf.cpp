@@ -12,23 +12,23 @@
 
 #include <fmt/format.h>
 
-#include "core/version.h"
-#include "export/merged_file.h"
-#include "io/file_bytes.h"
-#include "io/program_finder.h"
-#include "io/run_folder.h"
-#include "io/temporary_folder.h"
+#include "base/core/version.h"
+#include "base/parallel/processors.h"
+#include "files/export/merged_file.h"
+#include "files/io/file_bytes.h"
+#include "files/io/program_finder.h"
+#include "files/io/run_folder.h"
+#include "files/io/temporary_folder.h"
+#include "files/part/second_order_parts.h"
+#include "files/part/solution_parts.h"
 #include "kerf/array_parts.h"
 #include "kerf/array_points.h"
 #include "kerf/arrays_of_parts.h"
 #include "kerf/mesh_on_ranks.h"
 #include "kerf/progress_listener.h"
 #include "kerf/run_request.h"
-#include "parallel/processors.h"
-#include "part/second_order_parts.h"
-#include "part/solution_parts.h"
-#include "prepare/remeshed_file.h"
-#include "run/pipeline.h"
+#include "run/prepare/remeshed_file.h"
+#include "run/run/pipeline.h"
 
 namespace kerf {
 

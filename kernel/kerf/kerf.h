@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 // The folder of kerf-worker, which the package of CMake defines.
 #ifndef KERF_PROGRAMS_FOLDER

@@ -9,12 +9,12 @@
 
 #include <fmt/format.h>
 
-#include "geometry/box.h"
+#include "base/geometry/box.h"
+#include "files/quality/compared_quality.h"
+#include "fill/mesh/faces.h"
 #include "kerf/array_edge_nodes.h"
 #include "kerf/array_points.h"
 #include "kerf/kerf.h"
-#include "mesh/faces.h"
-#include "quality/compared_quality.h"
 
 namespace kerf {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "base/parallel/communicator.h"
 #include "kerf/kerf.h"
-#include "parallel/communicator.h"
 
 namespace kerf {
 

@@ -1,7 +1,7 @@
 #include "kerf/mpi.h"
 
+#include "base/mpi/host_processors.h"
 #include "kerf/mesh_on_ranks.h"
-#include "mpi/host_processors.h"
 
 namespace kerf {
 

@@ -9,9 +9,9 @@
 #include <map>
 #include <utility>
 
+#include "fill/mesh/adjacency.h"
 #include "kerf/array_edge_nodes.h"
 #include "kerf/array_points.h"
-#include "mesh/adjacency.h"
 
 namespace kerf {
 

@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "files/part/part.h"
 #include "kerf/kerf.h"
-#include "part/part.h"
 
 namespace kerf {
 

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "kerf/kerf.h"
-#include "report/listener.h"
+#include "run/report/listener.h"
 
 namespace kerf {
 

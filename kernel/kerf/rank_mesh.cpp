@@ -11,9 +11,9 @@
 #include <map>
 #include <unordered_map>
 
-#include "part/joined_parts.h"
-#include "part/region_walls.h"
-#include "part/solution_parts.h"
+#include "files/part/joined_parts.h"
+#include "files/part/region_walls.h"
+#include "files/part/solution_parts.h"
 
 namespace kerf {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kerf/kerf.h"
-#include "request/options.h"
+#include "run/request/options.h"
 
 namespace kerf {
 

@@ -1,18 +1,18 @@
 // Surfaces of arrays and files, with errors that name all defects. Arrays become a Soup and go the way of a file
-// (make_input(), prepare/input.h). Where that throws UnfitSurface, its defects are those of the diagnosis that it
+// (make_input(), run/prepare/input.h). Where that throws UnfitSurface, its defects are those of the diagnosis that it
 // carries; where it throws another Error(input), the input is diagnosed once more as `kerf check` does, and if that
 // finds nothing, the message itself is the defect. So a SurfaceError always has a defect at least.
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "io/output_file.h"
+#include "files/io/output_file.h"
 #include "kerf/array_points.h"
 #include "kerf/kerf.h"
 #include "kerf/progress_listener.h"
-#include "prepare/surface_file.h"
-#include "report/file_diagnosis.h"
-#include "request/options.h"
+#include "run/prepare/surface_file.h"
+#include "run/report/file_diagnosis.h"
+#include "run/request/options.h"
 
 namespace kerf {
 

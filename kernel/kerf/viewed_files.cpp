@@ -13,21 +13,21 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/unique_name.h"
-#include "io/json.h"
-#include "io/obj_writer.h"
-#include "io/path_text.h"
-#include "io/run_folder.h"
-#include "io/run_manifest.h"
-#include "io/text_file.h"
+#include "base/core/unique_name.h"
+#include "files/io/json.h"
+#include "files/io/obj_writer.h"
+#include "files/io/path_text.h"
+#include "files/io/run_folder.h"
+#include "files/io/run_manifest.h"
+#include "files/io/text_file.h"
+#include "files/part/vtu_writer.h"
+#include "files/quality/quality_json.h"
 #include "kerf/array_edge_nodes.h"
 #include "kerf/parts_of_arrays.h"
-#include "part/vtu_writer.h"
-#include "prepare/input.h"
-#include "prepare/input_files.h"
-#include "quality/quality_json.h"
-#include "report/cut_json.h"
-#include "surface/mass_properties.h"
+#include "run/prepare/input.h"
+#include "run/prepare/input_files.h"
+#include "run/report/cut_json.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 

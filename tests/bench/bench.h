@@ -13,8 +13,8 @@
 
 #include <fmt/format.h>
 
-#include "mesh/quality.h"
-#include "surface/surface.h"
+#include "fill/mesh/quality.h"
+#include "surface/complex/surface.h"
 
 namespace kerf::bench {
 

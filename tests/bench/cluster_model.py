@@ -1,7 +1,7 @@
 """What a run of Kerf takes on many hosts, replayed from the costs of its stages on one core.
 
 Costs are measured (`costs_of_runs`), the machine is assumed (`Machine`); `replay` puts them together for any numbers of
-facets, cells and ranks and returns the seconds of each term. The order of a run is that of kernel/run/pipeline.h: the
+facets, cells and ranks and returns the seconds of each term. The order of a run is that of run/run/pipeline.h: the
 root rank reads and checks; a cut is made once, by the lowest rank that has a part below it, which may use the cores of
 the ranks that wait for it; one half goes to the rank that leads it; interfaces are matched by owner; ranks take parts,
 longest first; they write what they have, and the root writes the report.

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "bench/bench.h"
-#include "decompose/decomposition.h"
-#include "prepare/input.h"
+#include "cut/decompose/decomposition.h"
+#include "run/prepare/input.h"
 #include "support/shapes.h"
 
 namespace kerf {

@@ -18,7 +18,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <fmt/format.h>
 
-#include "delaunay/delaunay.h"
+#include "fill/delaunay/delaunay.h"
 
 namespace kerf {
 

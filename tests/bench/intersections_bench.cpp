@@ -8,9 +8,9 @@
 #include <CGAL/box_intersection_d.h>
 #include <benchmark/benchmark.h>
 
-#include "geometry/box.h"
-#include "io/surface_reader.h"
-#include "surface/intersections.h"
+#include "base/geometry/box.h"
+#include "files/io/surface_reader.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf {
 

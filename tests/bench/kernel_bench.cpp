@@ -6,12 +6,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include "decompose/decomposition.h"
-#include "geometry/max_flow.h"
-#include "io/surface_reader.h"
-#include "mesh/quality.h"
-#include "prepare/input.h"
-#include "surface/diagnosis.h"
+#include "base/geometry/max_flow.h"
+#include "cut/decompose/decomposition.h"
+#include "files/io/surface_reader.h"
+#include "fill/mesh/quality.h"
+#include "run/prepare/input.h"
+#include "surface/diagnosis/diagnosis.h"
 
 namespace kerf {
 

@@ -15,14 +15,14 @@
 #include <fmt/format.h>
 
 #include "bench/bench.h"
-#include "io/stl_writer.h"
-#include "io/tet_mesh_reader.h"
-#include "mesh/quality.h"
-#include "mesh/verification.h"
-#include "prepare/input.h"
-#include "surface/mass_properties.h"
-#include "surface/orientation.h"
-#include "volume/meshers.h"
+#include "files/io/stl_writer.h"
+#include "files/io/tet_mesh_reader.h"
+#include "fill/mesh/quality.h"
+#include "fill/mesh/verification.h"
+#include "fill/volume/meshers.h"
+#include "run/prepare/input.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/orientation.h"
 
 namespace kerf {
 

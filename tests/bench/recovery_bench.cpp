@@ -18,12 +18,12 @@
 
 #include <fmt/format.h>
 
+#include "base/core/error.h"
 #include "bench/bench.h"
 #include "bench/recovery_passes.h"
 #include "bench/surface_reduction.h"
-#include "core/error.h"
-#include "io/obj_writer.h"
-#include "prepare/input.h"
+#include "files/io/obj_writer.h"
+#include "run/prepare/input.h"
 #include "support/hard_surfaces.h"
 
 namespace kerf {

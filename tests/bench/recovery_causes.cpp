@@ -23,15 +23,15 @@
 #include <fmt/ranges.h>
 #include <Eigen/Geometry>
 
+#include "base/geometry/angles.h"
+#include "base/geometry/triangle.h"
 #include "bench/bench.h"
-#include "delaunay/delaunay.h"
-#include "delaunay/faces.h"
-#include "geometry/angles.h"
-#include "geometry/triangle.h"
-#include "io/obj_writer.h"
-#include "prepare/input.h"
-#include "shell/face_recovery.h"
-#include "surface/triangle_tree.h"
+#include "files/io/obj_writer.h"
+#include "fill/delaunay/delaunay.h"
+#include "fill/delaunay/faces.h"
+#include "fill/shell/face_recovery.h"
+#include "run/prepare/input.h"
+#include "surface/soup/triangle_tree.h"
 
 namespace kerf {
 

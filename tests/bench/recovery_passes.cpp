@@ -12,12 +12,12 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "lattice/lattice_core.h"
-#include "mesh/verification.h"
-#include "shell/shell.h"
-#include "surface/mass_properties.h"
-#include "volume/mesher.h"
+#include "base/core/error.h"
+#include "fill/lattice/lattice_core.h"
+#include "fill/mesh/verification.h"
+#include "fill/shell/shell.h"
+#include "fill/volume/mesher.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf::bench {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "surface/surface.h"
+#include "surface/complex/surface.h"
 
 namespace kerf::bench {
 

@@ -22,16 +22,16 @@
 #define TETLIBRARY
 #include <tetgen.h>
 
+#include "base/geometry/box.h"
 #include "bench/bench.h"
-#include "geometry/box.h"
-#include "io/surface_reader.h"
-#include "io/tet_mesh_reader.h"
-#include "prepare/input.h"
+#include "files/io/surface_reader.h"
+#include "files/io/tet_mesh_reader.h"
+#include "fill/volume/mesher.h"
+#include "run/prepare/input.h"
 #include "support/region_bodies.h"
 #include "support/shapes.h"
 #include "support/voxel_regions.h"
-#include "surface/mass_properties.h"
-#include "volume/mesher.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 

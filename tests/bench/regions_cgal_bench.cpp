@@ -21,7 +21,7 @@
 #include <fmt/format.h>
 
 #include "bench/bench.h"
-#include "prepare/input.h"
+#include "run/prepare/input.h"
 
 namespace kerf {
 

@@ -19,11 +19,11 @@
 #include <Eigen/Geometry>
 
 #include "bench/bench.h"
-#include "io/stl_writer.h"
-#include "prepare/input.h"
-#include "remesh/remesh.h"
+#include "files/io/stl_writer.h"
+#include "run/prepare/input.h"
 #include "support/write_off.h"
-#include "surface/triangle_tree.h"
+#include "surface/remesh/remesh.h"
+#include "surface/soup/triangle_tree.h"
 
 namespace kerf {
 

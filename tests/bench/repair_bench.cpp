@@ -11,12 +11,12 @@
 
 #include <fmt/format.h>
 
+#include "base/geometry/box.h"
 #include "bench/bench.h"
-#include "geometry/box.h"
-#include "io/surface_reader.h"
-#include "prepare/input.h"
-#include "surface/mass_properties.h"
-#include "surface/triangle_tree.h"
+#include "files/io/surface_reader.h"
+#include "run/prepare/input.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/soup/triangle_tree.h"
 
 namespace kerf {
 

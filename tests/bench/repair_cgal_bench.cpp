@@ -22,8 +22,8 @@
 #include <fmt/format.h>
 
 #include "bench/bench.h"
-#include "io/obj_writer.h"
-#include "io/surface_reader.h"
+#include "files/io/obj_writer.h"
+#include "files/io/surface_reader.h"
 
 namespace kerf {
 

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 
 #include "bench/bench.h"
-#include "io/stl_writer.h"
-#include "io/tet_mesh_reader.h"
-#include "prepare/input.h"
+#include "files/io/stl_writer.h"
+#include "files/io/tet_mesh_reader.h"
+#include "run/prepare/input.h"
 
 namespace kerf {
 

@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include "mpi/mpi_ranks.h"
-#include "part/run_parts.h"
-#include "solve/linear_system.h"
-#include "solve/stress.h"
+#include "base/mpi/mpi_ranks.h"
+#include "files/part/run_parts.h"
+#include "solve/equations/linear_system.h"
+#include "solve/equations/stress.h"
 #include "support/known_fields.h"
 
 namespace kerf {

@@ -6,8 +6,8 @@
 
 #include "support/facet_height.h"
 #include "support/shapes.h"
-#include "surface/diagnosis.h"
-#include "surface/orientation.h"
+#include "surface/diagnosis/diagnosis.h"
+#include "surface/diagnosis/orientation.h"
 
 namespace kerf::bench {
 

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/stopwatch.h"
-#include "parallel/process_memory.h"
+#include "base/core/stopwatch.h"
+#include "base/parallel/process_memory.h"
 #include "support/assets.h"
 #include "support/write_off.h"
 #include "viewer/driver.h"

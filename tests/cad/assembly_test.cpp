@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/core/error.h"
 #include "cad/cad_files.h"
-#include "cad/cad_import.h"
-#include "core/error.h"
-#include "io/file_bytes.h"
-#include "prepare/input.h"
+#include "files/cad/cad_import.h"
+#include "files/io/file_bytes.h"
+#include "run/prepare/input.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"

@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "cad/cad_import.h"
-#include "core/error.h"
-#include "io/file_bytes.h"
-#include "prepare/input.h"
+#include "base/core/error.h"
+#include "files/cad/cad_import.h"
+#include "files/io/file_bytes.h"
+#include "run/prepare/input.h"
 #include "support/places.h"
 
 namespace kerf {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "cad/cad_files.h"
-#include "io/cad_body.h"
-#include "io/file_bytes.h"
+#include "files/io/cad_body.h"
+#include "files/io/file_bytes.h"
 #include "support/file_contents.h"
 #ifdef KERF_MPIRUN
 #include "support/mpirun.h"

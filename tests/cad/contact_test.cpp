@@ -1,13 +1,13 @@
 // Solids that touch are found by coarse facets, and those that are near each other are not.
-#include "cad/contact.h"
+#include "files/cad/contact.h"
 
 #include <optional>
 
 #include <gtest/gtest.h>
 
 #include "cad/cad_files.h"
-#include "cad/cad_import.h"
-#include "io/file_bytes.h"
+#include "files/cad/cad_import.h"
+#include "files/io/file_bytes.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

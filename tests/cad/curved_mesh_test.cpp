@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cad/cad_files.h"
-#include "io/file_bytes.h"
-#include "quality/measured_mesh.h"
+#include "files/io/file_bytes.h"
+#include "files/quality/measured_mesh.h"
 #include "support/file_contents.h"
 #include "support/places.h"
 #include "support/program.h"

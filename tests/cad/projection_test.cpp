@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/core/error.h"
 #include "cad/cad_files.h"
-#include "cad/cad_import.h"
-#include "core/error.h"
-#include "io/file_bytes.h"
-#include "prepare/cad_input.h"
+#include "files/cad/cad_import.h"
+#include "files/io/file_bytes.h"
+#include "run/prepare/cad_input.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "decompose/decomposition.h"
+#include "cut/decompose/decomposition.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"

@@ -8,9 +8,9 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include "io/run_folder.h"
-#include "io/surface_reader.h"
-#include "part/vtu_writer.h"
+#include "files/io/run_folder.h"
+#include "files/io/surface_reader.h"
+#include "files/part/vtu_writer.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"

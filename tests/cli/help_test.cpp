@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "help/old_spellings.h"
-#include "request/options.h"
+#include "run/request/options.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/lines.h"

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/file_bytes.h"
-#include "part/run_parts.h"
-#include "prepare/input.h"
+#include "files/io/file_bytes.h"
+#include "files/part/run_parts.h"
+#include "run/prepare/input.h"
 #include "support/assets.h"
 #include "support/program.h"
 #include "support/run_laws.h"

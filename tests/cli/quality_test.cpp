@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "part/vtu_reader.h"
+#include "files/part/vtu_reader.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/places.h"

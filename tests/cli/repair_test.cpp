@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/surface_reader.h"
+#include "files/io/surface_reader.h"
 #include "support/assets.h"
 #include "support/damage.h"
 #include "support/file_contents.h"

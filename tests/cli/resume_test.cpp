@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/run_folder.h"
+#include "files/io/run_folder.h"
 #include "support/all_formats.h"
 #include "support/assets.h"
 #include "support/file_contents.h"

@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/folder_files.h"
-#include "io/run_manifest.h"
-#include "part/vtu_reader.h"
-#include "part/vtu_writer.h"
+#include "files/io/folder_files.h"
+#include "files/io/run_manifest.h"
+#include "files/part/vtu_reader.h"
+#include "files/part/vtu_writer.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"

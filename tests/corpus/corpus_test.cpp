@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "prepare/remeshing.h"
+#include "base/core/error.h"
+#include "run/prepare/remeshing.h"
 #include "support/damage.h"
 #include "support/decomposition_laws.h"
 #include "support/places.h"

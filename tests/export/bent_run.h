@@ -5,8 +5,8 @@
 #include <map>
 
 #include "export/cases.h"
-#include "part/run_parts.h"
-#include "part/second_order_parts.h"
+#include "files/part/run_parts.h"
+#include "files/part/second_order_parts.h"
 
 namespace kerf::test {
 

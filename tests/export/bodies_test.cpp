@@ -1,11 +1,11 @@
 // Which body a tetrahedron belongs to.
-#include "part/bodies.h"
+#include "files/part/bodies.h"
 
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
-#include "part/joined_parts.h"
-#include "part/run_parts.h"
+#include "files/part/joined_parts.h"
+#include "files/part/run_parts.h"
 
 namespace kerf {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

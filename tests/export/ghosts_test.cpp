@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
-#include "export/ghosts.h"
-#include "part/parts_of_order.h"
-#include "part/run_parts.h"
-#include "run/edge_numbering.h"
+#include "files/export/ghosts.h"
+#include "files/part/parts_of_order.h"
+#include "files/part/run_parts.h"
+#include "run/run/edge_numbering.h"
 
 namespace kerf::ghosts_test {
 namespace {

@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "export/cases.h"
-#include "export/format.h"
-#include "io/file_bytes.h"
-#include "part/run_parts.h"
+#include "files/export/format.h"
+#include "files/io/file_bytes.h"
+#include "files/part/run_parts.h"
 #include "support/temporary_folder.h"
 
 namespace kerf::hdf5_test {

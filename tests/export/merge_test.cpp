@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
-#include "export/format.h"
+#include "files/export/format.h"
 #include "support/file_contents.h"
 #include "support/places.h"
 #include "support/program.h"

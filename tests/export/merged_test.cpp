@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "export/by_patch.h"
+#include "base/core/error.h"
 #include "export/cases.h"
-#include "export/format.h"
 #include "export/merged_readers.h"
-#include "export/whole_mesh.h"
-#include "export/word_names.h"
-#include "part/bodies.h"
-#include "part/run_parts.h"
+#include "files/export/by_patch.h"
+#include "files/export/format.h"
+#include "files/export/whole_mesh.h"
+#include "files/export/word_names.h"
+#include "files/part/bodies.h"
+#include "files/part/run_parts.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "export/bent_run.h"
-#include "export/format.h"
 #include "export/input_sums.h"
-#include "part/bodies.h"
-#include "part/joined_parts.h"
-#include "part/run_parts.h"
+#include "files/export/format.h"
+#include "files/part/bodies.h"
+#include "files/part/joined_parts.h"
+#include "files/part/run_parts.h"
 #include "support/temporary_folder.h"
 
 namespace kerf::mfem_test {

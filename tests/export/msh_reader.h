@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 #include "support/file_contents.h"
 
 namespace kerf::test {

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "export/cases.h"
-#include "export/format.h"
 #include "export/msh_reader.h"
-#include "part/bodies.h"
-#include "part/run_parts.h"
+#include "files/export/format.h"
+#include "files/part/bodies.h"
+#include "files/part/run_parts.h"
 #include "support/temporary_folder.h"
 
 namespace kerf::msh_test {

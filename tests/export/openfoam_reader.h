@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/types.h"
+#include "base/core/types.h"
 #include "support/file_contents.h"
 
 namespace kerf::test::openfoam {

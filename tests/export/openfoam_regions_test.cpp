@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "export/cases.h"
-#include "export/format.h"
 #include "export/openfoam_laws.h"
 #include "export/regions_cases.h"
+#include "files/export/format.h"
 
 namespace kerf::openfoam_regions_test {
 namespace {

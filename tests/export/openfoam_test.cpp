@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "export/cases.h"
-#include "export/format.h"
 #include "export/openfoam_laws.h"
-#include "part/run_parts.h"
+#include "files/export/format.h"
+#include "files/part/run_parts.h"
 #include "support/file_contents.h"
 #include "support/temporary_folder.h"
 

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
-#include "mesh/adjacency.h"
-#include "mesh/verification.h"
-#include "part/joined_parts.h"
-#include "part/run_parts.h"
+#include "files/part/joined_parts.h"
+#include "files/part/run_parts.h"
+#include "fill/mesh/adjacency.h"
+#include "fill/mesh/verification.h"
 
 namespace kerf {
 namespace {

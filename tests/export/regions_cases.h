@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "part/joined_parts.h"
-#include "part/run_parts.h"
+#include "files/part/joined_parts.h"
+#include "files/part/run_parts.h"
 #include "support/run_in_process.h"
 #include "support/temporary_folder.h"
 #include "support/voxel_regions.h"

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "export/format.h"
-#include "export/hdf5_arrays.h"
 #include "export/merged_readers.h"
 #include "export/msh_reader.h"
 #include "export/regions_cases.h"
-#include "part/joined_surfaces.h"
+#include "files/export/format.h"
+#include "files/export/hdf5_arrays.h"
+#include "files/part/joined_surfaces.h"
 #include "support/all_formats.h"
 #include "support/temporary_folder.h"
 

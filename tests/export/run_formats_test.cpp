@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
-#include "export/format.h"
-#include "io/file_bytes.h"
-#include "part/run_parts.h"
+#include "files/export/format.h"
+#include "files/io/file_bytes.h"
+#include "files/part/run_parts.h"
 #include "support/all_formats.h"
 #include "support/temporary_folder.h"
 

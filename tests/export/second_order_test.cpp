@@ -4,15 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "export/bent_run.h"
-#include "export/format.h"
-#include "export/merged_file.h"
 #include "export/merged_readers.h"
 #include "export/msh_reader.h"
-#include "export/whole_mesh.h"
-#include "mesh/edge_table.h"
-#include "part/parts_of_order.h"
+#include "files/export/format.h"
+#include "files/export/merged_file.h"
+#include "files/export/whole_mesh.h"
+#include "files/part/parts_of_order.h"
+#include "fill/mesh/edge_table.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 

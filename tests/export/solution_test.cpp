@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "io/tet_mesh_reader.h"
-#include "part/joined_parts.h"
-#include "part/solution_parts.h"
-#include "part/vtu_reader.h"
+#include "files/io/tet_mesh_reader.h"
+#include "files/part/joined_parts.h"
+#include "files/part/solution_parts.h"
+#include "files/part/vtu_reader.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/threads.h"
+#include "base/core/error.h"
+#include "base/core/threads.h"
 #include "export/cases.h"
-#include "io/folder_files.h"
-#include "run/verify_folder.h"
+#include "files/io/folder_files.h"
+#include "run/run/verify_folder.h"
 #include "support/temporary_folder.h"
 
 namespace kerf::verify_threads_test {

@@ -1,9 +1,9 @@
 // What every command does with a file before it cuts: read, weld, diagnose and, if it is clean, orient.
 #include <string>
 
+#include "files/io/surface_reader.h"
 #include "fuzzed.h"
-#include "io/surface_reader.h"
-#include "prepare/input.h"
+#include "run/prepare/input.h"
 
 namespace kerf {
 

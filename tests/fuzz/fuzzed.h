@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf::test {
 

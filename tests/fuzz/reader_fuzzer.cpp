@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
+#include "files/io/compressed.h"
+#include "files/io/surface_reader.h"
+#include "files/io/tet_mesh_reader.h"
 #include "fuzzed.h"
-#include "io/compressed.h"
-#include "io/surface_reader.h"
-#include "io/tet_mesh_reader.h"
 
 namespace kerf {
 

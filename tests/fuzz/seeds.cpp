@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "io/surface_reader.h"
+#include "files/io/surface_reader.h"
 #include "support/archives.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"

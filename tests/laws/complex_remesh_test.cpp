@@ -5,15 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/triangle.h"
-#include "prepare/labelled_facets.h"
-#include "remesh/remesh.h"
-#include "remesh/sheets.h"
+#include "base/geometry/triangle.h"
+#include "run/prepare/labelled_facets.h"
 #include "support/slice.h"
 #include "support/voxel_regions.h"
-#include "surface/edge_corners.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/intersections.h"
+#include "surface/remesh/remesh.h"
+#include "surface/remesh/sheets.h"
+#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "run/pipeline.h"
+#include "run/run/pipeline.h"
 #include "support/assets.h"
 #include "support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/bytes.h"
+#include "base/core/bytes.h"
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
 

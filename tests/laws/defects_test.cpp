@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "io/surface_reader.h"
-#include "prepare/input.h"
+#include "files/io/surface_reader.h"
+#include "run/prepare/input.h"
 #include "support/assets.h"
 #include "support/damage.h"
 #include "support/shapes.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {

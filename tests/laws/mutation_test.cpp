@@ -1,9 +1,9 @@
 // Whatever happens to a file, reading and checking it ends with a soup or with an error that blames the file.
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/surface_reader.h"
-#include "prepare/input.h"
+#include "base/core/error.h"
+#include "files/io/surface_reader.h"
+#include "run/prepare/input.h"
 #include "support/archives.h"
 #include "support/assets.h"
 #include "support/file_contents.h"

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "mesh/edge_table.h"
-#include "part/run_parts.h"
-#include "part/second_order_parts.h"
+#include "base/core/check.h"
+#include "files/part/run_parts.h"
+#include "files/part/second_order_parts.h"
+#include "fill/mesh/edge_table.h"
 #include "support/checked_run.h"
 #include "support/region_bodies.h"
 #include "support/temporary_folder.h"

@@ -6,18 +6,18 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/regular_tet.h"
-#include "geometry/box.h"
-#include "prepare/remeshing.h"
-#include "remesh/remesh.h"
-#include "run/pipeline.h"
-#include "size/size_options.h"
+#include "base/core/regular_tet.h"
+#include "base/geometry/box.h"
+#include "run/prepare/remeshing.h"
+#include "run/run/pipeline.h"
 #include "support/places.h"
 #include "support/shapes.h"
 #include "support/size_fields.h"
 #include "support/slice.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
+#include "surface/remesh/remesh.h"
+#include "surface/size/size_options.h"
 
 namespace kerf {
 namespace {

@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/box.h"
-#include "io/surface_reader.h"
-#include "prepare/input.h"
-#include "repair/repair.h"
+#include "base/geometry/box.h"
+#include "files/io/surface_reader.h"
+#include "run/prepare/input.h"
 #include "support/assets.h"
 #include "support/random_damage.h"
 #include "support/region_bodies.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
 #include "support/slice.h"
-#include "surface/mass_properties.h"
-#include "surface/triangle_tree.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/repair/repair.h"
+#include "surface/soup/triangle_tree.h"
 
 namespace kerf {
 namespace {

@@ -2,8 +2,8 @@
 // are divided, meshed and verified, and the parts have the coordinates of the input bit for bit.
 #include <gtest/gtest.h>
 
-#include "io/surface_reader.h"
-#include "prepare/input.h"
+#include "files/io/surface_reader.h"
+#include "run/prepare/input.h"
 #include "support/assets.h"
 #include "support/face.h"
 #include "support/program.h"

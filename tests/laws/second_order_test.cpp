@@ -11,13 +11,13 @@
 
 #include <gtest/gtest.h>
 
-#include "io/file_bytes.h"
-#include "io/run_folder.h"
-#include "part/curved_nodes_file.h"
-#include "part/joined_parts.h"
-#include "part/run_parts.h"
-#include "part/vtu_header.h"
-#include "run/verify_folder.h"
+#include "files/io/file_bytes.h"
+#include "files/io/run_folder.h"
+#include "files/part/curved_nodes_file.h"
+#include "files/part/joined_parts.h"
+#include "files/part/run_parts.h"
+#include "files/part/vtu_header.h"
+#include "run/run/verify_folder.h"
 #include "support/assets.h"
 #include "support/places.h"
 #include "support/run_in_process.h"

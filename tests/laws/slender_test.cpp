@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "geometry/box.h"
-#include "prepare/remeshing.h"
+#include "base/core/error.h"
+#include "base/geometry/box.h"
+#include "run/prepare/remeshing.h"
 #include "support/shapes.h"
 
 namespace kerf {

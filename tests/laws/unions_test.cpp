@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "geometry/triangle.h"
-#include "prepare/input.h"
+#include "base/geometry/triangle.h"
+#include "run/prepare/input.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
 

@@ -1,7 +1,7 @@
 // Ranks that are bound to processors: they start no more workers than these have room for, and say what lifts it.
 #include <gtest/gtest.h>
 
-#include "parallel/processors.h"
+#include "base/parallel/processors.h"
 #include "support/assets.h"
 #include "support/mpirun.h"
 #include "support/places.h"

@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "mpi/mpi_ranks.h"
+#include "base/mpi/mpi_ranks.h"
 #include "support/collective_laws.h"
 
 namespace kerf {

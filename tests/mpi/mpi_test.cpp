@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/host_name.h"
-#include "prepare/input.h"
+#include "base/core/host_name.h"
+#include "run/prepare/input.h"
 #include "support/all_formats.h"
 #include "support/assets.h"
 #include "support/file_contents.h"

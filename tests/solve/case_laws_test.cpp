@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "cube_of_parts.h"
-#include "solve/case_report.h"
-#include "solve/elastic_problem.h"
-#include "solve/linear_system.h"
+#include "solve/equations/elastic_problem.h"
+#include "solve/equations/linear_system.h"
+#include "solve/run/case_report.h"
 
 namespace kerf {
 namespace {

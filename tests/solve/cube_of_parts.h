@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "cli/ranks.h"
-#include "part/run_parts.h"
-#include "solve/fe_space.h"
+#include "files/part/run_parts.h"
+#include "solve/space/fe_space.h"
 #include "support/assets.h"
 #include "support/places.h"
 #include "support/program.h"

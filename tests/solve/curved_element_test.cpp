@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "solve/facet_element.h"
-#include "solve/mass_matrix.h"
-#include "solve/tet_element.h"
+#include "solve/equations/mass_matrix.h"
+#include "solve/space/facet_element.h"
+#include "solve/space/tet_element.h"
 
 namespace kerf {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "cube_of_parts.h"
-#include "solve/linear_system.h"
-#include "solve/stress.h"
+#include "solve/equations/linear_system.h"
+#include "solve/equations/stress.h"
 #include "support/known_fields.h"
 
 namespace kerf {

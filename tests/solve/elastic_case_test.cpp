@@ -1,5 +1,5 @@
 // Case files: what is understood, and that everything else is refused with its line.
-#include "solve/elastic_case.h"
+#include "solve/case/elastic_case.h"
 
 #include <fstream>
 #include <random>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "solve/node_frames.h"
-#include "solve/surface_selection.h"
+#include "base/core/error.h"
+#include "solve/multigrid/node_frames.h"
+#include "solve/space/surface_selection.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

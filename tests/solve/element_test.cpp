@@ -1,5 +1,5 @@
 // Laws of the elements, over random tetrahedra.
-#include "solve/tet_element.h"
+#include "solve/space/tet_element.h"
 
 #include <random>
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "part/run_parts.h"
-#include "solve/material.h"
+#include "files/part/run_parts.h"
+#include "solve/case/material.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/run_in_process.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/run_manifest.h"
+#include "files/io/run_manifest.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "part/vtu_reader.h"
-#include "solve/mass_matrix.h"
-#include "solve/modes.h"
+#include "files/part/vtu_reader.h"
+#include "solve/equations/mass_matrix.h"
+#include "solve/equations/modes.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"
 #include "support/places.h"

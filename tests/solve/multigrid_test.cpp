@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cube_of_parts.h"
-#include "solve/multigrid.h"
+#include "solve/multigrid/multigrid.h"
 
 namespace kerf {
 namespace {

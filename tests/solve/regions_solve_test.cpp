@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/tet_mesh_reader.h"
-#include "part/run_parts.h"
+#include "files/io/tet_mesh_reader.h"
+#include "files/part/run_parts.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/run_in_process.h"

@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/run_folder.h"
-#include "io/run_manifest.h"
-#include "part/vtu_reader.h"
-#include "solve/useful_ranks.h"
+#include "files/io/run_folder.h"
+#include "files/io/run_manifest.h"
+#include "files/part/vtu_reader.h"
+#include "solve/run/useful_ranks.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"

@@ -10,16 +10,16 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "cube_of_parts.h"
-#include "part/run_parts.h"
-#include "solve/block_rows.h"
-#include "solve/elastic_problem.h"
-#include "solve/error_sizes.h"
-#include "solve/held_stiffness.h"
-#include "solve/linear_system.h"
-#include "solve/rigid_motions.h"
-#include "solve/stress.h"
+#include "files/part/run_parts.h"
+#include "solve/equations/block_rows.h"
+#include "solve/equations/elastic_problem.h"
+#include "solve/equations/error_sizes.h"
+#include "solve/equations/held_stiffness.h"
+#include "solve/equations/linear_system.h"
+#include "solve/equations/rigid_motions.h"
+#include "solve/equations/stress.h"
 
 namespace kerf {
 namespace {

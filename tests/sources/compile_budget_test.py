@@ -171,9 +171,9 @@ class Trial:
 
 
 def try_includes(trial):
-    source = min((trial.root / "kernel/io").glob("*.cpp")).relative_to(trial.root)
+    source = min((trial.root / "kernel/files/io").glob("*.cpp")).relative_to(trial.root)
     trial.expect_with_include(source, "<CGAL/Surface_mesh.h>", [
-        "kernel/io: 1 of its sources see CGAL, the bound is 0", f"{source} -> <CGAL/Surface_mesh.h>"])
+        "kernel/files/io: 1 of its sources see CGAL, the bound is 0", f"{source} -> <CGAL/Surface_mesh.h>"])
     trial.expect_with_include("kernel/kerf/kerf.h", "<nlohmann/json.hpp>", [
         "of its sources see json, the bound is", ".cpp -> kernel/kerf/kerf.h -> <nlohmann/json.hpp>"])
     more = trial.root / "tests/unit/one_more_test.cpp"
@@ -183,15 +183,15 @@ def try_includes(trial):
 
 
 class FakeBuild:
-    """A build folder with two sources of kernel/io that use a precompiled header, as far as Ninja tells it."""
-    MADE, PRECOMPILED = "kernel/io/kerf_io.dir/joined/kerf_io.cpp.o", "kerf_precompiled.dir/cmake_pch.hxx.gch"
+    """A build folder with two sources of kernel/files/io that use a precompiled header, as far as Ninja tells it."""
+    MADE, PRECOMPILED = "kernel/files/io/kerf_io.dir/joined/kerf_io.cpp.o", "kerf_precompiled.dir/cmake_pch.hxx.gch"
 
     def __init__(self, root):
         self.folder, self.deps = root / "build", root / "deps.txt"
         self.folder.mkdir()
         rule = f"build {self.MADE}: CXX kerf_io.cpp | {self.folder / self.PRECOMPILED} || order\n"
         (self.folder / "build.ninja").write_text(rule)
-        self.sources = sorted((root / "kernel/io").glob("*.cpp"))[:2]
+        self.sources = sorted((root / "kernel/files/io").glob("*.cpp"))[:2]
 
     def arguments(self, precompiled, headers):
         read = {self.PRECOMPILED: precompiled, self.MADE: [*self.sources, *headers]}
@@ -211,10 +211,10 @@ def try_lines(trial):
     usual = build.arguments([known], ["../known.h"])
     trial.expect([], *usual, "--write")
     trial.expect([], *usual)
-    bound = read_bounds(trial.root)["kernel/io", "lines"]
+    bound = read_bounds(trial.root)["kernel/files/io", "lines"]
     if bound > 10_000:
-        sys.exit(f"The bound of kernel/io is {bound}: what is precompiled counts for it")
-    trial.expect(["kernel/io: ", f"lines of {heavy}"], *build.arguments([known], [known, heavy]))
+        sys.exit(f"The bound of kernel/files/io is {bound}: what is precompiled counts for it")
+    trial.expect(["kernel/files/io: ", f"lines of {heavy}"], *build.arguments([known], [known, heavy]))
     trial.expect(["kerf_precompiled: ", f"lines of {heavy}"], *build.arguments([known, heavy], [known]))
     build.deps.write_text("")
     trial.expect(["nothing is built there"], *build.no_arguments())

@@ -3,9 +3,9 @@
 import collections
 import re
 
-FOLDERS = ("kernel", "cli", "help", "viewer", "python", "tests")
+FOLDERS = ("kernel", "solve", "cli", "help", "viewer", "python", "tests")
 ROOTS = ("kernel/", "", "tests/")  # where the compiler looks for own headers
-DIVIDED = ("kernel", "viewer", "tests")  # into rooms, which the other folders are
+DEPTH = {"kernel": 3, "solve": 2, "viewer": 2, "tests": 2}  # folders that name a room; the others are one
 LIBRARIES = {
     "CGAL": re.compile(r"CGAL/"),
     "CLI11": re.compile(r"CLI/"),
@@ -18,9 +18,9 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">\n]+)[">]', re.M)
 
 
 def room_of(path):
-    """kernel/cut of kernel/cut/cut.h, cli of cli/merge.cpp."""
-    parts = path.split("/")
-    return "/".join(parts[:2] if parts[0] in DIVIDED and len(parts) > 2 else parts[:1])
+    """kernel/surface/repair of kernel/surface/repair/inside/rims.h, cli of cli/merge.cpp."""
+    folders = path.split("/")[:-1]
+    return "/".join(folders[:DEPTH.get(folders[0], 1)]) if folders else path
 
 
 def files_of(root):

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "export/format.h"
+#include "files/export/format.h"
 
 namespace kerf::test {
 

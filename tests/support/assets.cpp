@@ -1,8 +1,8 @@
 #include "support/assets.h"
 
-#include "io/surface_reader.h"
+#include "files/io/surface_reader.h"
 #include "support/shapes.h"
-#include "surface/orientation.h"
+#include "surface/diagnosis/orientation.h"
 
 namespace kerf::test {
 

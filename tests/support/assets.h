@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "support/places.h"
-#include "surface/surface.h"
+#include "surface/complex/surface.h"
 
 namespace kerf::test {
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/remeshing.h"
+#include "run/prepare/remeshing.h"
 #include "support/run_in_process.h"
 #include "support/run_laws.h"
 #include "support/temporary_folder.h"

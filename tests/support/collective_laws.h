@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mixed_bits.h"
-#include "parallel/on_root.h"
+#include "base/core/mixed_bits.h"
+#include "base/parallel/on_root.h"
 
 namespace kerf::test {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/communicator.h"
+#include "base/parallel/communicator.h"
 
 namespace kerf::test {
 

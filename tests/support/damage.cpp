@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "geometry/predicates.h"
+#include "base/geometry/predicates.h"
 #include "support/shapes.h"
-#include "surface/intersections.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf::test {
 

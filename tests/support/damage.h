@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/diagnosis.h"
+#include "surface/diagnosis/diagnosis.h"
 
 namespace kerf::test {
 

@@ -6,13 +6,13 @@
 #include <map>
 #include <tuple>
 
-#include "core/error.h"
-#include "decompose/straight_division.h"
+#include "base/core/error.h"
+#include "cut/decompose/straight_division.h"
 #include "support/face.h"
-#include "surface/facet_cover.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
-#include "surface/touching.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/complex/touching.h"
+#include "surface/diagnosis/facet_cover.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf::test {
 

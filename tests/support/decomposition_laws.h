@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "decompose/decomposition.h"
+#include "cut/decompose/decomposition.h"
 
 namespace kerf::test {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "support/seeded_numbers.h"
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

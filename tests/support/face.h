@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/types.h"
+#include "base/core/types.h"
 
 namespace kerf::test {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "geometry/triangle.h"
+#include "base/geometry/triangle.h"
 
 namespace kerf::test {
 

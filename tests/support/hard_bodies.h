@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 #include "support/seeded_numbers.h"
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

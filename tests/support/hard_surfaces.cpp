@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/facet_height.h"
 #include "support/faceted_prism.h"
 #include "support/hard_bodies.h"
 #include "support/shapes.h"
-#include "surface/diagnosis.h"
+#include "surface/diagnosis/diagnosis.h"
 
 namespace kerf::test {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "support/seeded_numbers.h"
-#include "surface/soup.h"
-#include "surface/surface.h"
+#include "surface/complex/surface.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 
@@ -32,8 +32,9 @@ struct HardSurface {
 
 /// A surface of the family of seed modulo their number, turned, scaled by 1e-3 to 1e3 and moved at random, of 20
 /// to some 2,000 facets: small ones are as frequent as large ones, by orders of magnitude. No facet is lower than 1e-8
-/// of its longest edge. Where chance makes one, or facets that meet, which is found exactly (surface/diagnosis.h), the
-/// next surface that chance gives is taken; nothing where that happens ten times. Deterministic.
+/// of its longest edge. Where chance makes one, or facets that meet, which is found exactly
+/// (surface/diagnosis/diagnosis.h), the next surface that chance gives is taken; nothing where that happens ten times.
+/// Deterministic.
 std::optional<HardSurface> hard_surface(std::uint64_t seed, int most_facets = 2000);
 
 }  // namespace kerf::test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "solve/elastic_problem.h"
+#include "solve/equations/elastic_problem.h"
 
 namespace kerf::test {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "geometry/predicates.h"
+#include "base/geometry/predicates.h"
 
 namespace kerf::test {
 

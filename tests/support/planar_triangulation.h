@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 #include "support/seeded_numbers.h"
 
 namespace kerf::test {

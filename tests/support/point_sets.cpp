@@ -6,7 +6,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
-#include "delaunay/triangulation.h"
+#include "fill/delaunay/triangulation.h"
 
 namespace kerf::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 
 namespace kerf {
 class Triangulation;

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "fill/volume/child_process.h"
 #include "support/places.h"
 #include "support/surroundings.h"
-#include "volume/child_process.h"
 
 namespace kerf::test {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "support/shapes.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf::test {
 

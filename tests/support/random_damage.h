@@ -4,7 +4,7 @@
 #include <array>
 
 #include "support/seeded_numbers.h"
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

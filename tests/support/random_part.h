@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "part/part.h"
+#include "files/part/part.h"
 
 namespace kerf::test {
 

@@ -1,7 +1,7 @@
 // Bodies of several regions by formula: what their surfaces are not made of cubes.
 #pragma once
 
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/box.h"
-#include "repair/repair_step.h"
+#include "base/geometry/box.h"
+#include "surface/repair/repair_step.h"
 
 namespace kerf::test {
 

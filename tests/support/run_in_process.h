@@ -1,7 +1,7 @@
 // Runs of the pipeline without the program around it.
 #pragma once
 
-#include "run/pipeline.h"
+#include "run/run/pipeline.h"
 #include "support/places.h"
 
 namespace kerf::test {

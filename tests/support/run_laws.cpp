@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "geometry/predicates.h"
+#include "base/geometry/predicates.h"
 #include "support/face.h"
-#include "surface/facet_cover.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/facet_cover.h"
 
 namespace kerf::test {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "part/vtu_reader.h"
-#include "surface/complex.h"
+#include "files/part/vtu_reader.h"
+#include "surface/complex/complex.h"
 
 namespace kerf::test {
 

@@ -2,11 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/file_bytes.h"
-#include "io/folder_files.h"
-#include "io/json.h"
-#include "io/run_manifest.h"
-#include "io/text_file.h"
+#include "files/io/file_bytes.h"
+#include "files/io/folder_files.h"
+#include "files/io/json.h"
+#include "files/io/run_manifest.h"
+#include "files/io/text_file.h"
 
 namespace kerf::test {
 

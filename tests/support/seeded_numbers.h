@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/mixed_bits.h"
+#include "base/core/mixed_bits.h"
 
 namespace kerf::test {
 

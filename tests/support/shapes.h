@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "surface/soup.h"
-#include "surface/surface.h"
+#include "surface/complex/surface.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

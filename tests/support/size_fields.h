@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "mesh/tet_mesh.h"
-#include "size/size_options.h"
+#include "fill/mesh/tet_mesh.h"
 #include "support/shapes.h"
+#include "surface/size/size_options.h"
 
 namespace kerf::test {
 

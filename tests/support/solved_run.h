@@ -7,11 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/json.h"
-#include "io/run_folder.h"
-#include "io/text_file.h"
-#include "part/run_parts.h"
-#include "part/vtu_writer.h"
+#include "files/io/json.h"
+#include "files/io/run_folder.h"
+#include "files/io/text_file.h"
+#include "files/part/run_parts.h"
+#include "files/part/vtu_writer.h"
 #include "support/sealed_run.h"
 
 namespace kerf::test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/text_file.h"
+#include "files/io/text_file.h"
 #include "support/file_contents.h"
 #include "support/sealed_run.h"
 

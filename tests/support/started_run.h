@@ -16,8 +16,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fill/volume/child_process.h"
 #include "support/file_contents.h"
-#include "volume/child_process.h"
 
 namespace kerf::test {
 

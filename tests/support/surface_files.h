@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

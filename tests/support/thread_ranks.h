@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parallel/communicator.h"
+#include "base/parallel/communicator.h"
 
 namespace kerf::test {
 

@@ -1,8 +1,8 @@
 // The options of a traced run.
 #pragma once
 
-#include "prepare/size_reader.h"
-#include "run/trace.h"
+#include "run/prepare/size_reader.h"
+#include "run/run/trace.h"
 
 namespace kerf::test {
 

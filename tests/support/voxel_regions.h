@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/complex.h"
+#include "surface/complex/complex.h"
 
 namespace kerf::test {
 

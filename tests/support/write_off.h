@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::test {
 

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "io/cad_body.h"
-#include "io/threemf_file.h"
-#include "io/zip_archive.h"
+#include "base/core/error.h"
+#include "files/io/cad_body.h"
+#include "files/io/threemf_file.h"
+#include "files/io/zip_archive.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"

@@ -21,7 +21,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/folder_files.h"
+#include "files/io/folder_files.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/mutation.h"
@@ -32,7 +32,7 @@
 #include "support/surroundings.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "fill/volume/child_process.h"
 #include "support/file_contents.h"
 #include "support/places.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
-#include "volume/child_process.h"
 
 namespace kerf::test {
 namespace {

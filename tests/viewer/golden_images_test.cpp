@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run/trace.h"
+#include "run/run/trace.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/places.h"

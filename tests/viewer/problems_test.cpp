@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "io/cad_body.h"
-#include "io/program_finder.h"
-#include "io/surface_reader.h"
-#include "prepare/input.h"
+#include "files/io/cad_body.h"
+#include "files/io/program_finder.h"
+#include "files/io/surface_reader.h"
+#include "run/prepare/input.h"
 #include "support/assets.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/edge_table.h"
+#include "fill/mesh/edge_table.h"
 #include "viewer/model/part_edges.h"
 #include "viewer/scene/cell_shapes.h"
 #include "viewer/scene/quadratic_triangle.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "io/stl_writer.h"
-#include "io/surface_reader.h"
+#include "files/io/stl_writer.h"
+#include "files/io/surface_reader.h"
 #include "support/assets.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"

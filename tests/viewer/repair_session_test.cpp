@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "io/file_bytes.h"
-#include "prepare/repaired_file.h"
-#include "repair/repair_step.h"
+#include "files/io/file_bytes.h"
+#include "run/prepare/repaired_file.h"
 #include "support/places.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
+#include "surface/repair/repair_step.h"
 #include "viewer/model/advice.h"
 #include "viewer/model/repaired_places.h"
 #include "viewer/model/session.h"

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/adjacency.h"
-#include "mesh/quality.h"
+#include "fill/mesh/adjacency.h"
+#include "fill/mesh/quality.h"
 #include "support/assets.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include "io/surface_reader.h"
+#include "files/io/surface_reader.h"
 #include "support/assets.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"

@@ -9,8 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/quality.h"
-#include "report/event_log.h"
+#include "fill/mesh/quality.h"
+#include "run/report/event_log.h"
+#include "run/work/journal.h"
 #include "support/assets.h"
 #include "support/places.h"
 #include "support/program.h"
@@ -20,7 +21,7 @@
 #include "support/temporary_folder.h"
 #include "support/trace_options.h"
 #include "support/write_off.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/loader.h"
 #include "viewer/model/node_surface.h"
@@ -29,7 +30,6 @@
 #include "viewer/model/run_events.h"
 #include "viewer/model/run_process.h"
 #include "viewer/model/store.h"
-#include "work/journal.h"
 
 namespace kerf::view {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "viewer/golden_image.h"

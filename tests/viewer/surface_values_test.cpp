@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/slivers.h"
+#include "run/prepare/slivers.h"
 #include "support/places.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/number_text.h"
+#include "base/core/number_text.h"
 #include "support/assets.h"
 #include "viewer/app/keys.h"
 #include "viewer/driver.h"

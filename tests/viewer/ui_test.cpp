@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include "core/words.h"
-#include "io/surface_reader.h"
-#include "request/options.h"
+#include "base/core/words.h"
+#include "files/io/surface_reader.h"
+#include "run/request/options.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"

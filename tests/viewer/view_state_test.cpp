@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/app/command_line.h"
 #include "viewer/model/view_state.h"
 #include "viewer/scene/shapes.h"

@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "core/error.h"
-#include "core/version.h"
+#include "base/core/error.h"
+#include "base/core/version.h"
 #include "help/number_option.h"
 #include "help/program_help.h"
-#include "request/config_file.h"
+#include "run/request/config_file.h"
 #include "viewer/app/scene_options.h"
 
 namespace kerf::view {

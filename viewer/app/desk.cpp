@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "core/error.h"
-#include "io/text_file.h"
+#include "base/core/error.h"
+#include "files/io/text_file.h"
 #include "viewer/model/file_kind.h"
 
 namespace kerf::view {

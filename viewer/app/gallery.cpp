@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/render/image.h"
 
 namespace kerf::view {

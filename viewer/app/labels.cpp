@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "core/number_text.h"
+#include "base/core/number_text.h"
 #include "viewer/panels/text.h"
 #include "viewer/render/line_labels.h"
 

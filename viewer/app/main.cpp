@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/out_of_memory.h"
-#include "io/program_finder.h"
-#include "io/standard_streams.h"
+#include "base/core/error.h"
+#include "base/core/out_of_memory.h"
+#include "files/io/program_finder.h"
+#include "files/io/standard_streams.h"
 #include "viewer/app/interruption.h"
 #include "viewer/app/screenshot.h"
 #include "viewer/app/settings.h"

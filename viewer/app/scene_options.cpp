@@ -13,11 +13,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "core/error.h"
+#include "base/core/error.h"
+#include "files/io/file_bytes.h"
 #include "help/command_help.h"
 #include "help/number_option.h"
 #include "help/usage_error.h"
-#include "io/file_bytes.h"
 #include "viewer/model/camera.h"
 
 namespace kerf::view {

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "core/error.h"
-#include "io/output_file.h"
+#include "base/core/error.h"
+#include "files/io/output_file.h"
 #include "viewer/app/interruption.h"
 #include "viewer/model/surface_values.h"
 #include "viewer/render/offscreen.h"

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/json.h"
+#include "files/io/json.h"
 
 namespace kerf::view {
 

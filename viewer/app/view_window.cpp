@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/app/interruption.h"
 #include "viewer/app/settings.h"
 #include "viewer/render/window.h"

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "geometry/box.h"
-#include "repair/repair_plan.h"
+#include "base/core/error.h"
+#include "base/geometry/box.h"
+#include "surface/repair/repair_plan.h"
 
 namespace kerf::view {
 

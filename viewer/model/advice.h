@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "prepare/input.h"
-#include "request/options.h"
+#include "run/prepare/input.h"
+#include "run/request/options.h"
 
 namespace kerf::view {
 

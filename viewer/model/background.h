@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/model/loader.h"
 
 namespace kerf::view {

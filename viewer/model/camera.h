@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/types.h"
+#include "base/core/types.h"
 
 namespace kerf::view {
 

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/listed_files.h"
+#include "files/io/listed_files.h"
 
 namespace kerf::view {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "prepare/slivers.h"
-#include "request/options.h"
+#include "run/prepare/slivers.h"
+#include "run/request/options.h"
 #include "viewer/model/node_surface.h"
 
 namespace kerf::view {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "prepare/input.h"
-#include "prepare/input_files.h"
-#include "surface/mass_properties.h"
+#include "run/prepare/input.h"
+#include "run/prepare/input_files.h"
+#include "surface/complex/mass_properties.h"
 #include "viewer/model/document.h"
 
 namespace kerf::view {

@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "prepare/input.h"
-#include "request/options.h"
-#include "run/trace.h"
+#include "base/core/error.h"
+#include "run/prepare/input.h"
+#include "run/request/options.h"
+#include "run/run/trace.h"
 #include "viewer/model/region_places.h"
 #include "viewer/model/solution.h"
 #include "viewer/model/tree.h"

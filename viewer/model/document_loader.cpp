@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/box.h"
-#include "prepare/cad_input.h"
+#include "base/geometry/box.h"
+#include "run/prepare/cad_input.h"
 #include "viewer/model/node_surface.h"
 #include "viewer/model/tree_source.h"
 

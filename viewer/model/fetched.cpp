@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/box.h"
-#include "prepare/size_reader.h"
-#include "surface/mass_properties.h"
+#include "base/geometry/box.h"
+#include "run/prepare/size_reader.h"
+#include "surface/complex/mass_properties.h"
 #include "viewer/model/node_surface.h"
 #include "viewer/model/opened_run.h"
 #include "viewer/model/surface_values.h"

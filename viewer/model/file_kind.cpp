@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/json.h"
+#include "base/core/error.h"
+#include "files/io/json.h"
 
 namespace kerf::view {
 

@@ -1,11 +1,11 @@
-// The angles are those by which cut/acceptance.h judges an interface.
+// The angles are those by which cut/cut/acceptance.h judges an interface.
 #include "viewer/model/interface_places.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "geometry/angles.h"
+#include "base/geometry/angles.h"
 
 namespace kerf::view {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 
 namespace kerf::view {
 

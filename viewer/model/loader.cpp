@@ -1,5 +1,5 @@
 #include "viewer/model/loader.h"
-#include "core/out_of_memory.h"
+#include "base/core/out_of_memory.h"
 
 #include <chrono>
 #include <exception>

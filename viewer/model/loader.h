@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf::view {
 

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "geometry/box.h"
-#include "request/saved_run.h"
-#include "surface/mass_properties.h"
+#include "base/geometry/box.h"
+#include "run/request/saved_run.h"
+#include "surface/complex/mass_properties.h"
 #include "viewer/model/advice.h"
 #include "viewer/model/part_files.h"
 

@@ -1,7 +1,7 @@
 // The nodes on the edges of a part of second order, in the form in which the viewer has them.
 #pragma once
 
-#include "part/part.h"
+#include "files/part/part.h"
 #include "viewer/model/document.h"
 
 namespace kerf::view {

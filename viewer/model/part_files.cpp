@@ -15,14 +15,14 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "io/run_folder.h"
-#include "mesh/adjacency.h"
-#include "mesh/quality.h"
-#include "mesh/verification.h"
-#include "part/part_ranges.h"
-#include "part/run_parts.h"
-#include "part/vtu_reader.h"
+#include "base/core/error.h"
+#include "files/io/run_folder.h"
+#include "files/part/part_ranges.h"
+#include "files/part/run_parts.h"
+#include "files/part/vtu_reader.h"
+#include "fill/mesh/adjacency.h"
+#include "fill/mesh/quality.h"
+#include "fill/mesh/verification.h"
 #include "viewer/model/checked_files.h"
 #include "viewer/model/part_edges.h"
 

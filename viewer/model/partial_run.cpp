@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/host_name.h"
-#include "io/run_folder.h"
-#include "part/vtu_reader.h"
-#include "work/journal.h"
+#include "base/core/host_name.h"
+#include "files/io/run_folder.h"
+#include "files/part/vtu_reader.h"
+#include "run/work/journal.h"
 
 namespace kerf::view {
 

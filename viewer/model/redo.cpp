@@ -13,12 +13,12 @@
 #include <optional>
 #include <utility>
 
-#include "cut/bisect.h"
-#include "cut/place.h"
-#include "decompose/cap_quality.h"
-#include "decompose/cap_triangulation.h"
-#include "prepare/size_reader.h"
-#include "surface/touching.h"
+#include "cut/cut/bisect.h"
+#include "cut/cut/place.h"
+#include "cut/decompose/cap_quality.h"
+#include "cut/decompose/cap_triangulation.h"
+#include "run/prepare/size_reader.h"
+#include "surface/complex/touching.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {

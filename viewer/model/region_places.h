@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "run/trace.h"
+#include "run/run/trace.h"
 #include "viewer/model/tree.h"
 
 namespace kerf::view {

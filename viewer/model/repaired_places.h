@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 namespace kerf::view {
 

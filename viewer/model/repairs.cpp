@@ -9,9 +9,9 @@
 
 #include <utility>
 
-#include "core/error.h"
-#include "geometry/box.h"
-#include "prepare/repaired_file.h"
+#include "base/core/error.h"
+#include "base/geometry/box.h"
+#include "run/prepare/repaired_file.h"
 #include "viewer/model/advice.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/node_surface.h"

@@ -34,8 +34,9 @@ class Repairs {
     bool can_redo() const { return can_repair() && history_.can_redo(); }
     void undo();
     void redo();
-    /// Writes the surface, repaired as it is shown, in the background, as kerf repair does (prepare/repaired_file.h).
-    /// At the end Document::surface_saved_as is the file, or Session::failures() has the error.
+    /// Writes the surface, repaired as it is shown, in the background, as kerf repair does
+    /// (run/prepare/repaired_file.h). At the end Document::surface_saved_as is the file, or Session::failures() has the
+    /// error.
     void save(const std::string& path);
 
     // The functions below are for the other parts of a session.

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "cut/split.h"
+#include "base/core/error.h"
+#include "cut/cut/split.h"
 #include "viewer/model/tree.h"
 
 namespace kerf::view {

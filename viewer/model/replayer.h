@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "run/trace.h"
+#include "run/run/trace.h"
 
 namespace kerf::view {
 

@@ -11,8 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/json.h"
-#include "io/path_text.h"
+#include "files/io/json.h"
+#include "files/io/path_text.h"
 #include "viewer/model/tree_source.h"
 
 namespace kerf::view {

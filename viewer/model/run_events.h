@@ -1,4 +1,4 @@
-// Reads the lines of an events file (report/event_log.h) as they come.
+// Reads the lines of an events file (run/report/event_log.h) as they come.
 #pragma once
 
 #include <cstdint>

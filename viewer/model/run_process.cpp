@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "io/checked_file.h"
+#include "base/core/error.h"
+#include "files/io/checked_file.h"
 
 namespace kerf::view {
 

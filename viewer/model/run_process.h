@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "request/options.h"
-#include "run/trace.h"
-#include "volume/child_process.h"
+#include "fill/volume/child_process.h"
+#include "run/request/options.h"
+#include "run/run/trace.h"
 
 namespace kerf::view {
 

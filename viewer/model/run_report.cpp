@@ -12,13 +12,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/json.h"
-#include "io/listed_files.h"
-#include "io/path_text.h"
-#include "mesh/quality.h"
-#include "part/run_names.h"
-#include "report/cut_json.h"
+#include "base/core/error.h"
+#include "files/io/json.h"
+#include "files/io/listed_files.h"
+#include "files/io/path_text.h"
+#include "files/part/run_names.h"
+#include "fill/mesh/quality.h"
+#include "run/report/cut_json.h"
 
 namespace kerf::view {
 

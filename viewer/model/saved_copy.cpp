@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "io/folder_files.h"
-#include "io/run_folder.h"
-#include "io/run_manifest.h"
+#include "base/core/error.h"
+#include "files/io/folder_files.h"
+#include "files/io/run_folder.h"
+#include "files/io/run_manifest.h"
 #include "viewer/model/file_kind.h"
 
 namespace kerf::view {

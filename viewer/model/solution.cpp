@@ -12,13 +12,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/json.h"
-#include "io/listed_files.h"
-#include "io/path_text.h"
-#include "io/run_folder.h"
-#include "part/solution_parts.h"
-#include "part/vtu_reader.h"
+#include "base/core/error.h"
+#include "files/io/json.h"
+#include "files/io/listed_files.h"
+#include "files/io/path_text.h"
+#include "files/io/run_folder.h"
+#include "files/part/solution_parts.h"
+#include "files/part/vtu_reader.h"
 #include "viewer/model/checked_files.h"
 
 namespace kerf::view {

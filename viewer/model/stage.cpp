@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/words.h"
+#include "base/core/error.h"
+#include "base/core/words.h"
 
 namespace kerf::view {
 

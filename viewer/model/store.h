@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 
-#include "core/types.h"
+#include "base/core/types.h"
 
 namespace kerf::view {
 

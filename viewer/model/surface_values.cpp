@@ -11,7 +11,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "surface/triangle_tree.h"
+#include "surface/soup/triangle_tree.h"
 
 namespace kerf::view {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "size/size_field.h"
+#include "surface/size/size_field.h"
 #include "viewer/model/document.h"
 #include "viewer/model/view_state.h"
 

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "core/number_text.h"
-#include "core/words.h"
+#include "base/core/number_text.h"
+#include "base/core/words.h"
 
 namespace kerf::view {
 

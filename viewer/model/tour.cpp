@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "core/number_text.h"
+#include "base/core/number_text.h"
 #include "viewer/model/timeline.h"
 
 namespace kerf::view {

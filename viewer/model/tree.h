@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cut/cut.h"
+#include "cut/cut/cut.h"
 
 namespace kerf::view {
 

@@ -1,8 +1,8 @@
 // Fills the rows of a tree from cuts, surfaces, and lists of parts.
 #pragma once
 
-#include "run/trace.h"
-#include "surface/mass_properties.h"
+#include "run/run/trace.h"
+#include "surface/complex/mass_properties.h"
 #include "viewer/model/tree.h"
 
 namespace kerf::view {

@@ -14,9 +14,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/json.h"
-#include "io/path_text.h"
+#include "base/core/error.h"
+#include "files/io/json.h"
+#include "files/io/path_text.h"
 #include "viewer/model/name_index.h"
 
 namespace kerf::view {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cut/cut.h"
-#include "request/options.h"
+#include "cut/cut/cut.h"
+#include "run/request/options.h"
 #include "viewer/model/camera.h"
 #include "viewer/model/stage.h"
 

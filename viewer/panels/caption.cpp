@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/number_text.h"
-#include "core/words.h"
+#include "base/core/number_text.h"
+#include "base/core/words.h"
 #include "viewer/model/shown_parts.h"
 #include "viewer/panels/parts.h"
 

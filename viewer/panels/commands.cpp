@@ -9,7 +9,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf::view {
 

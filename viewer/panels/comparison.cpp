@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/words.h"
+#include "base/core/words.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/panels/parts.h"
 
 namespace kerf::view {

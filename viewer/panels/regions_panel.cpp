@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/number_text.h"
+#include "base/core/number_text.h"
 #include "viewer/model/shown_parts.h"
 #include "viewer/panels/icons.h"
 #include "viewer/panels/parts.h"

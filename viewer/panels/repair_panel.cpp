@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "repair/repair_advice.h"
-#include "repair/repair_step.h"
+#include "base/core/error.h"
+#include "surface/repair/repair_advice.h"
+#include "surface/repair/repair_step.h"
 #include "viewer/model/advice.h"
 #include "viewer/model/line_of_sight.h"
 #include "viewer/model/repaired_places.h"

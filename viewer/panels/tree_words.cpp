@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/words.h"
+#include "base/core/words.h"
 #include "viewer/panels/text.h"
 
 namespace kerf::view {

@@ -10,7 +10,7 @@
 #include <EGL/eglext.h>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf::view {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf::view {
 

@@ -1,7 +1,7 @@
 // PNG files by stb_image and stb_image_write, compiled here alone and as static functions. Compression is zlib's best,
 // which makes files a quarter smaller than stb's own; stb frees the result, so that it must come from malloc(). A
-// written file has a text chunk "Software: Kerf" behind its header, by which io/output_kind.h knows that it may be
-// written over. Pixels are RGB, 8 bits, without alpha.
+// written file has a text chunk "Software: Kerf" behind its header, by which files/io/output_kind.h knows that it may
+// be written over. Pixels are RGB, 8 bits, without alpha.
 #include "viewer/render/image.h"
 
 #include <cstdlib>
@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/output_file.h"
+#include "base/core/error.h"
+#include "files/io/file_bytes.h"
+#include "files/io/output_file.h"
 
 namespace {
 
@@ -53,7 +53,7 @@ struct Free {
 };
 using Bytes = std::unique_ptr<unsigned char, Free>;
 
-// The PNG with a chunk behind its header that says whose picture it is (io/output_kind.h).
+// The PNG with a chunk behind its header that says whose picture it is (files/io/output_kind.h).
 std::string marked(std::string png) {
     using namespace std::string_literals;
     constexpr std::size_t end_of_header = 33;

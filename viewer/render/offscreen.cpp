@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/render/offscreen_contexts.h"
 
 namespace kerf::view {

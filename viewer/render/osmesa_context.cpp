@@ -10,7 +10,7 @@
 
 #include <GL/osmesa.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf::view {
 

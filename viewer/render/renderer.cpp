@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/render/framebuffer.h"
 #include "viewer/render/gl.h"
 #include "viewer/render/gpu_geometry.h"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "io/file_bytes.h"
+#include "base/core/error.h"
+#include "files/io/file_bytes.h"
 
 namespace kerf::view {
 

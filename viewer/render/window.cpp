@@ -16,7 +16,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "viewer/render/gl.h"
 
 namespace kerf::view {

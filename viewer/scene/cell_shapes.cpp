@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/edge_table.h"
-#include "mesh/tet_mesh.h"
+#include "fill/mesh/edge_table.h"
+#include "fill/mesh/tet_mesh.h"
 #include "viewer/scene/drawn_triangles.h"
 
 namespace kerf::view {

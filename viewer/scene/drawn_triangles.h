@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 #include "viewer/scene/layer.h"
 
 namespace kerf::view {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 #include "viewer/model/stage.h"
 
 namespace kerf::view {

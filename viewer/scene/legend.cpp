@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/words.h"
+#include "base/core/words.h"
 #include "viewer/scene/cut_layers.h"
 
 namespace kerf::view {

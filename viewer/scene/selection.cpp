@@ -14,10 +14,10 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "core/number_text.h"
-#include "geometry/angles.h"
-#include "mesh/quality.h"
-#include "mesh/tet_mesh.h"
+#include "base/core/number_text.h"
+#include "base/geometry/angles.h"
+#include "fill/mesh/quality.h"
+#include "fill/mesh/tet_mesh.h"
 #include "viewer/model/line_of_sight.h"
 #include "viewer/model/shown_parts.h"
 

@@ -1,4 +1,4 @@
-#include "core/ids.h"
+#include "base/core/ids.h"
 
 #include <string>
 #include <type_traits>

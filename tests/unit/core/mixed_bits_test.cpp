@@ -1,4 +1,4 @@
-#include "core/mixed_bits.h"
+#include "base/core/mixed_bits.h"
 
 #include <bit>
 

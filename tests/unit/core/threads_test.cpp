@@ -1,5 +1,5 @@
 // What runs on threads gives the same for any number of them, and says what went wrong first.
-#include "core/threads.h"
+#include "base/core/threads.h"
 
 #include <cstdint>
 #include <numeric>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/out_of_memory.h"
-#include "core/thread_limit.h"
+#include "base/core/out_of_memory.h"
+#include "base/core/thread_limit.h"
 
 namespace kerf {
 namespace {

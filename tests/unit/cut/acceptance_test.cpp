@@ -1,5 +1,5 @@
 // Interface, acceptance and split: from a contour to two closed halves.
-#include "cut/acceptance.h"
+#include "cut/cut/acceptance.h"
 
 #include <algorithm>
 #include <random>
@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include "cut/contour.h"
-#include "cut/shell_placement.h"
-#include "cut/split.h"
+#include "cut/cut/contour.h"
+#include "cut/cut/shell_placement.h"
+#include "cut/cut/split.h"
 #include "support/voxels.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
-#include "surface/touching.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/complex/touching.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf {
 namespace {

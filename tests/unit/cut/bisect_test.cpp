@@ -1,5 +1,5 @@
 // One whole cut on every asset: valid halves, whatever the remedy was.
-#include "cut/bisect.h"
+#include "cut/cut/bisect.h"
 
 #include <algorithm>
 #include <atomic>
@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/bytes.h"
-#include "core/error.h"
-#include "core/threads.h"
-#include "cut/place.h"
-#include "cut/plane.h"
-#include "decompose/decomposition.h"
+#include "base/core/bytes.h"
+#include "base/core/error.h"
+#include "base/core/threads.h"
+#include "cut/cut/place.h"
+#include "cut/cut/plane.h"
+#include "cut/decompose/decomposition.h"
 #include "support/assets.h"
 #include "support/shapes.h"
 #include "support/slice.h"

@@ -1,4 +1,4 @@
-#include "cut/lift.h"
+#include "cut/cut/lift.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cut/load.h"
+#include "cut/cut/load.h"
 
 #include <algorithm>
 #include <numbers>

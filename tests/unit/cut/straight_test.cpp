@@ -1,5 +1,5 @@
 // Facets split at a coordinate plane, the planes that are tried, and the check that pieces are their facet.
-#include "cut/straight.h"
+#include "cut/cut/straight.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "geometry/triangle.h"
+#include "base/geometry/triangle.h"
 #include "support/shapes.h"
-#include "surface/facet_cover.h"
+#include "surface/diagnosis/facet_cover.h"
 
 namespace kerf {
 namespace {

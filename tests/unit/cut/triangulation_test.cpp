@@ -1,4 +1,4 @@
-#include "cut/triangulation.h"
+#include "cut/cut/triangulation.h"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 namespace kerf {
 namespace {
 

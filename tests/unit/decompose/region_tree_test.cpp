@@ -1,11 +1,11 @@
-#include "decompose/region_tree.h"
+#include "cut/decompose/region_tree.h"
 
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "core/bytes.h"
-#include "decompose/decomposition.h"
+#include "base/core/bytes.h"
+#include "cut/decompose/decomposition.h"
 #include "support/voxel_regions.h"
 
 namespace kerf {

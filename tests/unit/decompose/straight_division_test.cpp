@@ -1,12 +1,12 @@
 // Whole trees of straight cuts obey every law, for any ranges of leaves, also where cuts along edges came before.
-#include "decompose/straight_division.h"
+#include "cut/decompose/straight_division.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "core/bytes.h"
-#include "core/error.h"
+#include "base/core/bytes.h"
+#include "base/core/error.h"
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
 #include "support/shapes.h"

@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bytes.h"
-#include "cut/facet_split.h"
-#include "decompose/straight_division.h"
+#include "base/core/bytes.h"
+#include "cut/cut/facet_split.h"
+#include "cut/decompose/straight_division.h"
 #include "support/decomposition_laws.h"
 #include "support/slice.h"
 #include "support/voxels.h"
-#include "surface/touching.h"
+#include "surface/complex/touching.h"
 
 namespace kerf {
 namespace {

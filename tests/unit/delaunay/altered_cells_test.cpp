@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "delaunay/delaunay.h"
-#include "delaunay/triangulation.h"
-#include "geometry/predicates.h"
+#include "base/geometry/predicates.h"
+#include "fill/delaunay/delaunay.h"
+#include "fill/delaunay/triangulation.h"
 #include "support/point_sets.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "delaunay/delaunay.h"
+#include "fill/delaunay/delaunay.h"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "delaunay/spatial_order.h"
+#include "fill/delaunay/spatial_order.h"
 #include "support/point_sets.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "delaunay/faces.h"
+#include "fill/delaunay/faces.h"
 
 #include <algorithm>
 #include <random>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "delaunay/delaunay.h"
-#include "geometry/predicates.h"
+#include "base/geometry/predicates.h"
+#include "fill/delaunay/delaunay.h"
 #include "support/point_sets.h"
 
 namespace kerf {

@@ -1,5 +1,5 @@
 // Triangulations point by point, walks, stars, and faces that stay.
-#include "delaunay/triangulation.h"
+#include "fill/delaunay/triangulation.h"
 
 #include <algorithm>
 #include <map>
@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "delaunay/delaunay.h"
-#include "geometry/predicates.h"
+#include "base/core/error.h"
+#include "base/geometry/predicates.h"
+#include "fill/delaunay/delaunay.h"
 #include "support/point_sets.h"
 
 namespace kerf {

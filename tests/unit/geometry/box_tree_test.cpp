@@ -1,4 +1,4 @@
-#include "geometry/box_tree.h"
+#include "base/geometry/box_tree.h"
 
 #include <numeric>
 #include <random>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/threads.h"
+#include "base/core/threads.h"
 
 namespace kerf {
 namespace {

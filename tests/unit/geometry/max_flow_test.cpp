@@ -1,4 +1,4 @@
-#include "geometry/max_flow.h"
+#include "base/geometry/max_flow.h"
 
 #include <array>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "geometry/overlap_tree.h"
+#include "base/geometry/overlap_tree.h"
 
 #include <numeric>
 #include <random>

@@ -1,11 +1,11 @@
-#include "geometry/predicates.h"
+#include "base/geometry/predicates.h"
 
 #include <random>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
-#include "geometry/wide_integer.h"
+#include "base/geometry/wide_integer.h"
 #include "support/point_sets.h"
 
 namespace kerf {

@@ -1,13 +1,13 @@
-#include "geometry/triangle.h"
+#include "base/geometry/triangle.h"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "geometry/angles.h"
-#include "geometry/box.h"
-#include "geometry/ray.h"
-#include "geometry/tetrahedron.h"
+#include "base/geometry/angles.h"
+#include "base/geometry/box.h"
+#include "base/geometry/ray.h"
+#include "base/geometry/tetrahedron.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "geometry/union_find.h"
+#include "base/geometry/union_find.h"
 
 #include <random>
 

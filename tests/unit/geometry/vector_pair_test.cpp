@@ -1,4 +1,4 @@
-#include "geometry/vector_pair.h"
+#include "base/geometry/vector_pair.h"
 
 #include <random>
 

@@ -1,5 +1,5 @@
 // The page of a run: what its bytes hold is what the run has, however coarse, and what is no finished run is refused.
-#include "html/report_page.h"
+#include "files/html/report_page.h"
 
 #include <cmath>
 #include <filesystem>
@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "html/packed_surface.h"
-#include "html/page_surface.h"
-#include "io/compressed.h"
+#include "files/html/packed_surface.h"
+#include "files/html/page_surface.h"
+#include "files/io/compressed.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/program.h"

@@ -1,4 +1,4 @@
-#include "improve/improve.h"
+#include "fill/improve/improve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "improve/edge_removal.h"
-#include "improve/edited_mesh.h"
-#include "mesh/adjacency.h"
-#include "mesh/verification.h"
-#include "shell/shell.h"
+#include "base/core/error.h"
+#include "fill/improve/edge_removal.h"
+#include "fill/improve/edited_mesh.h"
+#include "fill/mesh/adjacency.h"
+#include "fill/mesh/verification.h"
+#include "fill/shell/shell.h"
+#include "fill/volume/mesher.h"
 #include "support/shapes.h"
-#include "volume/mesher.h"
 
 namespace kerf {
 namespace {

@@ -1,10 +1,10 @@
-#include "io/compressed.h"
+#include "files/io/compressed.h"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/archives.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "io/json_rows.h"
+#include "files/io/json_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/run_manifest.h"
+#include "files/io/run_manifest.h"
 
 namespace kerf {
 namespace {

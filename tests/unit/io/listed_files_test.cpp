@@ -1,5 +1,5 @@
 // What is known of a finished run before a file of it is read.
-#include "io/listed_files.h"
+#include "files/io/listed_files.h"
 
 #include <filesystem>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "io/polygon_fan.h"
+#include "files/io/polygon_fan.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // Programs of Kerf are found in one order of places, and what is missing names them.
-#include "io/program_finder.h"
+#include "files/io/program_finder.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

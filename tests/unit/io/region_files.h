@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/types.h"
+#include "base/core/types.h"
 #include "support/surface_files.h"
 
 namespace kerf::test::regions {

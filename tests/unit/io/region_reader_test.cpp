@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "geometry/predicates.h"
-#include "geometry/tetrahedron.h"
-#include "io/surface_reader.h"
-#include "io/tet_skin.h"
+#include "base/core/error.h"
+#include "base/geometry/predicates.h"
+#include "base/geometry/tetrahedron.h"
+#include "files/io/surface_reader.h"
+#include "files/io/tet_skin.h"
 #include "region_files.h"
 #include "support/seeded_numbers.h"
 

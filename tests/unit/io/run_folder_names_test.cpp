@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/run_folder.h"
-#include "io/run_manifest.h"
+#include "files/io/run_folder.h"
+#include "files/io/run_manifest.h"
 #include "support/file_contents.h"
 #include "support/temporary_folder.h"
 

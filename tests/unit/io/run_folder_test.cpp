@@ -1,4 +1,4 @@
-#include "io/run_folder.h"
+#include "files/io/run_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/folder_files.h"
-#include "io/run_manifest.h"
+#include "files/io/folder_files.h"
+#include "files/io/run_manifest.h"
 #include "support/io_error.h"
 #include "support/temporary_folder.h"
 

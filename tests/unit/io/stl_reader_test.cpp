@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/surface_reader.h"
+#include "base/core/error.h"
+#include "files/io/file_bytes.h"
+#include "files/io/surface_reader.h"
 #include "support/archives.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"

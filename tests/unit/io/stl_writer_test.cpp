@@ -1,13 +1,13 @@
 // What the writer writes, the reader reads.
-#include "io/stl_writer.h"
+#include "files/io/stl_writer.h"
 
 #include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "io/surface_reader.h"
+#include "base/core/error.h"
+#include "files/io/surface_reader.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "io/surface_reader.h"
+#include "files/io/surface_reader.h"
 
 #include <unistd.h>
 
@@ -15,8 +15,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/tet_skin.h"
+#include "base/core/error.h"
+#include "files/io/tet_skin.h"
 #include "support/archives.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"

@@ -1,5 +1,5 @@
 // Volume meshes of other programs: the same mesh in every format is the same mesh, and what is broken is refused.
-#include "io/tet_mesh_reader.h"
+#include "files/io/tet_mesh_reader.h"
 
 #include <algorithm>
 #include <fstream>
@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/elements.h"
-#include "core/error.h"
-#include "io/surface_reader.h"
-#include "mesh/edge_table.h"
+#include "base/core/elements.h"
+#include "base/core/error.h"
+#include "files/io/surface_reader.h"
+#include "fill/mesh/edge_table.h"
 #include "support/archives.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"

@@ -1,4 +1,4 @@
-#include "io/text_scanner.h"
+#include "files/io/text_scanner.h"
 
 #include <cmath>
 #include <cstdlib>

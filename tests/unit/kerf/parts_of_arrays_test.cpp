@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "part/solution_parts.h"
+#include "files/part/solution_parts.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 

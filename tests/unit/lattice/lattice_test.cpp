@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "geometry/closest_point.h"
-#include "lattice/lattice_core.h"
+#include "base/core/error.h"
+#include "base/geometry/closest_point.h"
+#include "fill/lattice/lattice_core.h"
 #include "support/face.h"
 #include "support/shapes.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/adjacency.h"
+#include "fill/mesh/adjacency.h"
 
 namespace kerf {
 namespace {

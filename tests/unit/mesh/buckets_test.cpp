@@ -1,4 +1,4 @@
-#include "mesh/buckets.h"
+#include "fill/mesh/buckets.h"
 
 #include <random>
 #include <span>

@@ -1,4 +1,4 @@
-#include "mesh/curved_tet.h"
+#include "fill/mesh/curved_tet.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-#include "mesh/edge_table.h"
+#include "fill/mesh/edge_table.h"
 
 namespace kerf {
 namespace {

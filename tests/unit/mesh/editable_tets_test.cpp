@@ -1,14 +1,14 @@
 // Cells in place of others, the numbers that they get, and what their neighbours are told.
-#include "mesh/editable_tets.h"
+#include "fill/mesh/editable_tets.h"
 
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "mesh/adjacency.h"
-#include "mesh/verification.h"
+#include "base/core/error.h"
+#include "fill/mesh/adjacency.h"
+#include "fill/mesh/verification.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh/forced_cells.h"
+#include "fill/mesh/forced_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/angles.h"
-#include "geometry/ray.h"
-#include "mesh/quality.h"
+#include "base/geometry/angles.h"
+#include "base/geometry/ray.h"
+#include "fill/mesh/quality.h"
+#include "fill/volume/mesher.h"
 #include "support/shapes.h"
-#include "volume/mesher.h"
 
 namespace kerf {
 namespace {

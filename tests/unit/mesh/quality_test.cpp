@@ -1,4 +1,4 @@
-#include "mesh/quality.h"
+#include "fill/mesh/quality.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 
 #include <Eigen/Geometry>
 
-#include "core/bytes.h"
-#include "core/error.h"
-#include "core/quick_log2.h"
+#include "base/core/bytes.h"
+#include "base/core/error.h"
+#include "base/core/quick_log2.h"
 
 namespace kerf {
 namespace {

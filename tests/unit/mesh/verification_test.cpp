@@ -1,4 +1,4 @@
-#include "mesh/verification.h"
+#include "fill/mesh/verification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/elements.h"
-#include "geometry/predicates.h"
-#include "geometry/tetrahedron.h"
-#include "mesh/adjacency.h"
-#include "mesh/boundary_chain.h"
+#include "base/core/elements.h"
+#include "base/geometry/predicates.h"
+#include "base/geometry/tetrahedron.h"
+#include "fill/mesh/adjacency.h"
+#include "fill/mesh/boundary_chain.h"
 #include "support/shapes.h"
 
 namespace kerf {

@@ -1,12 +1,12 @@
 // What ranks gather, and how they agree on errors.
-#include "parallel/communicator.h"
+#include "base/parallel/communicator.h"
 
 #include <algorithm>
 #include <bit>
 
 #include <gtest/gtest.h>
 
-#include "parallel/shares.h"
+#include "base/parallel/shares.h"
 #include "support/collective_laws.h"
 #include "support/counting_ranks.h"
 #include "support/failing_ranks.h"

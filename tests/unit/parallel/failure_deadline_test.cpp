@@ -1,5 +1,5 @@
 // A rank that has failed is ended where the others do not come.
-#include "parallel/failure_deadline.h"
+#include "base/parallel/failure_deadline.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parallel/communicator.h"
+#include "base/parallel/communicator.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Shares of processors, for masks as mpirun, batch systems and taskset make them.
-#include "parallel/processors.h"
+#include "base/parallel/processors.h"
 
 #include <sched.h>
 

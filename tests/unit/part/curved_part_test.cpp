@@ -1,4 +1,4 @@
-#include "part/curved_part.h"
+#include "files/part/curved_part.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "mesh/curved_tet.h"
+#include "fill/mesh/curved_tet.h"
 
 namespace kerf {
 namespace {

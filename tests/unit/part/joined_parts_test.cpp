@@ -1,9 +1,9 @@
 // What cannot be joined: the counts of a piece, without meshes of that size.
-#include "part/joined_parts.h"
+#include "files/part/joined_parts.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf {
 namespace {

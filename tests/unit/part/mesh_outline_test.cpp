@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "part/part.h"
+#include "base/core/error.h"
+#include "files/part/part.h"
 
 namespace kerf {
 namespace {

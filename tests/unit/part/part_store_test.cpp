@@ -1,13 +1,13 @@
-#include "part/part_store.h"
+#include "files/part/part_store.h"
 
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/file_bytes.h"
-#include "parallel/process_memory.h"
+#include "base/core/error.h"
+#include "base/parallel/process_memory.h"
+#include "files/io/file_bytes.h"
 #include "support/io_error.h"
 #include "support/random_part.h"
 #include "support/temporary_folder.h"

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "io/file_bytes.h"
-#include "part/curved_nodes_file.h"
-#include "part/edge_node_reader.h"
-#include "part/vtu_writer.h"
+#include "files/io/file_bytes.h"
+#include "files/part/curved_nodes_file.h"
+#include "files/part/edge_node_reader.h"
+#include "files/part/vtu_writer.h"
 #include "support/io_error.h"
 #include "support/random_part.h"
 #include "support/temporary_folder.h"

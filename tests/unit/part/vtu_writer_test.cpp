@@ -1,4 +1,4 @@
-#include "part/vtu_writer.h"
+#include "files/part/vtu_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <fstream>
 #include <random>
 
-#include "core/error.h"
-#include "io/file_bytes.h"
-#include "mesh/quality.h"
-#include "part/vtu_reader.h"
+#include "base/core/error.h"
+#include "files/io/file_bytes.h"
+#include "files/part/vtu_reader.h"
+#include "fill/mesh/quality.h"
 #include "support/io_error.h"
 #include "support/random_part.h"
 #include "support/temporary_folder.h"

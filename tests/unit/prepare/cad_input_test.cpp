@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/cad_body.h"
-#include "io/program_finder.h"
-#include "io/surface_reader.h"
-#include "prepare/cad_input.h"
+#include "base/core/error.h"
+#include "files/io/cad_body.h"
+#include "files/io/program_finder.h"
+#include "files/io/surface_reader.h"
+#include "run/prepare/cad_input.h"
 #include "support/assets.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"

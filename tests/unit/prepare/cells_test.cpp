@@ -1,5 +1,5 @@
 // The size that is found for a number of tetrahedra gives that number, on surfaces that are kept and remeshed ones.
-#include "prepare/cells.h"
+#include "run/prepare/cells.h"
 
 #include <cmath>
 #include <limits>
@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "prepare/size_reader.h"
+#include "base/core/error.h"
+#include "fill/volume/mesher.h"
+#include "run/prepare/size_reader.h"
 #include "support/assets.h"
 #include "support/shapes.h"
-#include "volume/mesher.h"
 
 namespace kerf {
 namespace {

@@ -1,16 +1,16 @@
 // Facets that are coarser than sizes are divided where they lie.
-#include "prepare/facet_division.h"
+#include "run/prepare/facet_division.h"
 
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "core/regular_tet.h"
-#include "geometry/triangle.h"
-#include "prepare/remeshing.h"
+#include "base/core/regular_tet.h"
+#include "base/geometry/triangle.h"
+#include "run/prepare/remeshing.h"
 #include "support/shapes.h"
 #include "support/size_fields.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "io/obj_writer.h"
-#include "prepare/input.h"
+#include "base/core/error.h"
+#include "files/io/obj_writer.h"
+#include "run/prepare/input.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 

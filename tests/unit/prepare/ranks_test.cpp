@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "parallel/shares.h"
-#include "prepare/gathered_nodes.h"
-#include "prepare/input_cover.h"
-#include "prepare/interface_match.h"
-#include "prepare/numbering.h"
+#include "base/parallel/shares.h"
+#include "run/prepare/gathered_nodes.h"
+#include "run/prepare/input_cover.h"
+#include "run/prepare/interface_match.h"
+#include "run/prepare/numbering.h"
 #include "support/assets.h"
 #include "support/counting_ranks.h"
 #include "support/decomposition_laws.h"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "prepare/input.h"
+#include "base/core/error.h"
+#include "run/prepare/input.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/voxel_regions.h"

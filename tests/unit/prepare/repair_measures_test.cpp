@@ -1,11 +1,11 @@
-#include "prepare/repair_measures.h"
+#include "run/prepare/repair_measures.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "prepare/remedy.h"
+#include "run/prepare/remedy.h"
 #include "support/damage.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"

@@ -7,14 +7,14 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/input.h"
+#include "run/prepare/input.h"
 #include "support/damage.h"
 #include "support/shapes.h"
-#include "surface/hole_filling.h"
-#include "surface/mass_properties.h"
-#include "surface/open_loops.h"
-#include "surface/regions.h"
-#include "surface/superfluous_facets.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/open_loops.h"
+#include "surface/diagnosis/superfluous_facets.h"
+#include "surface/openings/hole_filling.h"
+#include "surface/regions/regions.h"
 
 namespace kerf {
 namespace {

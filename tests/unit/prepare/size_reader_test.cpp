@@ -1,12 +1,12 @@
 // A background mesh is the same field in every format.
-#include "prepare/size_reader.h"
+#include "run/prepare/size_reader.h"
 
 #include <fstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/size_fields.h"
 #include "support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // What a run does by default with facets that would spoil its cells.
-#include "prepare/slivers.h"
+#include "run/prepare/slivers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/periodicity.h"
-#include "prepare/remeshing.h"
-#include "prepare/thin_layers.h"
-#include "remesh/remesh.h"
+#include "run/prepare/periodicity.h"
+#include "run/prepare/remeshing.h"
+#include "run/prepare/thin_layers.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "support/voxel_regions.h"
-#include "surface/intersections.h"
+#include "surface/diagnosis/intersections.h"
+#include "surface/remesh/remesh.h"
 
 namespace kerf {
 namespace {

@@ -1,11 +1,11 @@
-#include "prepare/surface_nodes.h"
+#include "run/prepare/surface_nodes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "prepare/surface_places.h"
+#include "run/prepare/surface_places.h"
 #include "support/shapes.h"
 
 namespace kerf {

@@ -1,5 +1,5 @@
 // The quality of whole meshes: measured, as text and picture, and held against limits.
-#include "quality/measured_mesh.h"
+#include "files/quality/measured_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "quality/compared_quality.h"
-#include "quality/histogram_rows.h"
-#include "quality/quality_sheet.h"
+#include "base/core/error.h"
+#include "files/quality/compared_quality.h"
+#include "files/quality/histogram_rows.h"
+#include "files/quality/quality_sheet.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"

@@ -1,6 +1,6 @@
 // Laws of the remesher over random surfaces: whatever is given, the result is closed, free of intersections, near the
 // input both ways, of the same topology and patches, and no worse shaped.
-#include "remesh/remesh.h"
+#include "surface/remesh/remesh.h"
 
 #include <algorithm>
 #include <map>
@@ -10,16 +10,16 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "geometry/closest_point.h"
-#include "prepare/remeshing.h"
-#include "prepare/slivers.h"
-#include "report/listener.h"
+#include "base/core/error.h"
+#include "base/geometry/closest_point.h"
+#include "run/prepare/remeshing.h"
+#include "run/prepare/slivers.h"
+#include "run/report/listener.h"
 #include "support/shapes.h"
 #include "support/slice.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
-#include "surface/triangle_tree.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/intersections.h"
+#include "surface/soup/triangle_tree.h"
 
 namespace kerf {
 namespace {

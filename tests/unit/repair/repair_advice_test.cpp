@@ -1,12 +1,12 @@
-#include "repair/repair_advice.h"
+#include "surface/repair/repair_advice.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "repair/repair_step.h"
 #include "support/damage.h"
 #include "support/shapes.h"
+#include "surface/repair/repair_step.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "repair/arrangement.h"
+#include "surface/arrange/arrangement.h"
 
 #include <algorithm>
 #include <functional>
@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "geometry/triangle.h"
+#include "base/geometry/triangle.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
-#include "surface/intersections.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf {
 namespace {

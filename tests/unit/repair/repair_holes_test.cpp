@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/input.h"
-#include "repair/repair.h"
-#include "repair/repair_step.h"
+#include "run/prepare/input.h"
 #include "support/assets.h"
 #include "support/shapes.h"
-#include "surface/edge_corners.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/repair/repair.h"
+#include "surface/repair/repair_step.h"
+#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 namespace {

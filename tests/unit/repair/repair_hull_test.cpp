@@ -1,16 +1,16 @@
 // The oracle: unit cubes, each with facets of its own. What they enclose together is known, and so is its boundary.
-#include "repair/hull.h"
+#include "surface/arrange/hull.h"
 
 #include <algorithm>
 #include <iterator>
 
 #include <gtest/gtest.h>
 
-#include "repair/shell_turning.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
 #include "support/voxels.h"
-#include "surface/mass_properties.h"
+#include "surface/arrange/shell_turning.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {

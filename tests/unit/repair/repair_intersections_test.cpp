@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "repair/repair_step.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
-#include "surface/edge_corners.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/intersections.h"
+#include "surface/repair/repair_step.h"
+#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 namespace {

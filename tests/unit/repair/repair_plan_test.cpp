@@ -1,12 +1,12 @@
-#include "repair/repair_plan.h"
+#include "surface/repair/repair_plan.h"
 
 #include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "repair/repair_step.h"
+#include "base/core/error.h"
+#include "surface/repair/repair_step.h"
 
 namespace kerf {
 namespace {

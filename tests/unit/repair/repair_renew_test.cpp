@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "repair/remaining_defects.h"
-#include "repair/repair.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
+#include "surface/repair/remaining_defects.h"
+#include "surface/repair/repair.h"
 
 namespace kerf {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/triangle.h"
+#include "base/geometry/triangle.h"
 #include "support/repair_steps.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/triangle.h"
-#include "prepare/input.h"
-#include "repair/repair.h"
+#include "base/geometry/triangle.h"
+#include "run/prepare/input.h"
 #include "support/shapes.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/repair/repair.h"
 
 namespace kerf {
 namespace {

@@ -5,15 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include "repair/facet_copies.h"
-#include "repair/touching_fans.h"
 #include "support/damage.h"
 #include "support/repair_steps.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
 #include "support/voxels.h"
-#include "surface/diagnosis.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/diagnosis.h"
+#include "surface/repair/facet_copies.h"
+#include "surface/repair/touching_fans.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "repair/winding_number.h"
+#include "surface/arrange/winding_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Laws of wraps: whatever facets there are, what is put around them is closed, manifold and free of intersections, has
 // them inside, and is no further from them than it says.
-#include "repair/wrap.h"
+#include "surface/wrap/wrap.h"
 
 #include <limits>
 #include <string>
@@ -8,15 +8,15 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "geometry/triangle.h"
-#include "repair/alpha_wrap.h"
-#include "repair/proven_distance.h"
+#include "base/core/error.h"
+#include "base/geometry/triangle.h"
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
-#include "surface/triangle_tree.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/intersections.h"
+#include "surface/soup/triangle_tree.h"
+#include "surface/wrap/alpha_wrap.h"
+#include "surface/wrap/proven_distance.h"
 
 namespace kerf {
 namespace {

@@ -1,10 +1,10 @@
-#include "report/exceeded_bounds.h"
+#include "run/report/exceeded_bounds.h"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "mesh/quality.h"
+#include "fill/mesh/quality.h"
 
 namespace kerf {
 namespace {

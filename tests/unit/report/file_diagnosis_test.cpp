@@ -1,5 +1,5 @@
 // Files as a caller of the kernel diagnoses and remeshes them: values, text and JSON.
-#include "report/file_diagnosis.h"
+#include "run/report/file_diagnosis.h"
 
 #include <filesystem>
 
@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/stl_writer.h"
-#include "io/text_file.h"
-#include "prepare/remeshed_file.h"
-#include "report/repair_text.h"
+#include "files/io/stl_writer.h"
+#include "files/io/text_file.h"
+#include "run/prepare/remeshed_file.h"
+#include "run/report/repair_text.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/voxel_regions.h"

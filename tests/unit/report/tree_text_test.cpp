@@ -1,12 +1,12 @@
 // The printed tree: complete, and no wider than a terminal.
-#include "report/tree_text.h"
+#include "run/report/tree_text.h"
 
 #include <random>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
-#include "core/words.h"
+#include "base/core/words.h"
 #include "support/lines.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "request/options.h"
+#include "run/request/options.h"
 
 #include <cmath>
 #include <fstream>
@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "io/path_text.h"
-#include "request/config_file.h"
+#include "base/core/error.h"
+#include "files/io/path_text.h"
+#include "run/request/config_file.h"
 #include "support/temporary_folder.h"
 
 namespace kerf {

@@ -8,19 +8,19 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
-#include "cut/contour.h"
-#include "cut/interface.h"
-#include "cut/split.h"
-#include "cut/triangulation.h"
-#include "decompose/tree_node.h"
-#include "io/stl_writer.h"
-#include "mesh/adjacency.h"
-#include "mesh/quality.h"
-#include "prepare/numbering.h"
+#include "base/core/check.h"
+#include "cut/cut/contour.h"
+#include "cut/cut/interface.h"
+#include "cut/cut/split.h"
+#include "cut/cut/triangulation.h"
+#include "cut/decompose/tree_node.h"
+#include "files/io/stl_writer.h"
+#include "fill/mesh/adjacency.h"
+#include "fill/mesh/quality.h"
+#include "run/prepare/numbering.h"
 #include "support/places.h"
 #include "support/shapes.h"
-#include "surface/orientation.h"
+#include "surface/diagnosis/orientation.h"
 
 namespace kerf {
 namespace {

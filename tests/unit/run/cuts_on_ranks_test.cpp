@@ -1,5 +1,5 @@
 // Ranks cut what one alone would, each node once, and end together. Ranks are threads here.
-#include "run/cuts_on_ranks.h"
+#include "run/run/cuts_on_ranks.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,14 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include "run/range_of_rank.h"
+#include "run/run/range_of_rank.h"
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
 #include "support/failing_ranks.h"
 #include "support/thread_ranks.h"
 #include "support/voxel_regions.h"
 #include "support/voxels.h"
-#include "surface/touching.h"
+#include "surface/complex/touching.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "run/forecast.h"
+#include "run/run/forecast.h"
 
 #include <random>
 #include <sstream>
@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/number_text.h"
+#include "base/core/error.h"
+#include "base/core/number_text.h"
 #include "support/lines.h"
 
 namespace kerf {

@@ -1,5 +1,5 @@
 // What other ranks have of a plan is what the first one has. Ranks are threads here.
-#include "run/plan.h"
+#include "run/run/plan.h"
 
 #include <gtest/gtest.h>
 

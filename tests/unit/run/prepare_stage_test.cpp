@@ -1,5 +1,5 @@
 // What parts are told before they are meshed: the same for any number of ranks.
-#include "run/prepare_stage.h"
+#include "run/run/prepare_stage.h"
 
 #include <algorithm>
 #include <functional>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/gathered_nodes.h"
-#include "run/cut_stage.h"
+#include "run/prepare/gathered_nodes.h"
+#include "run/run/cut_stage.h"
 #include "support/assets.h"
 #include "support/counting_ranks.h"
 #include "support/thread_ranks.h"

@@ -1,18 +1,18 @@
 // A trace gives back what the run had: surfaces of all nodes, cuts, options.
-#include "run/trace.h"
+#include "run/run/trace.h"
 
 #include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "run/pipeline.h"
+#include "run/run/pipeline.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/trace_options.h"
-#include "surface/intersections.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf {
 namespace {
@@ -213,7 +213,7 @@ TEST(TraceLayout, NeedsANewVersionWhenItChanges) {
     Trace trace;
     trace.cuts.resize(1);
     trace.cuts[0].tries.resize(1);
-    EXPECT_EQ(to_bytes(trace).size(), 605u) << "raise trace_version in run/trace.cpp, then correct this number";
+    EXPECT_EQ(to_bytes(trace).size(), 605u) << "raise trace_version in run/run/trace.cpp, then correct this number";
 }
 
 }  // namespace

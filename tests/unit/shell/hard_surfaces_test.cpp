@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "mesh/verification.h"
-#include "shell/shell.h"
+#include "base/core/error.h"
+#include "fill/mesh/verification.h"
+#include "fill/shell/shell.h"
 #include "support/hard_surfaces.h"
 #include "support/shapes.h"
 #include "support/slice.h"

@@ -1,4 +1,4 @@
-#include "shell/shell.h"
+#include "fill/shell/shell.h"
 
 #include <cmath>
 #include <random>
@@ -7,15 +7,15 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "delaunay/delaunay.h"
-#include "delaunay/faces.h"
-#include "geometry/predicates.h"
-#include "lattice/lattice_core.h"
-#include "mesh/verification.h"
-#include "shell/crossing.h"
-#include "shell/face_recovery.h"
-#include "shell/ring_flips.h"
+#include "base/core/error.h"
+#include "base/geometry/predicates.h"
+#include "fill/delaunay/delaunay.h"
+#include "fill/delaunay/faces.h"
+#include "fill/lattice/lattice_core.h"
+#include "fill/mesh/verification.h"
+#include "fill/shell/crossing.h"
+#include "fill/shell/face_recovery.h"
+#include "fill/shell/ring_flips.h"
 #include "support/point_sets.h"
 #include "support/shapes.h"
 

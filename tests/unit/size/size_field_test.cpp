@@ -1,12 +1,12 @@
 // The laws of a size field: the minimum of its sources, of limited growth, the same bits wherever it travels.
-#include "size/size_field.h"
+#include "surface/size/size_field.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "core/cube_root.h"
-#include "core/regular_tet.h"
+#include "base/core/cube_root.h"
+#include "base/core/regular_tet.h"
 #include "support/size_fields.h"
 
 namespace kerf {

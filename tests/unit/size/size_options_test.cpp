@@ -1,14 +1,14 @@
 // From what a user writes to the field over a surface.
-#include "size/size_options.h"
+#include "surface/size/size_options.h"
 
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "size/surface_sizes.h"
-#include "size/volume_samples.h"
+#include "base/core/error.h"
 #include "support/size_fields.h"
+#include "surface/size/surface_sizes.h"
+#include "surface/size/volume_samples.h"
 
 namespace kerf {
 namespace {

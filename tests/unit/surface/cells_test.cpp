@@ -1,6 +1,6 @@
 // The oracle: cubes with labels. Facets lie between different labels only, so cells are what hangs together over sides
 // of cubes with one label, and those without a label that the outside does not reach.
-#include "surface/cells.h"
+#include "surface/regions/cells.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/triangle.h"
-#include "geometry/union_find.h"
+#include "base/geometry/triangle.h"
+#include "base/geometry/union_find.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "support/voxel_regions.h"

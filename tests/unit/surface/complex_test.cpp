@@ -1,10 +1,10 @@
-#include "surface/complex.h"
+#include "surface/complex/complex.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/voxel_regions.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {

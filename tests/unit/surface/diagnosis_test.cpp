@@ -1,4 +1,4 @@
-#include "surface/diagnosis.h"
+#include "surface/diagnosis/diagnosis.h"
 
 #include <algorithm>
 #include <cmath>

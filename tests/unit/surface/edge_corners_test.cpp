@@ -1,4 +1,4 @@
-#include "surface/edge_corners.h"
+#include "surface/soup/edge_corners.h"
 
 #include <map>
 #include <random>

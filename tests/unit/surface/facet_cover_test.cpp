@@ -1,5 +1,5 @@
 // Needles: facets as long as they like and as thin as doubles allow, divided as straight cuts divide them.
-#include "surface/facet_cover.h"
+#include "surface/diagnosis/facet_cover.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Facets at vertices of many: which pairs meet, and how many are asked.
-#include "surface/facet_tree.h"
+#include "surface/diagnosis/facet_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/shapes.h"
-#include "surface/intersections.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf {
 namespace {

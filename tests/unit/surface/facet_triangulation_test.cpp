@@ -1,4 +1,4 @@
-#include "surface/facet_triangulation.h"
+#include "surface/soup/facet_triangulation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "surface/intersections.h"
+#include "surface/diagnosis/intersections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/threads.h"
-#include "geometry/closest_point.h"
-#include "geometry/predicates.h"
+#include "base/core/threads.h"
+#include "base/geometry/closest_point.h"
+#include "base/geometry/predicates.h"
 #include "support/shapes.h"
-#include "surface/orientation.h"
+#include "surface/diagnosis/orientation.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,5 +1,5 @@
 // What is said to be near a surface is, wherever one looks, and what is clearly near is said to be.
-#include "surface/nearness.h"
+#include "surface/diagnosis/nearness.h"
 
 #include <cmath>
 #include <random>

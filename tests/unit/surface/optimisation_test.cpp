@@ -1,4 +1,4 @@
-#include "surface/optimisation.h"
+#include "surface/diagnosis/optimisation.h"
 
 #include <algorithm>
 #include <numbers>
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "geometry/closest_point.h"
+#include "base/geometry/closest_point.h"
 #include "support/shapes.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/orientation.h"
+#include "surface/diagnosis/orientation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "support/shapes.h"
-#include "surface/intersections.h"
-#include "surface/mass_properties.h"
-#include "surface/surface.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/complex/surface.h"
+#include "surface/diagnosis/intersections.h"
 
 namespace kerf {
 namespace {

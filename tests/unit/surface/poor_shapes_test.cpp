@@ -1,4 +1,4 @@
-#include "surface/poor_shapes.h"
+#include "surface/diagnosis/poor_shapes.h"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/angles.h"
+#include "base/geometry/angles.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/radial_order.h"
+#include "surface/soup/radial_order.h"
 
 #include <algorithm>
 #include <cmath>

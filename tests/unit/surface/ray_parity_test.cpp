@@ -1,4 +1,4 @@
-#include "surface/ray_parity.h"
+#include "surface/soup/ray_parity.h"
 
 #include <random>
 

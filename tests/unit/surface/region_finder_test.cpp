@@ -1,5 +1,5 @@
 // The oracle: cubes with labels, whose sides are known.
-#include "surface/region_finder.h"
+#include "surface/regions/region_finder.h"
 
 #include <algorithm>
 #include <map>
@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "geometry/union_find.h"
+#include "base/core/error.h"
+#include "base/geometry/union_find.h"
 #include "support/shapes.h"
 #include "support/voxel_regions.h"
-#include "surface/complex.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/complex.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "support/shapes.h"
-#include "surface/region_finder.h"
-#include "surface/region_patches.h"
+#include "surface/regions/region_finder.h"
+#include "surface/soup/region_patches.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/solid_properties.h"
+#include "surface/complex/solid_properties.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "surface/soup.h"
+#include "surface/soup/soup.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surface/vertex_table.h"
+#include "surface/soup/vertex_table.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/superfluous_facets.h"
+#include "surface/diagnosis/superfluous_facets.h"
 
 #include <algorithm>
 #include <map>
@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/elements.h"
-#include "geometry/union_find.h"
-#include "surface/edge_corners.h"
+#include "base/core/elements.h"
+#include "base/geometry/union_find.h"
+#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 namespace {

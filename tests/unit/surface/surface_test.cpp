@@ -1,4 +1,4 @@
-#include "surface/surface.h"
+#include "surface/complex/surface.h"
 
 #include <algorithm>
 #include <random>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bytes.h"
-#include "core/error.h"
+#include "base/core/bytes.h"
+#include "base/core/error.h"
 #include "support/shapes.h"
 
 namespace kerf {

@@ -7,14 +7,14 @@
 
 #include <gtest/gtest.h>
 
-#include "core/threads.h"
-#include "geometry/union_find.h"
+#include "base/core/threads.h"
+#include "base/geometry/union_find.h"
 #include "support/damage.h"
 #include "support/shapes.h"
-#include "surface/diagnosis.h"
-#include "surface/edge_corners.h"
-#include "surface/manifold_defects.h"
-#include "surface/orientation.h"
+#include "surface/complex/manifold_defects.h"
+#include "surface/diagnosis/diagnosis.h"
+#include "surface/diagnosis/orientation.h"
+#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/touching.h"
+#include "surface/complex/touching.h"
 
 #include <algorithm>
 #include <map>
@@ -8,13 +8,13 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "geometry/predicates.h"
-#include "geometry/triangle.h"
-#include "geometry/union_find.h"
+#include "base/core/error.h"
+#include "base/geometry/predicates.h"
+#include "base/geometry/triangle.h"
+#include "base/geometry/union_find.h"
 #include "support/voxels.h"
-#include "surface/edge_corners.h"
-#include "surface/mass_properties.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 namespace {

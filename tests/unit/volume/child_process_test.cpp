@@ -1,4 +1,4 @@
-#include "volume/child_process.h"
+#include "fill/volume/child_process.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace kerf {
 namespace {

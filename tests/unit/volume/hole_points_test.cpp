@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
+#include "fill/volume/mesher.h"
 #include "support/shapes.h"
-#include "volume/mesher.h"
 
 namespace kerf {
 namespace {

@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/error.h"
-#include "mesh/verification.h"
+#include "base/core/error.h"
+#include "fill/mesh/verification.h"
+#include "fill/volume/mesher.h"
 #include "support/shapes.h"
-#include "volume/mesher.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
-#include "volume/meshers.h"
-#include "volume/tet_forecast.h"
+#include "fill/volume/meshers.h"
+#include "fill/volume/tet_forecast.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "cut/load.h"
-#include "io/surface_reader.h"
-#include "mesh/quality.h"
-#include "mesh/verification.h"
+#include "base/core/error.h"
+#include "cut/cut/load.h"
+#include "files/io/surface_reader.h"
+#include "fill/mesh/quality.h"
+#include "fill/mesh/verification.h"
 #include "support/shapes.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "volume/retries.h"
+#include "fill/volume/retries.h"
 
 #include <algorithm>
 #include <functional>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bytes.h"
-#include "volume/meshers.h"
+#include "base/core/bytes.h"
+#include "fill/volume/meshers.h"
 
 namespace kerf {
 namespace {

@@ -1,13 +1,13 @@
 // What the mesher makes of a field, in one piece and in a run of many parts.
 #include <gtest/gtest.h>
 
-#include "mesh/verification.h"
+#include "fill/mesh/verification.h"
+#include "fill/volume/mesher.h"
 #include "support/places.h"
 #include "support/run_in_process.h"
 #include "support/size_fields.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
-#include "volume/mesher.h"
 
 namespace kerf {
 namespace {

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "mesh/quality.h"
-#include "mesh/verification.h"
+#include "fill/mesh/quality.h"
+#include "fill/mesh/verification.h"
+#include "fill/volume/meshers.h"
 #include "support/voxels.h"
-#include "surface/mass_properties.h"
-#include "surface/touching.h"
-#include "volume/meshers.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/complex/touching.h"
 
 namespace kerf {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/bytes.h"
+#include "base/core/bytes.h"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "run/work/part_job.h"
 #include "support/shapes.h"
-#include "work/part_job.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "work/part_job.h"
+#include "run/work/part_job.h"
 
 #include <filesystem>
 #include <numeric>
@@ -8,21 +8,21 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/bytes.h"
-#include "core/error.h"
-#include "core/regular_tet.h"
-#include "geometry/predicates.h"
-#include "geometry/tetrahedron.h"
-#include "io/file_bytes.h"
-#include "part/vtu_writer.h"
-#include "report/report.h"
-#include "report/totals.h"
+#include "base/core/bytes.h"
+#include "base/core/error.h"
+#include "base/core/regular_tet.h"
+#include "base/geometry/predicates.h"
+#include "base/geometry/tetrahedron.h"
+#include "files/io/file_bytes.h"
+#include "files/part/vtu_writer.h"
+#include "run/report/report.h"
+#include "run/report/totals.h"
+#include "run/work/failed_part.h"
+#include "run/work/journal.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/voxels.h"
-#include "work/failed_part.h"
-#include "work/journal.h"
 
 namespace kerf {
 namespace {

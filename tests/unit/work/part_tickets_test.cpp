@@ -1,5 +1,5 @@
 // Laws of the order in which parts are taken.
-#include "work/part_tickets.h"
+#include "run/work/part_tickets.h"
 
 #include <algorithm>
 #include <random>

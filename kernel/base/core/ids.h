@@ -1,0 +1,74 @@
+// Numbers of things with a type for each kind, so that they cannot be mistaken for one another, nor for counts.
+#pragma once
+
+#include <compare>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace kerf {
+
+/// The place of a thing among those of its kind, counted from 0, in 32 bits. The kind is named by the Tag.
+template <class Tag>
+class Id {
+ public:
+    constexpr Id() = default;
+    template <std::integral Number>
+    constexpr explicit Id(Number value) : value_(static_cast<std::int32_t>(value)) {}
+
+    constexpr std::int32_t value() const { return value_; }
+    constexpr auto operator<=>(const Id&) const = default;
+    constexpr Id& operator++() {
+        ++value_;
+        return *this;
+    }
+    /// Makes an Id an iterator over itself, as IdRange needs.
+    constexpr Id operator*() const { return *this; }
+
+ private:
+    std::int32_t value_ = 0;
+};
+
+/// All ids in [first, last), for loops.
+template <class I>
+class IdRange {
+ public:
+    constexpr IdRange(I first, I last) : first_(first), last_(last) {}
+    constexpr I begin() const { return first_; }
+    constexpr I end() const { return last_; }
+
+ private:
+    I first_, last_;
+};
+
+/// Returns the first `count` ids of a kind.
+template <class I, std::integral Count>
+constexpr IdRange<I> ids(Count count) {
+    return {I(0), I(count)};
+}
+
+/// A vector with an item for each thing of a kind, indexed by its id.
+template <class I, class T>
+class Array : public std::vector<T> {
+ public:
+    using std::vector<T>::vector;
+    using std::vector<T>::operator[];
+    T& operator[](I id) { return (*this)[static_cast<std::size_t>(id.value())]; }
+    const T& operator[](I id) const { return (*this)[static_cast<std::size_t>(id.value())]; }
+    /// The ids of all items.
+    IdRange<I> ids() const { return kerf::ids<I>(this->size()); }
+};
+
+/// The place of a part in the order of the tree (MeshOutline::parts), which is not its NodeId, nor an MPI rank.
+using PartIndex = Id<struct PartIndexTag>;
+
+/// A region of a complex (surface/complex/complex.h): a body of one material.
+using RegionIndex = Id<struct RegionIndexTag>;
+
+}  // namespace kerf
+
+template <class Tag>
+struct std::hash<kerf::Id<Tag>> {
+    std::size_t operator()(kerf::Id<Tag> id) const noexcept { return std::hash<std::int32_t>()(id.value()); }
+};

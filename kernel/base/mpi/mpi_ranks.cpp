@@ -1,0 +1,428 @@
+// Messages and collectives in which no rank waits for one that has left with an error. Every collective begins with a
+// number from each rank, the bytes that it brings or `has_left` (`begin_collective()`); if a rank has left, all take
+// part in its last broadcast, of its error, which later calls that wait or look for messages throw. A rank that waits
+// outside of a collective looks for a message with the tag `leave_tag` beside its own, and then joins that broadcast.
+// Room for a result is taken before data moves, and ranks agree on whether all have it, so that std::bad_alloc is
+// thrown on all or none. Counts of MPI have 32 bits: longer messages go in pieces. Memory of requests that nobody waits
+// for any more is kept until the process ends (`abandoned()`), since MPI may use it until then. Posted messages are
+// counted by receiver, so that drop_messages() knows how many are still under way.
+#include "base/mpi/mpi_ranks.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <new>
+
+#include <fmt/format.h>
+
+#include "base/parallel/failure_deadline.h"
+#include "base/parallel/patience.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr std::uint64_t has_left = ~std::uint64_t{0};
+
+void finalise_mpi() {
+    int is_finalised = 0;
+    MPI_Finalized(&is_finalised);
+    if (!is_finalised) MPI_Finalize();
+}
+
+// Initialises MPI for threads of which only the first calls it: cuts are made on others meanwhile. Where ranks end with
+// an error, the launcher ends the others when the first of them has left: so they leave together, at the end of the
+// process, when the one that speaks for them has spoken.
+void initialise_mpi() {
+    int is_initialised = 0, is_finalised = 0, provided = MPI_THREAD_SINGLE;
+    check_mpi(MPI_Finalized(&is_finalised), "MPI_Finalized");
+    if (is_finalised)
+        throw Error(ErrorCode::internal,
+                    "MPI has been finalised in this process, which cannot be undone. Use ranks "
+                    "before that.");
+    check_mpi(MPI_Initialized(&is_initialised), "MPI_Initialized");
+    if (is_initialised)
+        check_mpi(MPI_Query_thread(&provided), "MPI_Query_thread");
+    else {
+        check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+        std::atexit(finalise_mpi);
+    }
+    if (provided >= MPI_THREAD_FUNNELED) return;
+    throw Error(ErrorCode::internal,
+                "The MPI library supports no program with threads (MPI_THREAD_FUNNELED). Use one that was built "
+                "with threads, or run kerf without mpirun.");
+}
+
+// Bytes of the largest piece of a message, since MPI's counts are 32-bit.
+constexpr std::size_t most_of_piece = std::size_t{1} << 30;
+
+// Calls pass(data, size) for pieces of the items.
+template <class Array, class Pass>
+void for_pieces(Array& items, const Pass& pass) {
+    for (std::size_t first = 0; first < items.size(); first += most_of_piece)
+        pass(items.data() + first, static_cast<int>(std::min(most_of_piece, items.size() - first)));
+}
+
+std::size_t count_pieces(std::uint64_t bytes) { return (bytes + most_of_piece - 1) / most_of_piece; }
+
+// The most bytes that are gathered by one call, with a copy of them all.
+constexpr std::uint64_t most_of_one_call = std::uint64_t{1} << 24;
+
+template <class Allocate>
+bool has_room_for(const Allocate& allocate) {
+    try {
+        allocate();
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+void check_mpi(int result, const char* call) {
+    if (result == MPI_SUCCESS) return;
+    std::array<char, MPI_MAX_ERROR_STRING> text{};
+    int length = 0;
+    MPI_Error_string(result, text.data(), &length);
+    throw Error(ErrorCode::internal,
+                fmt::format("{} has failed: {}. Check the hosts and their network.", call, text.data()));
+}
+
+// Messages whose ends nobody waits for any more. They live until the process ends, since MPI may read or write them
+// until then.
+std::list<MpiRanks::OnTheWay>& MpiRanks::abandoned() {
+    static auto* const all = new std::list<OnTheWay>;
+    return *all;
+}
+
+// Messages of this rank while MPI sends or receives them. Those that are on their way when the object ends, because an
+// error has ended the wait for them, are abandoned. All memory for that is there before the first of them leaves.
+class MpiRanks::Transfer {
+ public:
+    explicit Transfer(std::vector<Bytes> messages, std::size_t most_requests) : own_(1) {
+        own_.front().messages = std::move(messages);
+        own_.front().requests.reserve(most_requests);
+    }
+    explicit Transfer(Bytes message) : own_(1) {
+        own_.front().messages.push_back(std::move(message));
+        own_.front().requests.reserve(1);
+    }
+    Transfer(const Transfer&) = delete;
+    Transfer& operator=(const Transfer&) = delete;
+    ~Transfer() {
+        const std::vector<MPI_Request>& all = requests();
+        if (std::any_of(all.begin(), all.end(), [](MPI_Request request) { return request != MPI_REQUEST_NULL; }))
+            abandoned_.splice(abandoned_.end(), own_);
+    }
+
+    std::vector<Bytes>& messages() { return own_.front().messages; }
+    Bytes& message() { return messages().front(); }
+    std::vector<MPI_Request>& requests() { return own_.front().requests; }
+    MPI_Request& new_request() { return requests().emplace_back(MPI_REQUEST_NULL); }
+    void wait_for_all() {
+        check_mpi(MPI_Waitall(static_cast<int>(requests().size()), requests().data(), MPI_STATUSES_IGNORE),
+                  "MPI_Waitall");
+    }
+
+ private:
+    std::list<OnTheWay> own_;
+    std::list<OnTheWay>& abandoned_ = abandoned();
+};
+
+MpiRanks::MpiRanks(MPI_Comm comm) {
+    initialise_mpi();
+    check_mpi(MPI_Comm_dup(comm, &comm_), "MPI_Comm_dup");
+    check_mpi(MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    check_mpi(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
+    check_mpi(MPI_Comm_size(comm_, &size_), "MPI_Comm_size");
+    sent_to_.assign(static_cast<std::size_t>(size_), 0);
+    for (auto* of_ranks : {&sizes_, &sent_, &expected_}) of_ranks->resize(sent_to_.size());
+    leaving_.assign(sent_to_.size(), MPI_REQUEST_NULL);
+}
+
+MpiRanks::~MpiRanks() {
+    abandoned().splice(abandoned().end(), posted_);
+    MPI_Comm_free(&comm_);
+}
+
+MPI_Op MpiRanks::operation_of(Reduction reduction) {
+    if (reduction == Reduction::sum) return MPI_SUM;
+    return reduction == Reduction::smallest ? MPI_MIN : MPI_MAX;
+}
+
+// Begins a collective with a number of each rank: the bytes that it brings, or that it has left.
+void MpiRanks::begin_collective(std::uint64_t own_size) {
+    if (is_over_) throw_last_words();
+    check_mpi(MPI_Allgather(&own_size, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
+    if (std::find(sizes_.begin(), sizes_.end(), has_left) == sizes_.end()) return;
+    end_together({});
+    throw_last_words();
+}
+
+void MpiRanks::throw_last_words() const {
+    throw RankHasLeft(static_cast<ErrorCode>(last_words_.code), last_words_.message.data());
+}
+
+// Takes the words of the first rank that has left, on all ranks; no posted message stays under way.
+void MpiRanks::end_together(const StageStatus& why) {
+    is_over_ = true;
+    if (why.code != 0) last_words_.code = why.code;
+    why.message.copy(last_words_.message.data(), last_words_.message.size() - 1);
+    const auto speaker = std::find(sizes_.begin(), sizes_.end(), has_left) - sizes_.begin();
+    check_mpi(MPI_Bcast(&last_words_, sizeof last_words_, MPI_BYTE, static_cast<int>(speaker), comm_), "MPI_Bcast");
+    for (int r = 0; r < size_; ++r)
+        if (r != rank_ && sizes_[static_cast<std::size_t>(r)] == has_left)
+            check_mpi(MPI_Recv(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
+    check_mpi(MPI_Waitall(size_, leaving_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+    try {
+        take_messages();
+    } catch (const std::bad_alloc&) {
+        MPI_Abort(comm_, last_words_.code);
+    }
+}
+
+// Tells the others by messages, too: a rank that waits for another one, not in a collective, learns of it by one.
+void MpiRanks::leave(const StageStatus& why) {
+    if (is_over_) return;
+    const FailureDeadline deadline(why.code, why.message);
+    for (int r = 0; r < size_; ++r)
+        if (r != rank_)
+            check_mpi(MPI_Isend(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, &leaving_[static_cast<std::size_t>(r)]),
+                      "MPI_Isend");
+    check_mpi(MPI_Allgather(&has_left, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
+    end_together(why);
+}
+
+std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
+    begin_collective(contribution.size());
+    std::uint64_t total = 0;
+    for (const std::uint64_t size : sizes_) total += size;
+    const bool is_one_call = total <= most_of_one_call;
+    std::vector<Bytes> all;
+    Bytes together;
+    std::vector<int> sizes, starts;
+    require_room(has_room_for([&] {
+        for (const std::uint64_t size : sizes_) {
+            starts.push_back(starts.empty() ? 0 : starts.back() + sizes.back());
+            sizes.push_back(is_one_call ? static_cast<int>(size) : 0);
+            all.emplace_back(size);
+        }
+        if (is_one_call) together.resize(total);
+        all[static_cast<std::size_t>(rank_)] = contribution;
+    }));
+    if (is_one_call)
+        check_mpi(MPI_Allgatherv(contribution.data(), static_cast<int>(contribution.size()), MPI_BYTE, together.data(),
+                                 sizes.data(), starts.data(), MPI_BYTE, comm_),
+                  "MPI_Allgatherv");
+    for (std::size_t r = 0; r < all.size(); ++r)
+        if (is_one_call)
+            std::copy_n(together.begin() + starts[r], sizes[r], all[r].begin());
+        else
+            broadcast_bytes(all[r], static_cast<int>(r));
+    return all;
+}
+
+// Throws std::bad_alloc on all ranks if one has no room.
+void MpiRanks::require_room(bool has_room) const {
+    if (!all_reduce(std::int32_t{has_room}, Reduction::smallest)) throw std::bad_alloc();
+}
+
+void MpiRanks::broadcast_bytes(std::span<char> bytes, int root) const {
+    for_pieces(bytes,
+               [&](char* piece, int size) { check_mpi(MPI_Bcast(piece, size, MPI_BYTE, root, comm_), "MPI_Bcast"); });
+}
+
+Bytes MpiRanks::broadcast(Bytes of_root, int root) {
+    begin_collective(of_root.size());
+    require_room(has_room_for([&] {
+        if (rank_ != root) of_root = Bytes(sizes_[static_cast<std::size_t>(root)]);
+    }));
+    broadcast_bytes(of_root, root);
+    return of_root;
+}
+
+std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
+    begin_collective(0);
+    const auto own = static_cast<std::size_t>(rank_);
+    for (std::size_t r = 0; r < sent_.size(); ++r) sent_[r] = r == own ? 0 : to_rank[r].size();
+    check_mpi(MPI_Alltoall(sent_.data(), 1, MPI_UINT64_T, expected_.data(), 1, MPI_UINT64_T, comm_), "MPI_Alltoall");
+    std::optional<Transfer> sent, got;
+    require_room(has_room_for([&] {
+        std::vector<Bytes> from_rank;
+        std::size_t pieces_sent = 0, pieces_expected = 0;
+        for (std::size_t r = 0; r < sent_.size(); ++r) {
+            from_rank.emplace_back(expected_[r]);
+            pieces_sent += count_pieces(sent_[r]);
+            pieces_expected += count_pieces(expected_[r]);
+        }
+        sent.emplace(std::move(to_rank), pieces_sent);
+        got.emplace(std::move(from_rank), pieces_expected);
+    }));
+    got->messages()[own] = std::move(sent->messages()[own]);
+    for (int step = 1; step < size_; ++step) {  // each rank begins with another one
+        const int r = (rank_ + step) % size_;
+        for_pieces(got->messages()[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+            check_mpi(MPI_Irecv(piece, size, MPI_BYTE, r, exchange_tag, comm_, &got->new_request()), "MPI_Irecv");
+        });
+        for_pieces(sent->messages()[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+            check_mpi(MPI_Isend(piece, size, MPI_BYTE, r, exchange_tag, comm_, &sent->new_request()), "MPI_Isend");
+        });
+    }
+    got->wait_for_all();
+    sent->wait_for_all();
+    return std::move(got->messages());
+}
+
+void MpiRanks::sum(std::span<std::uint64_t> words) {
+    begin_collective(0);
+    for_pieces(words, [&](std::uint64_t* piece, int count) {
+        check_mpi(MPI_Allreduce(MPI_IN_PLACE, piece, count, MPI_UINT64_T, MPI_SUM, comm_), "MPI_Allreduce");
+    });
+}
+
+// Returns true when the message has left or arrived, false when a rank has left. Who waits for long leaves the
+// processor to others.
+bool MpiRanks::is_done(MPI_Request& request) const {
+    int is_over = 0, has_rank_left = 0;
+    for (Patience patience;; patience.pause()) {
+        check_mpi(MPI_Test(&request, &is_over, MPI_STATUS_IGNORE), "MPI_Test");
+        if (is_over) return true;
+        check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm_, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
+        if (has_rank_left) return false;
+    }
+}
+
+// Sends the message of `transfer`, piece by piece; receive() receives into it. A message that nobody receives any more
+// cannot be called back.
+void MpiRanks::send(Transfer& transfer, int rank, int tag) {
+    for_pieces(transfer.message(), [&](char* piece, int size) {
+        transfer.requests().clear();
+        MPI_Request& request = transfer.new_request();
+        check_mpi(MPI_Isend(piece, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Isend");
+        if (!is_done(request)) begin_collective(0);  // throws, when nobody receives any more
+    });
+}
+
+void MpiRanks::receive(Transfer& transfer, int rank, int tag) {
+    for_pieces(transfer.message(), [&](char* piece, int size) {
+        transfer.requests().clear();
+        MPI_Request& request = transfer.new_request();
+        check_mpi(MPI_Irecv(piece, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Irecv");
+        if (is_done(request)) return;
+        check_mpi(MPI_Cancel(&request), "MPI_Cancel");
+        check_mpi(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
+        begin_collective(0);  // throws
+    });
+}
+
+// Sends the size first; the receiver answers whether it has room.
+void MpiRanks::send(int rank, Bytes message) {
+    if (is_over_) throw_last_words();
+    Transfer size(to_bytes(std::uint64_t{message.size()})), has_room(Bytes(sizeof(std::int32_t)));
+    Transfer whole(std::move(message));
+    send(size, rank, send_tag);
+    receive(has_room, rank, answer_tag);
+    if (from_bytes<std::int32_t>(has_room.message())) send(whole, rank, send_tag);
+}
+
+Bytes MpiRanks::receive(int rank) {
+    if (is_over_) throw_last_words();
+    Transfer size(Bytes(sizeof(std::uint64_t))), yes(to_bytes(std::int32_t{1})), no(to_bytes(std::int32_t{0}));
+    receive(size, rank, send_tag);
+    std::optional<Transfer> whole;
+    const bool has_room = has_room_for([&] { whole.emplace(Bytes(from_bytes<std::uint64_t>(size.message()))); });
+    send(has_room ? yes : no, rank, answer_tag);
+    if (!has_room) throw std::bad_alloc();
+    receive(*whole, rank, send_tag);
+    return std::move(whole->message());
+}
+
+// Throws if a rank has left, for callers that look for messages that never come then.
+void MpiRanks::end_if_one_has_left() {
+    int has_rank_left = is_over_;
+    if (!is_over_)
+        check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm_, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
+    if (has_rank_left) begin_collective(0);  // throws
+}
+
+std::optional<Bytes> MpiRanks::receive_any() {
+    int arrived = 0;
+    MPI_Status status;
+    check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, send_tag, comm_, &arrived, &status), "MPI_Iprobe");
+    if (arrived) return receive(status.MPI_SOURCE);
+    end_if_one_has_left();
+    return {};
+}
+
+void MpiRanks::post(int rank, const Bytes& message) {
+    if (is_over_) return;
+    posted_.remove_if([](OnTheWay& posted) {
+        int left = 0;
+        check_mpi(MPI_Test(posted.requests.data(), &left, MPI_STATUS_IGNORE), "MPI_Test");
+        return left != 0;
+    });
+    OnTheWay& posted = posted_.emplace_back(OnTheWay{{message}, {MPI_REQUEST_NULL}});
+    check_mpi(MPI_Isend(posted.messages.front().data(), static_cast<int>(message.size()), MPI_BYTE, rank, post_tag,
+                        comm_, posted.requests.data()),
+              "MPI_Isend");
+    ++sent_to_[static_cast<std::size_t>(rank)];
+}
+
+Bytes MpiRanks::receive(const MPI_Status& announced) const {
+    int size = 0;
+    check_mpi(MPI_Get_count(&announced, MPI_BYTE, &size), "MPI_Get_count");
+    Bytes message(static_cast<std::size_t>(size));
+    check_mpi(MPI_Recv(message.data(), size, MPI_BYTE, announced.MPI_SOURCE, post_tag, comm_, MPI_STATUS_IGNORE),
+              "MPI_Recv");
+    return message;
+}
+
+std::optional<Bytes> MpiRanks::poll() {
+    int arrived = 0;
+    MPI_Status status;
+    check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, post_tag, comm_, &arrived, &status), "MPI_Iprobe");
+    if (!arrived) {
+        end_if_one_has_left();
+        return {};
+    }
+    Bytes message = receive(status);
+    ++received_;
+    return message;
+}
+
+void MpiRanks::drop_messages() {
+    if (is_over_) return;
+    begin_collective(0);
+    take_messages();
+}
+
+void MpiRanks::take_messages() {
+    int expected = 0;
+    check_mpi(MPI_Reduce_scatter_block(sent_to_.data(), &expected, 1, MPI_INT, MPI_SUM, comm_),
+              "MPI_Reduce_scatter_block");
+    for (; received_ < expected; ++received_) {
+        MPI_Status status;
+        check_mpi(MPI_Probe(MPI_ANY_SOURCE, post_tag, comm_, &status), "MPI_Probe");
+        receive(status);
+    }
+    for (OnTheWay& posted : posted_) check_mpi(MPI_Wait(posted.requests.data(), MPI_STATUS_IGNORE), "MPI_Wait");
+    posted_.clear();
+    sent_to_.assign(sent_to_.size(), 0);
+    received_ = 0;
+}
+
+std::vector<Bytes> MpiRanks::gather_on_host(const Bytes& contribution, std::size_t& own) const {
+    MPI_Comm host = MPI_COMM_NULL;
+    check_mpi(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host), "MPI_Comm_split_type");
+    std::vector<Bytes> all;
+    {
+        MpiRanks on_host(host);
+        own = static_cast<std::size_t>(on_host.rank());
+        all = on_host.all_gather(contribution);
+    }
+    check_mpi(MPI_Comm_free(&host), "MPI_Comm_free");
+    return all;
+}
+
+}  // namespace kerf

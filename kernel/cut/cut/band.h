@@ -1,0 +1,80 @@
+// The part of a surface around a plane, where a contour may run.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "cut/cut/cut.h"
+
+namespace kerf {
+
+/// The reach of a facet: the lowest and highest distance of its vertices from the plane.
+struct SlabFacet {
+    std::int32_t facet;
+    double low, high;
+};
+
+/// The facets of a surface that meet the plane or whose centroid is nearer to it than three crossing edges. All other
+/// facets lie on one side of the plane.
+struct Band {
+    Plane plane;
+    double edge_length = 0;              ///< h, mean length of the edges that cross the plane; 0: none does
+    double section_area = 0;             ///< area in which the plane cuts the body
+    double half_width = 0;               ///< three crossing edges, 3 h
+    std::vector<double> distance;        ///< per vertex of the surface, signed
+    std::vector<std::int32_t> facets;    ///< ascending
+    std::vector<std::int32_t> index_of;  ///< per facet of the surface: its index in `facets`, or -1
+    std::vector<std::array<std::int32_t, 3>> half_edges;  ///< per band facet
+    std::vector<std::int32_t> vertices;                   ///< vertices of the band's facets, in the order in which they
+                                                          ///< are met
+    std::vector<std::int32_t> vertex_index_of;            ///< per vertex of the surface: its index in `vertices`, or -1
+    std::vector<Side> majority;   ///< per facet of the surface: the side of most vertices (ivanov2006)
+    std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; the whole band is
+                                  ///< among them
+    double rounding = 0;          ///< bound on the error of a projection or a height
+
+    /// Whether the sizes are those of a band of this surface: required wherever both are passed together.
+    bool fits(const Surface& surface) const {
+        return distance.size() == static_cast<std::size_t>(surface.vertex_count()) &&
+               vertex_index_of.size() == distance.size() && majority.size() == index_of.size() &&
+               index_of.size() == static_cast<std::size_t>(surface.facet_count());
+    }
+    /// Mean of the distances of the facet's vertices.
+    double facet_distance(const Surface& surface, std::int32_t facet) const {
+        const Triangle t = surface.vertices(facet);
+        return (distance[t[0]] + distance[t[1]] + distance[t[2]]) / 3;
+    }
+    /// Calls visit(slab facet) for the facets that reach into [low, high], ascending. O(#slab) within the half width,
+    /// else O(#F).
+    template <class Visit>
+    void for_each_facet_between(const Surface& surface, double low, double high, Visit visit) const {
+        const auto visit_if_between = [&](const SlabFacet& facet) {
+            if (facet.low <= high && facet.high >= low) visit(facet);
+        };
+        if (low >= -half_width && high <= half_width)
+            for (const SlabFacet& facet : slab) visit_if_between(facet);
+        else
+            for (std::int32_t f = 0; f < surface.facet_count(); ++f) visit_if_between(reach_of(surface, f));
+    }
+    SlabFacet reach_of(const Surface& surface, std::int32_t facet) const {
+        const Triangle t = surface.vertices(facet);
+        const auto [low, high] = std::minmax({distance[t[0]], distance[t[1]], distance[t[2]]});
+        return {facet, low, high};
+    }
+};
+
+/// Whether there is a label for every facet of the surface: required wherever labels are passed.
+inline bool fit(const std::vector<Side>& side, const Surface& surface) {
+    return side.size() == static_cast<std::size_t>(surface.facet_count());
+}
+
+/// Makes the band of a plane. O(#V + #F), on threads.
+Band make_band(const Surface& surface, const Plane& plane);
+
+/// Returns the mean length of the edges that cross a plane, 0 if none does. O(#V + #F).
+double crossing_edge_length(const Surface& surface, const Plane& plane);
+
+/// Returns the edges with one end below and one end above the plane, oriented from below to above.
+std::vector<SurfaceEdge> crossed_edges(const Surface& surface, const Band& band);
+
+}  // namespace kerf

@@ -1,0 +1,340 @@
+// VTU is XML around arrays: FieldData and Piece > Points, Cells, CellData > DataArray. The tags are scanned without a
+// parser of XML: first the structure of the whole file is read, with the place of each array in the text, then the
+// values of the arrays that are needed, piece by piece (files/io/vtu_arrays.h). Arrays of cells that are not read are
+// passed over without decoding. Regions come from an array of the cells, for tetrahedra, or from the arrays "front" and
+// "back" of triangles, which count only if all pieces have both. Numbers of regions are those of the file until all
+// cells are read, and are made consecutive in their order then.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/io/mesh_scanners.h"
+#include "files/io/region_facets.h"
+#include "files/io/soup_builder.h"
+#include "files/io/surface_reader.h"
+#include "files/io/text_scanner.h"
+#include "files/io/vtk_cell_types.h"
+#include "files/io/vtu_arrays.h"
+
+namespace kerf {
+
+namespace vtu {
+
+namespace {
+
+struct Tag {
+    std::string_view name;        // with a slash in front at the end of an element
+    std::string_view attributes;  // the text of all
+    bool is_empty = false;        // an element without content
+    std::size_t end = 0;          // behind the tag
+
+    // Empty if it is not there.
+    std::string_view value(std::string_view attribute) const {
+        for (std::size_t at = 0; (at = attributes.find(attribute, at)) != attributes.npos; at += attribute.size()) {
+            const std::string_view rest = attributes.substr(at + attribute.size());
+            const bool begins_word = at == 0 || attributes[at - 1] == ' ' || attributes[at - 1] == '\n' ||
+                                     attributes[at - 1] == '\t' || attributes[at - 1] == '\r';
+            if (!begins_word || rest.size() < 2 || rest[0] != '=' || (rest[1] != '"' && rest[1] != '\'')) continue;
+            return rest.substr(2, rest.find(rest[1], 2) - 2);
+        }
+        return {};
+    }
+};
+
+// The next tag from a position on, comments and declarations left out; nothing at the end of the text.
+std::optional<Tag> next_tag(std::string_view text, std::size_t position, const std::string& path) {
+    while (true) {
+        const std::size_t begin = text.find('<', position);
+        if (begin == text.npos) return {};
+        const bool is_comment = text.substr(begin).starts_with("<!--");
+        const std::string_view closing = is_comment ? "-->" : ">";
+        const std::size_t end = text.find(closing, begin);
+        if (end == text.npos) fail(path, "a tag does not end. The file is truncated: save or copy it again.");
+        position = end + closing.size();
+        if (is_comment || text[begin + 1] == '?' || text[begin + 1] == '!') continue;
+        std::string_view inside = text.substr(begin + 1, end - begin - 1);
+        const bool is_empty = inside.ends_with('/');
+        if (is_empty) inside.remove_suffix(1);
+        const std::size_t name_end = std::min(inside.size(), inside.find_first_of(" \t\r\n"));
+        return Tag{inside.substr(0, name_end), inside.substr(name_end), is_empty, position};
+    }
+}
+
+void read_root(const Tag& tag, File& file, const std::string& path) {
+    if (tag.value("type") == "PUnstructuredGrid")
+        fail(path, "this is a list of parts. Name the folder of the run or one of the parts.");
+    if (tag.value("type") != "UnstructuredGrid")
+        fail(path, "VTK's " + std::string(tag.value("type").substr(0, 40)) +
+                       " is no mesh of tetrahedra. Save it as an unstructured grid (.vtu).");
+    file.has_long_headers = tag.value("header_type") == "UInt64";
+    file.order = tag.value("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
+    const std::string_view compressor = tag.value("compressor");
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+        fail(path, "the compression " + std::string(compressor.substr(0, 40)) +
+                       " cannot be read. Save it with vtkZLibDataCompressor or without one.");
+    file.is_compressed = !compressor.empty();
+}
+
+std::int64_t count_in(const Tag& tag, std::string_view attribute, const std::string& path) {
+    const std::string_view text = tag.value(attribute);
+    TextScanner scanner(text, path);
+    constexpr std::int64_t most = std::int64_t{1} << 60;  // three times as many are still a number
+    const std::int64_t count = text.empty() ? 0 : scanner.next_count();
+    if (count > most) fail(path, "it claims " + std::to_string(count) + " elements. Save it again.");
+    return count;
+}
+
+// The array that begins with this tag, and whose element ends at `end`.
+Array read_array(std::string_view text, const Tag& tag, std::size_t end, const std::string& path) {
+    Array array{std::string(tag.value("type")), std::string(tag.value("format")), {}, count_in(tag, "offset", path)};
+    if (array.format.empty()) array.format = "ascii";
+    array.content = text.substr(tag.end, end - tag.end);
+    return array;
+}
+
+// Returns the name that an array of cells has here; empty for arrays that are not read. "front" and "back" may be
+// written in any case.
+std::string cell_array_of(std::string_view name, std::string_view type) {
+    if (name == "Neighbour") return "Neighbour";
+    if (!type.starts_with("Int") && !type.starts_with("UInt")) return {};
+    if (std::find(region_arrays.begin(), region_arrays.end(), name) != region_arrays.end()) return std::string(name);
+    std::string lower(name);
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+    return lower == front_array || lower == back_array ? lower : std::string();
+}
+
+// An array that the tag begins; the end of its content is known by the next tag.
+void read_data_array(std::string_view text, const Tag& tag, std::string_view section, File& file,
+                     const std::string& path) {
+    const std::size_t end = tag.is_empty ? tag.end : std::min(text.size(), text.find('<', tag.end));
+    const std::string name(section == "Points" ? "Points" : tag.value("Name"));
+    if (section == "FieldData" && name == "RegionNames") file.region_names = read_array(text, tag, end, path);
+    if (section == "FieldData" && name == "RegionNumbers") file.region_numbers = read_array(text, tag, end, path);
+    if (file.pieces.empty()) return;
+    Piece& piece = file.pieces.back();
+    const std::string_view components = tag.value("NumberOfComponents");
+    const bool is_scalar = components.empty() || components == "1";
+    const std::string of_cells =
+        section == "CellData" && is_scalar ? cell_array_of(name, tag.value("type")) : std::string();
+    if (section == "Points" || section == "Cells" || !of_cells.empty())
+        piece.arrays.try_emplace(of_cells.empty() ? name : of_cells, read_array(text, tag, end, path));
+    if (section == "PointData" && is_scalar) piece.scalars.try_emplace(name, read_array(text, tag, end, path));
+}
+
+// Reads the structure of the file, everything but the values.
+File read_structure(std::string_view text, const std::string& path) {
+    File file;
+    std::string section;
+    std::optional<Tag> tag = next_tag(text, 0, path);
+    if (!tag || tag->name != "VTKFile") fail(path, "it does not begin as a VTK file. Save it as .vtu.");
+    read_root(*tag, file, path);
+    while ((tag = next_tag(text, tag->end, path))) {
+        if (tag->name == "Piece") {
+            file.pieces.push_back(
+                {count_in(*tag, "NumberOfPoints", path), count_in(*tag, "NumberOfCells", path), {}, {}});
+        } else if (tag->name == "DataArray" || tag->name == "Array") {
+            read_data_array(text, *tag, section, file, path);
+        } else if (tag->name == "AppendedData") {
+            const std::size_t begin = text.find('_', tag->end);
+            if (begin == text.npos) fail(path, "its appended data are missing. The file is truncated: copy it again.");
+            file.is_appended_base64 = tag->value("encoding") != "raw";
+            file.appended = text.substr(begin + 1);
+            return file;
+        } else if (tag->name != "/DataArray" && tag->name != "/Array") {
+            section = tag->name;
+        }
+    }
+    return file;
+}
+
+struct Cells {
+    std::vector<std::int64_t> corners, ends, types, neighbours, regions, front, back;
+};
+
+// Regions on the sides of triangles, by the numbers of the file.
+using FileSides = std::vector<std::array<std::int64_t, 2>>;
+
+Cells read_cells(const Decoder& decoder, const Piece& piece, const std::string& region_array, const std::string& path) {
+    Cells cells;
+    cells.types = decoder.values<std::int64_t>(piece, "types", piece.cells);
+    cells.ends = decoder.values<std::int64_t>(piece, "offsets", piece.cells);
+    cells.corners = decoder.values<std::int64_t>(piece, "connectivity", piece.cells ? cells.ends.back() : 0);
+    if (piece.arrays.contains("Neighbour"))
+        cells.neighbours = decoder.values<std::int64_t>(piece, "Neighbour", piece.cells);
+    if (!region_array.empty() && piece.cells > 0)
+        cells.regions = decoder.values<std::int64_t>(piece, region_array, piece.cells);
+    if (piece.cells > 0 && piece.arrays.contains(front_array) && piece.arrays.contains(back_array)) {
+        cells.front = decoder.values<std::int64_t>(piece, front_array, piece.cells);
+        cells.back = decoder.values<std::int64_t>(piece, back_array, piece.cells);
+    }
+    std::int64_t begin = 0;
+    for (const std::int64_t end : cells.ends) {
+        if (end < begin || end > static_cast<std::int64_t>(cells.corners.size()))
+            fail(path, "the offsets of its cells do not rise. Save it again.");
+        begin = end;
+    }
+    return cells;
+}
+
+// The array of cells that tells their regions; empty if there is none.
+std::string region_array_of(const File& file) {
+    for (const char* name : region_arrays) {
+        const auto has_it = [&](const Piece& piece) { return piece.cells == 0 || piece.arrays.contains(name); };
+        if (std::all_of(file.pieces.begin(), file.pieces.end(), has_it)) return name;
+    }
+    return {};
+}
+
+// Tells whether all pieces have the arrays of sides.
+bool has_sides(const File& file) {
+    return std::all_of(file.pieces.begin(), file.pieces.end(), [](const Piece& piece) {
+        return piece.cells == 0 || (piece.arrays.contains(front_array) && piece.arrays.contains(back_array));
+    });
+}
+
+using RegionNames = std::map<std::int64_t, std::string>;
+
+// Returns the names of regions, each ended by a zero byte in the file: of the numbers from 0, unless an array says
+// others.
+RegionNames region_names_of(const File& file, const Decoder& decoder) {
+    RegionNames of_numbers;
+    if (!file.region_names) return of_numbers;
+    std::vector<std::string> names;
+    std::string name;
+    for (const std::int64_t byte : decoder.values_of<std::int64_t>(*file.region_names)) {
+        if (byte != 0) {
+            name += static_cast<char>(byte);
+            continue;
+        }
+        names.push_back(std::move(name));
+        name.clear();
+    }
+    if (!name.empty()) names.push_back(std::move(name));
+    std::vector<std::int64_t> numbers(names.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    if (file.region_numbers) numbers = decoder.values_of<std::int64_t>(*file.region_numbers);
+    for (std::size_t i = 0; i < std::min(names.size(), numbers.size()); ++i)
+        of_numbers[numbers[i]] = std::move(names[i]);
+    return of_numbers;
+}
+
+bool is_triangle(std::int64_t type) { return type == vtk_triangle || type == vtk_quadratic_triangle; }
+
+// Cuts the nodes of a quadratic cell down to its corners, which come first, and returns the type of first order.
+std::int64_t take_corners(std::int64_t type, std::vector<std::int64_t>& nodes, SoupBuilder& builder) {
+    const std::size_t corners = type == vtk_quadratic_triangle ? 3 : type == vtk_quadratic_tetra ? 4 : 0;
+    if (corners == 0 || nodes.size() != (corners == 3 ? 6U : 10U)) return type;
+    nodes.resize(corners);
+    builder.count_cell_by_corners();
+    return corners == 3 ? vtk_triangle : vtk_tetra;
+}
+
+// Adds a tetrahedron or a triangle; returns false for other cells.
+template <class Fail>
+bool add_cell(const Cells& cells, std::size_t cell, std::vector<std::int64_t>& corners, SoupBuilder& builder,
+              const Fail& fail_cell) {
+    const std::int64_t type = take_corners(cells.types[cell], corners, builder);
+    if (has_higher_order(type))
+        fail_cell("it is of VTK's type " + std::to_string(type) +
+                  ", which has nodes between its corners. Save the mesh with cells of first order.");
+    builder.count_other_cells(is_other_volume(type));
+    if (type != vtk_tetra && type != vtk_triangle) return false;
+    if (corners.size() != (type == vtk_tetra ? 4U : 3U))
+        fail_cell("it has " + std::to_string(corners.size()) + " corners. Save the mesh again.");
+    if (type == vtk_tetra) {
+        const std::int32_t volume = cells.regions.empty() ? 0 : builder.tets().volume({0, cells.regions[cell]});
+        builder.tets().add(corners, fail_cell, volume);
+        return true;
+    }
+    if (!cells.neighbours.empty() && cells.neighbours[cell] >= 0)
+        builder.set_patch(interface_patch);
+    else
+        builder.set_unnamed_patch();
+    builder.add_polygon(corners, fail_cell);
+    return true;
+}
+
+// Adds the cells of a piece, and the regions beside its triangles to `sides`.
+void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& region_array, const std::string& path,
+                SoupBuilder& builder, FileSides& sides) {
+    const std::int64_t first_vertex = builder.vertex_count();
+    const std::vector<double> coordinates = decoder.values<double>(piece, "Points", 3 * piece.points);
+    for (std::size_t i = 0; i < coordinates.size(); i += 3)
+        builder.add_vertex({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
+    for (const auto& [name, array] : piece.scalars) {
+        if (!builder.wants_scalars()) break;
+        const std::vector<double> values = decoder.values_of<double>(array);
+        if (static_cast<std::int64_t>(values.size()) != piece.points)
+            fail(path, "its array " + name + " has not one value for each point. Save or copy it again.");
+        std::copy(values.begin(), values.end(), builder.tets().scalar(name).begin() + first_vertex);
+    }
+    const Cells cells = read_cells(decoder, piece, region_array, path);
+    std::vector<std::int64_t> corners;
+    std::int64_t begin = 0, ignored = 0;
+    for (std::size_t cell = 0; cell < cells.types.size(); ++cell) {
+        corners.clear();
+        for (; begin < cells.ends[cell]; ++begin)  // a negative corner stays one
+            corners.push_back(cells.corners[begin] < 0 ? -1 : cells.corners[begin] + first_vertex);
+        ignored += !add_cell(cells, cell, corners, builder, [&](const std::string& what) {
+            fail(path, "cell " + std::to_string(cell) + ": " + what);
+        });
+        if (!cells.front.empty() && is_triangle(cells.types[cell]))
+            sides.push_back({cells.front[cell], cells.back[cell]});
+    }
+    builder.note_ignored(ignored, "cell that is no tetrahedron or triangle",
+                         "cells that are no tetrahedra or triangles");
+}
+
+std::string region_name(const RegionNames& names, std::int64_t number) {
+    const auto found = names.find(number);
+    return found != names.end() && !found->second.empty() ? found->second : "region_" + std::to_string(number);
+}
+
+// Regions of the numbers that occur, in their order.
+void set_sides(const FileSides& file_sides, const RegionNames& names, SoupBuilder& builder) {
+    std::map<VolumeKey, std::int32_t> regions;
+    for (const auto& pair : file_sides)
+        for (const std::int64_t number : pair)
+            if (number >= 0) regions.try_emplace({0, number}, 0);
+    std::int32_t count = 0;
+    for (auto& [key, place] : regions) place = count++;
+    const VolumeRegions found =
+        regions_of(regions, [&](const VolumeKey& key) { return region_name(names, key.second); });
+    const auto region = [&](std::int64_t number) {
+        return number < 0 ? -1 : found.region_of_volume[static_cast<std::size_t>(regions.at({0, number}))];
+    };
+    std::vector<FacetSides> sides;
+    for (const auto& [front, back] : file_sides) sides.push_back({region(front), region(back)});
+    builder.set_sides(std::move(sides), found.names);
+}
+
+}  // namespace
+
+}  // namespace vtu
+
+void scan_vtu(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
+    const vtu::File file = vtu::read_structure(bytes, path);
+    const vtu::Decoder decoder(file, path);
+    const std::string region_array = builder.wants_scalars() ? std::string() : vtu::region_array_of(file);
+    vtu::FileSides sides;
+    for (const vtu::Piece& piece : file.pieces) vtu::scan_piece(decoder, piece, region_array, path, builder, sides);
+    if (builder.wants_scalars()) return;
+    const vtu::RegionNames names = vtu::region_names_of(file, decoder);
+    if (!builder.wants_tets() && !sides.empty() && vtu::has_sides(file)) vtu::set_sides(sides, names, builder);
+    if (!region_array.empty())
+        builder.tets().name_volumes([&](const VolumeKey& key) { return vtu::region_name(names, key.second); });
+}
+
+Soup read_vtu(std::string_view bytes, const std::string& path) {
+    SoupBuilder builder(path);
+    scan_vtu(bytes, path, builder);
+    return builder.finish();
+}
+
+}  // namespace kerf

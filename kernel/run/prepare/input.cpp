@@ -1,0 +1,424 @@
+// All ways to a surface go through check_files() and to_input(). check_files() does, in this order: exact welding,
+// welding within a tolerance, the simple repairs, the ladder of repairs (surface/repair/repair.h), the wrap, points of
+// regions, and the diagnosis with its search for regions. The order is part of what users see: each step counts on the
+// ones before. to_input() refuses a surface with errors, drops superfluous facets and orients the rest, and makes the
+// complex; vertices and facets get keys of node 0, which are their numbers.
+//
+// Arrays of other programs are checked row by row first, in every build, because nothing behind that checks numbers
+// again. Regions exclude the optimisation of the surface and patches by angles.
+#include "run/prepare/input.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "base/core/error.h"
+#include "base/core/hash.h"
+#include "base/geometry/box.h"
+#include "base/geometry/triangle.h"
+#include "files/io/run_manifest.h"
+#include "run/prepare/region_diagnosis.h"
+#include "run/prepare/stage_listener.h"
+#include "surface/complex/mass_properties.h"
+#include "surface/diagnosis/intersections.h"
+#include "surface/diagnosis/optimisation.h"
+#include "surface/openings/hole_filling.h"
+#include "surface/regions/regions.h"
+#include "surface/repair/repair.h"
+#include "surface/wrap/wrap.h"
+
+namespace kerf {
+
+namespace {
+
+SurfaceArrays with_input_keys(Soup soup) {
+    SurfaceArrays arrays;
+    arrays.vertex_key.resize(soup.vertices.size());
+    arrays.facet_key.resize(soup.facets.size());
+    std::iota(arrays.vertex_key.begin(), arrays.vertex_key.end(), make_key(0, 0));
+    std::iota(arrays.facet_key.begin(), arrays.facet_key.end(), make_key(0, 0));
+    arrays.vertices = std::move(soup.vertices);
+    arrays.facets = std::move(soup.facets);
+    arrays.patch = std::move(soup.patch);
+    return arrays;
+}
+
+double diagonal_of(const Soup& soup) {
+    const Box box = box_around_finite(soup.vertices);
+    return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+// The tolerance in units of the file. Throws Error(usage) for one that would leave nothing.
+double weld(Soup& soup, const Length& wanted, InputRepairs& repairs) {
+    constexpr double rounding = 1e-16;  // of the diagonal: nearer vertices are equal, and merged already
+    const double diagonal = diagonal_of(soup), tolerance = wanted.of(diagonal);
+    if (tolerance > diagonal && diagonal > 0)
+        throw Error(ErrorCode::usage, fmt::format("--weld is {:.6g}, but the surface, from corner to corner of its "
+                                                  "bounding box, is {:.6g}. Give less.",
+                                                  tolerance, diagonal));
+    if (tolerance > rounding * diagonal) repairs.merged_vertices = weld_within(soup, tolerance);
+    return tolerance;
+}
+
+// Points that the user gives are in place of those of the file.
+void take_points(Soup& soup, const InputOptions& options) {
+    if (options.regions.empty()) return;
+    if (!soup.sides.empty())
+        throw Error(ErrorCode::usage,
+                    "--region is for facets that do not say what they bound, but this file has "
+                    "regions. Leave it out.");
+    soup.seeds = seeds_of(options);
+}
+
+// Moves vertices of a surface that is known to be clean.
+void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
+    OptimisationOptions options;
+    options.sweeps = sweeps;
+    std::vector<Vec3> moved = optimise_nodes(soup.vertices, soup.facets, soup.patch, {}, options);
+    if (const auto pairs = find_self_intersections(moved, soup.facets, 1); !pairs.empty())
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{}: with --optimise-surface {} the facets {} and {} would intersect. Use fewer sweeps or "
+                        "leave the option out.",
+                        input.path, sweeps, pairs[0].first, pairs[0].second));
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+        input.moved_vertices += moved[v] != soup.vertices[v];
+        input.largest_move = std::max(input.largest_move, (moved[v] - soup.vertices[v]).norm());
+    }
+    soup.vertices = std::move(moved);
+}
+
+// Returns the bounds of cells by region. Among points with one name the smallest bound counts, for a body without
+// regions that of all points.
+std::vector<double> largest_cells_of(const Soup& soup) {
+    const bool is_single = soup.region_names.empty();
+    std::vector<double> largest(is_single ? 1 : soup.region_names.size(), 0);
+    bool is_any = false;
+    for (const RegionSeed& seed : soup.seeds) {
+        const auto found = std::find(soup.region_names.begin(), soup.region_names.end(), seed.name);
+        if ((!is_single && found == soup.region_names.end()) || !(seed.largest_cell > 0)) continue;
+        double& own = largest[static_cast<std::size_t>(found - soup.region_names.begin())];
+        own = own > 0 ? std::min(own, seed.largest_cell) : seed.largest_cell;
+        is_any = true;
+    }
+    return is_any ? largest : std::vector<double>();
+}
+
+// Makes the input of a surface that was read or given. `advice`: a sentence for one that cannot be meshed.
+Input to_input(CheckedSoup checked, const std::string& path, const InputOptions& options, const char* advice) {
+    Input input;
+    input.path = path;
+    Soup& soup = checked.soup;
+    if (!checked.diagnosis.clean()) {
+        const std::string message = fmt::format("{}: {}{}", path, checked.diagnosis.summary(soup), advice);
+        throw UnfitSurface(message, std::move(checked));
+    }
+    const std::vector<std::string> gap_notes = notes_on_gaps(checked);
+    input.orientation = apply_repairs(checked);
+    input.repairs = checked.repairs;
+    input.ladder = std::move(checked.ladder);
+    input.wrapped = checked.wrapped;
+    input.weld_tolerance = checked.weld_tolerance;
+    input.notes = soup.notes;
+    for (const std::string& note : gap_notes) input.notes.push_back(note);
+    if (!soup.sides.empty() && (options.feature_angle_deg > 0 || options.optimisation_sweeps > 0))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} has several regions, whose surfaces are neither optimised nor "
+                                "divided into patches by angles. Leave --{} out.",
+                                path, options.optimisation_sweeps > 0 ? "optimise-surface" : "feature-angle"));
+    if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1)
+        make_feature_patches(soup, options.feature_angle_deg);
+    if (options.optimisation_sweeps > 0) optimise(soup, options.optimisation_sweeps, input);
+    input.patch_names = soup.patch_names;
+    input.is_cad = soup.is_of_model;
+    for (const ModelEdge& edge : soup.model_edges)
+        if (edge.sharp != 0) input.creases.push_back(edge.vertices);
+    if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
+    input.diagonal = diagonal_of(soup);
+    input.largest_cells = largest_cells_of(soup);
+    input.complex = make_complex(std::move(soup));
+    measure_input(input);
+    return input;
+}
+
+double area_of(const Complex& complex) {
+    double area = 0;
+    for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
+        const auto [a, b, c] = complex.vertices(f);
+        area += triangle_area(complex.point(a), complex.point(b), complex.point(c));
+    }
+    return area;
+}
+
+// Rows of an array that are refused, all in the elements, the first in words.
+class RefusedRows {
+ public:
+    RefusedRows(const char* array, ElementKind kind) : array_(array), elements_{kind, {}, {}, {}} {}
+
+    void add(std::size_t row) { elements_.ids.push_back(static_cast<std::int64_t>(row)); }
+    /// `describe`: returns the content of the row with this number, and the reason why it is wrong.
+    template <class Describe>
+    void throw_if_any(Describe describe) const {
+        if (elements_.ids.empty()) return;
+        const auto first = static_cast<std::size_t>(elements_.ids.front());
+        const std::size_t more = elements_.ids.size() - 1;
+        throw WrongRow(fmt::format("{}[{}] {}.{}", array_, first, describe(first),
+                                   more > 0 ? fmt::format(" {} more rows are wrong alike.", more) : ""),
+                       elements_);
+    }
+
+ private:
+    const char* array_;
+    ErrorElements elements_;
+};
+
+void check_sizes(const Soup& soup) {
+    constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
+    if (soup.vertices.size() > most_vertices || soup.facets.size() > static_cast<std::size_t>(most_facets))
+        throw Error(ErrorCode::usage,
+                    fmt::format("A surface has at most {} vertices and {} facets, but these are {} and "
+                                "{}. Split it.",
+                                most_vertices, most_facets, soup.vertices.size(), soup.facets.size()));
+    if (soup.patch.size() != soup.facets.size())
+        throw Error(ErrorCode::usage,
+                    fmt::format("There are {} facets, but patch has {} rows. Give one for each facet, "
+                                "or none.",
+                                soup.facets.size(), soup.patch.size()));
+    if (soup.region_names.empty() ? !soup.sides.empty() : soup.sides.size() != soup.facets.size())
+        throw Error(ErrorCode::usage,
+                    fmt::format("There are {} facets and {} names of regions, but sides has {} rows. Give one for each "
+                                "facet, and a name for each region.",
+                                soup.facets.size(), soup.region_names.size(), soup.sides.size()));
+}
+
+void check_rows(const Soup& soup) {
+    const auto vertex_count = static_cast<std::int32_t>(soup.vertices.size());
+    const auto patch_count = static_cast<std::int32_t>(soup.patch_names.size());
+    RefusedRows infinite("vertices", ElementKind::vertex), beyond("facets", ElementKind::facet),
+        repeated("facets", ElementKind::facet), unnamed("patch", ElementKind::facet),
+        nowhere("sides", ElementKind::facet);
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v)
+        if (!soup.vertices[v].allFinite()) infinite.add(v);
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const auto& [a, b, c] = soup.facets[f];
+        if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= vertex_count) beyond.add(f);
+        if (a == b || b == c || c == a) repeated.add(f);
+        if (soup.patch[f] < 0 || soup.patch[f] >= patch_count) unnamed.add(f);
+    }
+    const auto region_count = static_cast<std::int32_t>(soup.region_names.size());
+    for (std::size_t f = 0; f < soup.sides.size(); ++f)
+        if (const auto [front, back] = soup.sides[f];
+            std::min(front, back) < -1 || std::max(front, back) >= region_count)
+            nowhere.add(f);
+    nowhere.throw_if_any([&](std::size_t f) {
+        return fmt::format("is ({}, {}), but the {} regions are numbered from 0, and -1 is outside",
+                           soup.sides[f].front, soup.sides[f].back, region_count);
+    });
+    infinite.throw_if_any(
+        [&](std::size_t v) { return fmt::format("is ({}), which is not finite", fmt::join(soup.vertices[v], ", ")); });
+    beyond.throw_if_any([&](std::size_t f) {
+        return fmt::format("is ({}), but the {} vertices are numbered from 0", fmt::join(soup.facets[f], ", "),
+                           vertex_count);
+    });
+    repeated.throw_if_any([&](std::size_t f) {
+        return fmt::format("is ({}), but the corners of a facet differ", fmt::join(soup.facets[f], ", "));
+    });
+    unnamed.throw_if_any([&](std::size_t f) {
+        return fmt::format("is {}, but the {} patches are numbered from 0", soup.patch[f], patch_count);
+    });
+}
+
+std::string hash_of(const Soup& soup) {
+    Hasher hasher;
+    hasher.add(std::span<const Vec3>(soup.vertices));
+    hasher.add(std::span<const Triangle>(soup.facets));
+    hasher.add(std::span<const std::int32_t>(soup.patch));
+    for (const std::string& name : soup.patch_names) hasher.add(std::span<const char>(name));
+    for (const FacetSides& sides : soup.sides)
+        hasher.add(std::span<const std::int32_t>(std::array{sides.front, sides.back}));
+    for (const std::string& name : soup.region_names) hasher.add(std::span<const char>(name));
+    return hash_text(hasher.digest());
+}
+
+// Gives defaults to arrays that were not given, and checks all.
+void check_given(Soup& soup) {
+    if (soup.patch.empty()) soup.patch.assign(soup.facets.size(), 0);
+    check_sizes(soup);
+    if (soup.patch_names.empty()) {
+        const auto largest = std::max_element(soup.patch.begin(), soup.patch.end());
+        const std::size_t count = largest == soup.patch.end() ? 1 : static_cast<std::size_t>(std::max(0, *largest)) + 1;
+        for (std::size_t p = 0; p < std::min(count, soup.facets.size()); ++p)
+            soup.patch_names.push_back(fmt::format("patch_{}", p));
+    }
+    check_rows(soup);
+}
+
+Input input_of_arrays(Soup soup, const InputOptions& options, const std::function<void()>& poll) {
+    check_given(soup);
+    const std::string hash = hash_of(soup);
+    scale(soup, options.scale);
+    Input input = to_input(check_soup(std::move(soup), options, 1, poll), name_of_arrays, options, "");
+    input.file_hash = hash;
+    input.is_ready = true;
+    return input;
+}
+
+}  // namespace
+
+CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg,
+                        const std::function<void()>& poll) {
+    CheckedSoup checked{std::move(files.soup), {}, {}, 0, {}};
+    Soup& soup = checked.soup;
+    InputRepairs& repairs = checked.repairs;
+    if (!files.is_welded) repairs.welded_vertices = weld_exactly(soup);
+    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
+    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
+    if (options.fill_hole_edges > 0 && soup.sides.empty()) {
+        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
+        repairs.filled_holes = filling.holes;
+        repairs.added_facets = filling.facets;
+    }
+    RepairPlan plan = repair_plan_of(options);
+    plan.are_walls |= !files.walls.empty() || !soup.seeds.empty();
+    checked.ladder = repair(soup, plan, poll);
+    repairs.unused_vertices = drop_unused_vertices(soup);
+    if (options.wraps()) {
+        checked.wrapped = wrap(soup, options.wrapping, poll);
+        files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
+    }
+    take_points(soup, options);
+    diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    return checked;
+}
+
+CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg,
+                        const std::function<void()>& poll) {
+    return check_files(read_input_files(path, options), options, needle_angle_deg, poll);
+}
+
+CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg,
+                       const std::function<void()>& poll) {
+    return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg, poll);
+}
+
+CheckedSoup check_arrays(Soup soup, const InputOptions& options, double needle_angle_deg,
+                         const std::function<void()>& poll) {
+    check_given(soup);
+    scale(soup, options.scale);
+    return check_soup(std::move(soup), options, needle_angle_deg, poll);
+}
+
+Complex make_complex(Soup soup) {
+    if (soup.sides.empty()) return Complex(Surface(with_input_keys(std::move(soup))));
+    std::vector<FacetSides> sides = std::move(soup.sides);
+    std::vector<std::string> names = std::move(soup.region_names);
+    return {with_input_keys(std::move(soup)), std::move(sides), std::move(names)};
+}
+
+OrientationReport apply_repairs(CheckedSoup& checked) {
+    const Diagnosis diagnosis = std::exchange(checked.diagnosis, {});  // its numbers lose their meaning
+    const std::vector<char>& dropped = diagnosis.dropped;
+    if (std::find(dropped.begin(), dropped.end(), char{1}) != dropped.end()) {
+        drop_facets(checked.soup, dropped);
+        checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
+    }
+    if (!checked.soup.sides.empty()) return {};
+    if (!diagnosis.orientation) return orient(checked.soup);
+    turn_facets(checked.soup.facets, diagnosis.orientation->turned);
+    return diagnosis.orientation->report;
+}
+
+std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input) {
+    std::vector<double> volumes = sizes.max_volumes_of_regions(input.complex.region_names());
+    if (input.largest_cells.empty()) return volumes;
+    volumes.resize(input.largest_cells.size(), 0);
+    for (std::size_t r = 0; r < volumes.size(); ++r)
+        if (volumes[r] == 0) volumes[r] = input.largest_cells[r];
+    return volumes;
+}
+
+Input read_input(const std::string& path, const InputOptions& options, StageListener* listener) {
+    InputFiles files = read_input_files(path, options);
+    const std::string hash = files.hash;
+    const std::size_t more = options.more_files.size();
+    const std::string all = more == 0 ? path : fmt::format("{} and {} more file{}", path, more, more == 1 ? "" : "s");
+    if (!repair_plan_of(options).empty()) tell_progress(listener, "repair", 0, 0);
+    Input input = to_input(check_files(std::move(files), options, 1, poll_of(listener)), all, options,
+                           " Run kerf check on it for all defects.");
+    input.path = path;
+    input.file_hash = hash;
+    return input;
+}
+
+Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch,
+                 std::vector<std::string> patch_names, const InputOptions& options, const std::function<void()>& poll) {
+    return input_of_arrays({std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)}, options,
+                           poll);
+}
+
+Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
+                 std::vector<std::string> region_names, std::vector<std::int32_t> patch,
+                 std::vector<std::string> patch_names, const InputOptions& options, const std::function<void()>& poll) {
+    Soup soup{std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)};
+    soup.sides = std::move(sides);
+    soup.region_names = std::move(region_names);
+    return input_of_arrays(std::move(soup), options, poll);
+}
+
+std::vector<double> region_volumes(const Input& input) {
+    std::vector<double> volumes;
+    for (const InputRegion& region : input.regions) volumes.push_back(region.volume);
+    if (volumes.empty()) volumes.push_back(input.volume);
+    return volumes;
+}
+
+double volume_before_remeshing(const Input& input) {
+    if (!input.remeshed) return input.volume;
+    const std::vector<double>& volumes = input.remeshed->volumes_before;
+    return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+}
+
+std::int64_t count_changed_volumes(const Input& input) {
+    if (!input.remeshed || input.remeshed->may_change_volume) return 0;
+    const std::vector<double> now = region_volumes(input);
+    const std::vector<double>& before = input.remeshed->volumes_before;
+    std::int64_t changed = 0;
+    for (std::size_t r = 0; r < now.size(); ++r)
+        changed += !(std::abs(now[r] - before[r]) <= largest_volume_change * before[r]);
+    return changed;
+}
+
+void measure_input(Input& input) {
+    const Complex& complex = input.complex;
+    input.largest_coordinate = 0;
+    for (std::int32_t v = 0; v < complex.vertex_count(); ++v)
+        input.largest_coordinate = std::max(input.largest_coordinate, complex.point(v).cwiseAbs().maxCoeff());
+    input.vertices = complex.vertex_count();
+    input.facets = complex.facet_count();
+    input.volume = input.volume_error = input.area = 0;
+    input.components = input.genus = 0;
+    input.regions.clear();
+    for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
+        const Surface surface = complex.surface_of(region);
+        const MassProperties mass = mass_properties(surface);
+        const std::int64_t shells = find_shells(surface).count;
+        input.volume += mass.volume;
+        input.volume_error += mass.volume_error;
+        input.area += mass.area;
+        input.components += shells;
+        // V - E + F = 2 (c - g), E = 3 F / 2
+        input.genus += shells - (surface.vertex_count() - surface.facet_count() / 2) / 2;
+        if (complex.region_count() > 1)
+            input.regions.push_back({surface.facet_count(), shells, mass.volume, mass.volume_error, mass.area});
+    }
+    if (complex.region_count() > 1) input.area = area_of(complex);
+}
+
+}  // namespace kerf

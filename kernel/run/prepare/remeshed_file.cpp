@@ -1,0 +1,27 @@
+#include "run/prepare/remeshed_file.h"
+
+#include "files/io/output_file.h"
+#include "run/prepare/surface_file.h"
+
+namespace kerf {
+
+RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener) {
+    require_surface_file("--output", output);
+    refuse_to_overwrite(options.input, "--output", output);
+    require_writable("--output", output, output_kind::surface);
+    options.input_options.check();
+    options.sizes.check();
+    Input input = read_input(options.input, options.input_options, listener);
+    require_surface_file("--output", output, input.complex.region_count());
+    const SizedInput sized = remesh_always(std::move(input), std::move(options), listener);
+    write_surface(output, sized.input.complex, sized.input.patch_names);
+    return {sized.input.complex.facet_count(), *sized.input.remeshed, sized.found, sized.input.wrapped};
+}
+
+SizedInput remesh_always(Input input, RunOptions options, StageListener* listener) {
+    options.remeshing = Remeshing::always;
+    options = with_lengths(std::move(options), input.diagonal);
+    return remesh_and_size(std::move(input), options, listener);
+}
+
+}  // namespace kerf

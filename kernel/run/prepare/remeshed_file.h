@@ -1,0 +1,30 @@
+// A surface remeshed for its own sake, in memory or from one file into another.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "run/prepare/cells.h"
+#include "run/prepare/input.h"
+#include "run/prepare/stage_listener.h"
+#include "run/request/options.h"
+
+namespace kerf {
+
+/// Remeshes a surface within options.deviation to the wanted lengths (run/prepare/remeshing.h), or to lengths that give
+/// the wanted number of tetrahedra (run/prepare/cells.h). `listener` may be null. Throws Error.
+SizedInput remesh_always(Input input, RunOptions options, StageListener* listener = nullptr);
+
+/// Report on a file that remesh_file() has written.
+struct RemeshedFile {
+    std::int64_t facets = 0;
+    InputRemeshing done;
+    std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
+    std::optional<WrapReport> wrapped = {};
+};
+
+/// Applies remesh_always() to options.input, and writes the surface to `output` as write_surface() does. Throws Error,
+/// before the work where the output cannot be written.
+RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener = nullptr);
+
+}  // namespace kerf

@@ -1,0 +1,253 @@
+// A file is either refused, where no surface could be made of it, or diagnosed: diagnosed() sorts the errors of
+// checking into these two. Of the errors of checking, only Error(input) is a refusal; all others are thrown on. Regions
+// are summarised only of a surface that can be meshed, without the facets that its repairs leave out; one that is not
+// closed is a refusal, too. For people, defects are grouped by kind and severity, and of many the worst are named; JSON
+// has all of them, with numbers counted as in the file. Both end with the same advice, and with the remedy where one
+// was looked for.
+#include "run/report/file_diagnosis.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/core/number_text.h"
+#include "files/io/cad_body.h"
+#include "files/io/json.h"
+#include "run/prepare/region_diagnosis.h"
+#include "run/prepare/slivers.h"
+#include "run/report/repair_json.h"
+#include "run/report/repair_text.h"
+#include "surface/regions/regions.h"
+
+namespace kerf {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json defect_json(const Defect& defect, const Soup& soup) {
+    Json json = {{"kind", name(defect.kind)},
+                 {"severity", name(defect.severity)},
+                 {"facets", soup.file_facets(defect.facets)},
+                 {"vertices", soup.file_vertices(defect.vertices)},
+                 {"where", {defect.where.x(), defect.where.y(), defect.where.z()}},
+                 {"what_to_do", advice(defect)}};
+    if (defect.kind == DefectKind::needle) json["angle_deg"] = defect.measure;
+    if (defect.kind == DefectKind::open_edge || defect.kind == DefectKind::short_edge) json["length"] = defect.measure;
+    if (!defect.bodies.empty()) json["regions"] = defect.bodies;
+    if (is_between_bodies(defect)) json["distance"] = defect.measure;
+    return json;
+}
+
+Json repairs_json(const InputRepairs& r) {
+    return {{"vertices_welded", r.welded_vertices}, {"vertices_unused", r.unused_vertices},
+            {"facets_dropped", r.dropped_facets},   {"vertices_merged", r.merged_vertices},
+            {"facets_removed", r.removed_facets},   {"holes_filled", r.filled_holes},
+            {"facets_added", r.added_facets}};
+}
+
+// The regions of a surface that can be meshed. Copies of facets that its repairs leave out have sides, too, so they go
+// first.
+std::vector<RegionSummary> regions_of(const CheckedSoup& checked) {
+    const std::vector<char>& dropped = checked.diagnosis.dropped;
+    if (dropped.empty() || checked.soup.sides.empty()) return summarize_regions(checked.soup);
+    Soup soup = checked.soup;
+    drop_facets(soup, dropped);
+    return summarize_regions(soup);
+}
+
+Json regions_json(const std::vector<RegionSummary>& regions) {
+    Json json = Json::array();
+    for (const RegionSummary& region : regions) {
+        Json walls = Json::array();
+        for (const CommonWall& wall : region.walls) walls.push_back({{"region", wall.region}, {"area", wall.area}});
+        json.push_back({{"name", region.name},
+                        {"volume", region.volume},
+                        {"shells", region.shells},
+                        {"outer_area", region.outer_area},
+                        {"walls", std::move(walls)}});
+    }
+    return json;
+}
+
+Json surface_json(const FileDiagnosis& found) {
+    const CheckedSoup& checked = found.checked;
+    const Soup& soup = checked.soup;
+    Json counts = Json::object(), defects = Json::array();
+    for (std::size_t k = 0; k < defect_kind_count; ++k)
+        if (const std::int64_t n = checked.diagnosis.counts[k]) counts[name(static_cast<DefectKind>(k))] = n;
+    for (const Defect& defect : checked.diagnosis.defects) defects.push_back(defect_json(defect, soup));
+    Json json = {{"path", found.path},
+                 {"can_be_meshed", checked.diagnosis.clean()},
+                 {"vertices", soup.vertices.size()},
+                 {"faces", soup.facets.size()},
+                 {"patches", soup.patch_names},
+                 {"regions", regions_json(found.regions)},
+                 {"notes", soup.notes},
+                 {"repairs", repairs_json(checked.repairs)},
+                 {"counts", std::move(counts)},
+                 {"defects", std::move(defects)}};
+    if (!checked.ladder.steps.empty()) json["repair"] = json_of_repair(checked.ladder);
+    if (found.remedy) json["remedy"] = json_of_remedy(*found.remedy, found.path);
+    return json;
+}
+
+Json refused_json(const std::string& path, const RefusedFile& refused) {
+    return {{"path", path},
+            {"can_be_meshed", false},
+            {"counts", {{refused.kind, 1}}},
+            {"defects", Json::array({Json{{"kind", refused.kind},
+                                          {"severity", "error"},
+                                          {"facets", Json::array()},
+                                          {"vertices", Json::array()},
+                                          {"message", refused.error.what()}}})}};
+}
+
+std::string place_and_measure(const Defect& defect, const Soup& soup) {
+    const std::string text = place(defect, soup);
+    if (defect.kind == DefectKind::needle) return fmt::format("{}, {:.3g} deg", text, defect.measure);
+    if (defect.kind == DefectKind::open_edge)
+        return fmt::format("{}, {} edges, length {:.6g}", text, defect.facets.size(), defect.measure);
+    if (defect.kind == DefectKind::short_edge) return fmt::format("{}, length {:.3g}", text, defect.measure);
+    return text;
+}
+
+// Returns the text of the defects of one kind and severity, in their order. A single one takes one line; of many, the
+// worst are named: the longest loops, the smallest angles, the shortest edges, the first of those without a measure.
+std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> defects) {
+    constexpr std::size_t most_named = 10;
+    std::stable_sort(defects.begin(), defects.end(), [](const Defect* a, const Defect* b) {
+        return a->kind == DefectKind::open_edge ? a->measure > b->measure : a->measure < b->measure;
+    });
+    const Defect& worst = *defects.front();
+    const auto listed = static_cast<std::int64_t>(defects.size());
+    const std::int64_t count =
+        worst.severity == Severity::warning ? checked.diagnosis.count(worst.kind) : listed;  // not all are listed
+    const std::string head = fmt::format("  {:<9} {}", name(worst.severity), counted(count, worst.kind));
+    if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), advice(worst));
+    std::string text = fmt::format("{}; {}:\n", head, advice(worst));
+    const std::size_t named = std::min(defects.size(), most_named);
+    for (std::size_t i = 0; i < named; ++i)
+        text += fmt::format("{:12}{}\n", "", place_and_measure(*defects[i], checked.soup));
+    const std::int64_t more = count - static_cast<std::int64_t>(named);
+    return more > 0 ? fmt::format("{}{:12}and {} more\n", text, "", more) : text;
+}
+
+void require_good(const InputOptions& options, double needle_angle_deg) {
+    options.check();
+    require_in(needle_angle_range, "needle-angle", needle_angle_deg);
+}
+
+// Returns RefusedFile::kind of an error of the input.
+std::string kind_of_refusal(const Error& error) {
+    if (const auto* solid = dynamic_cast<const SolidDefect*>(&error)) return solid->kind();
+    if (dynamic_cast<const MisplacedRegion*>(&error)) return MisplacedRegion::kind;
+    return dynamic_cast<const WrongRow*>(&error) ? WrongRow::kind : "unreadable";
+}
+
+// Makes a diagnosis. `check` returns the CheckedSoup of the surface, or throws why there is none.
+template <class Check>
+FileDiagnosis diagnosed(const std::string& path, const Check& check) {
+    FileDiagnosis found{path, {}, {}, {}, {}};
+    try {
+        found.checked = check();
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::input) throw;
+        found.refused = {kind_of_refusal(error), error};
+    }
+    if (!found.can_be_meshed()) return found;
+    try {
+        found.regions = regions_of(found.checked);
+    } catch (const Error& error) {
+        found.refused = {"open region", error};
+    }
+    return found;
+}
+
+}  // namespace
+
+int FileDiagnosis::exit_code() const {
+    if (refused) return static_cast<int>(refused->error.code());
+    return can_be_meshed() ? 0 : static_cast<int>(ErrorCode::input);
+}
+
+FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg,
+                            const std::function<void()>& poll) {
+    require_good(options, needle_angle_deg);
+    return diagnosed(path, [&] { return check_input(path, options, needle_angle_deg, poll); });
+}
+
+FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double needle_angle_deg,
+                              const std::function<void()>& poll) {
+    require_good(options, needle_angle_deg);
+    return diagnosed(name_of_arrays, [&] { return check_arrays(std::move(soup), options, needle_angle_deg, poll); });
+}
+
+// Groups are ordered by kind, and the errors of a kind come before what is repaired.
+std::string defects_text(const CheckedSoup& checked, bool errors_only) {
+    std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
+    for (const Defect& defect : checked.diagnosis.defects)
+        if (!errors_only || defect.severity == Severity::error)
+            groups[{defect.kind, defect.severity}].push_back(&defect);
+    std::string text;
+    for (const auto& [kind, defects] : groups) text += group_text(checked, defects);
+    return text;
+}
+
+std::string defect_text(const Defect& defect, const Soup& soup) {
+    return fmt::format("{}: {}; {}.", name(defect.kind), place_and_measure(defect, soup), advice(defect));
+}
+
+std::string to_json(const FileDiagnosis& found) {
+    const Json json = found.refused ? refused_json(found.path, *found.refused) : surface_json(found);
+    return json_text(json, 2) + "\n";
+}
+
+std::string to_text(const FileDiagnosis& found) {
+    if (found.refused) return fmt::format("  error     {}: {}\n", found.refused->kind, found.refused->error.what());
+    const CheckedSoup& checked = found.checked;
+    const Soup& soup = checked.soup;
+    std::string text =
+        fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
+                    soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
+    for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
+    text += to_text(checked.ladder) + to_text(found.regions);
+    text += defects_text(checked);
+    const bool clean = found.can_be_meshed();
+    if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);
+        clean && slivers.spoil_cells() && !soup.is_of_model)  // else all is remeshed, whatever there is
+        text += fmt::format(
+            "  slivers   {} of {} facets have angles below 10 degrees: kerf mesh makes new ones, unless --surface "
+            "split or "
+            "keep is given.\n",
+            grouped(slivers.count), grouped(slivers.facets));
+    text += clean ? "It can be meshed.\n" : "It cannot be meshed as it is.\n";
+    return found.remedy ? text + to_text(*found.remedy, found.path) : text;
+}
+
+std::string tables_of_regions(const FileDiagnosis& found) {
+    if (found.refused) throw found.refused->error;
+    if (!found.can_be_meshed())
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: {}", found.path, found.checked.diagnosis.summary(found.checked.soup)));
+    return region_tables(found.regions);
+}
+
+std::vector<PatchSummary> patches_of_run(FileDiagnosis found, const InputOptions& options) {
+    if (found.refused) throw found.refused->error;
+    CheckedSoup& checked = found.checked;
+    if (checked.diagnosis.clean())
+        apply_repairs(checked);
+    else if (options.feature_angle_deg > 0)
+        throw Error(ErrorCode::input, fmt::format("{}: {} Only a surface that can be meshed is divided at "
+                                                  "--feature-angle: leave that out, or repair the surface.",
+                                                  found.path, checked.diagnosis.summary(checked.soup)));
+    if (options.feature_angle_deg > 0 && checked.soup.patch_names.size() == 1)
+        make_feature_patches(checked.soup, options.feature_angle_deg);
+    return summarize_patches(checked.soup);
+}
+
+}  // namespace kerf

@@ -1,0 +1,70 @@
+// The defects of a surface file, as values, text and JSON.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/core/error.h"
+#include "run/prepare/input.h"
+#include "run/prepare/remedy.h"
+#include "run/report/patch_summary.h"
+#include "run/report/region_summary.h"
+
+namespace kerf {
+
+inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees", 0, 60};
+
+/// The reason why there is no surface to be diagnosed.
+struct RefusedFile {
+    std::string kind;  ///< "unreadable", "wrong row", "open region", "misplaced region", or that of a SolidDefect
+    Error error;
+};
+
+struct FileDiagnosis {
+    std::string path;
+    CheckedSoup checked;
+    std::vector<RegionSummary> regions;  ///< regions of a surface that can be meshed; empty if it has none
+    std::optional<RefusedFile> refused;  ///< reason of a refusal; `checked` is empty then
+    std::optional<Remedy> remedy = {};   ///< remedy, if one was looked for
+
+    bool can_be_meshed() const { return !refused && checked.diagnosis.clean(); }
+    /// Returns a value of ErrorCode; 0: the file can be meshed.
+    int exit_code() const;
+};
+
+/// Reads and diagnoses a file. A reader stops at the first thing that it does not understand, or of which it cannot
+/// make a surface: the file is refused then. Throws Error for a file that cannot be opened, and Error(usage) for
+/// options out of range. `poll`: see check_files(); it must not throw Error(input).
+FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1,
+                            const std::function<void()>& poll = {});
+
+/// Diagnoses a surface of arrays, see check_arrays(). Throws like diagnose_file(), and Error(usage) for sizes that do
+/// not fit.
+FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1,
+                              const std::function<void()>& poll = {});
+
+/// Returns one sentence on a defect: its kind, its place, and the way to mend it.
+std::string defect_text(const Defect& defect, const Soup& soup);
+
+/// Returns a line or several for each kind of defect: the ten worst ones, and the way to mend them; of all, or of
+/// errors alone.
+std::string defects_text(const CheckedSoup& checked, bool errors_only = false);
+
+/// Returns a JSON object with every defect, its numbers those of the file, and the way to mend it.
+std::string to_json(const FileDiagnosis& found);
+
+/// Returns lines for people: counts, the ten worst defects of each kind, the ways to mend them, the verdict.
+std::string to_text(const FileDiagnosis& found);
+
+/// Returns the result of region_tables() for the regions of the file. Throws the Error for which the file was refused
+/// or cannot be meshed.
+std::string tables_of_regions(const FileDiagnosis& found);
+
+/// Returns the patches that a run would have: those of the file, or those that InputOptions::feature_angle_deg makes.
+/// Throws the Error for which the file was refused, and Error(input) where a surface that cannot be meshed is to be
+/// divided by an angle.
+std::vector<PatchSummary> patches_of_run(FileDiagnosis found, const InputOptions& options);
+
+}  // namespace kerf

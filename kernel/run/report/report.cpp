@@ -1,0 +1,365 @@
+// to_text() is a list of lines, each a label and a text; a line whose text is empty is left out, so that each function
+// returns "" where it has nothing to say. ReportDetail::brief leaves out all that is alike for most inputs, and keeps
+// what is special to this one: repairs, retries, forced cells among the worst hundredth, bounds that were asked for and
+// missed. JSON is another file (report_json.cpp) over the same RunReport.
+#include "run/report/report.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/core/error.h"
+#include "base/core/number_text.h"
+#include "base/core/words.h"
+#include "run/report/exceeded_bounds.h"
+#include "surface/repair/repair_step.h"
+
+namespace kerf {
+
+bool RunVerification::all_hold() const {
+    const auto holds = [&](const RunLaw& law) { return this->*law.count == 0; };
+    return volume_rel_error <= volume_rel_bound && std::all_of(run_laws.begin(), run_laws.end(), holds);
+}
+
+namespace {
+
+std::string strategies_text(const std::vector<TreeNode>& nodes) {
+    std::vector<int> counts(static_cast<std::size_t>(CutStrategy::whole) + 1, 0);
+    int cuts = 0;
+    for (const TreeNode& node : nodes)
+        if (node.cut_tried) {
+            ++counts[static_cast<int>(node.strategy)];
+            ++cuts;
+        }
+    std::string text = fmt::format("{} cut{}", cuts, cuts == 1 ? "" : "s");
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i]) text += fmt::format(", {} {}", counts[i], in_words(name(static_cast<CutStrategy>(i))));
+    return text;
+}
+
+// Returns "part 13: tolerance 1e-06; part 14: another order of the vertices; and 2 more", of the parts that were filled
+// and for which text_of() is not empty.
+std::string first_parts_text(const RunReport& report, const std::function<std::string(const PartReport&)>& text_of) {
+    constexpr std::size_t limit = 3;
+    std::vector<std::string> all;
+    for (const PartReport& part : report.parts)
+        if (const std::string text = part.result.code == 0 ? text_of(part) : ""; !text.empty())
+            all.push_back(fmt::format("part {}: {}", part.id, text));
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(limit, all.size()));
+    const std::string more = all.size() > limit ? fmt::format("; and {} more", all.size() - limit) : "";
+    return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);
+}
+
+std::string fallbacks_text(const RunReport& report) {
+    return first_parts_text(report, [](const PartReport& part) { return part.fallback; });
+}
+
+// Returns how many parts TetGen had to fill for Kerf's own mesher, and the reasons.
+std::string tetgen_text(const RunReport& report) {
+    const MesherOptions& asked = report.options.mesher;
+    if (report.parts_by_tetgen == 0 || asked.name == "tetgen" || !asked.tetgen.switches.empty()) return "";
+    const auto reason_of = [](const PartReport& part) {
+        const PartResult& result = part.result;
+        if (!result.is_by_tetgen()) return std::string();
+        std::string text = result.reason.empty() && !part.failures.empty() ? part.failures.front() : result.reason;
+        if (text.ends_with('.')) text.pop_back();
+        return text;
+    };
+    return fmt::format("has filled {} of {} parts, slower, since Kerf's own mesher has failed: {}",
+                       report.parts_by_tetgen, report.parts.size(), first_parts_text(report, reason_of));
+}
+
+// "7 core and shell, 1 shell alone".
+std::string ways_text(const RunReport& report) {
+    std::string text;
+    for (const auto& [way, parts] : report.parts_by_way)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(parts), way);
+    return text;
+}
+
+std::string recovery_text(const FacetRecovery& recovery) {
+    if (recovery.missing == 0) return "";
+    std::string text = fmt::format("{} facets that were not Delaunay: {} by flips", grouped(recovery.missing),
+                                   grouped(recovery.by_flips));
+    if (recovery.split > 0) text += fmt::format(", {} split for a while", grouped(recovery.split));
+    if (recovery.added_vertices > 0)
+        text += fmt::format("; {} vertices added inside", grouped(recovery.added_vertices));
+    return text;
+}
+
+// Returns the parts that were repeated because workers were killed, and those that may differ because they were too
+// slow.
+std::string disturbances_text(const RunReport& report) {
+    const auto count = [&](auto is_so) { return std::count_if(report.parts.begin(), report.parts.end(), is_so); };
+    const auto killed = count([](const PartReport& part) { return !part.interruption.empty(); });
+    const auto late = count([](const PartReport& part) { return part.timed_out; });
+    std::string text;
+    if (killed > 0) text = fmt::format("{} part{} again after the worker was killed", killed, killed == 1 ? "" : "s");
+    if (late > 0)
+        text += fmt::format("{}{} part{} after a time-out, whose bytes may differ from an undisturbed run",
+                            text.empty() ? "" : "; ", late, late == 1 ? "" : "s");
+    return text;
+}
+
+// The mesh of the whole in one piece, to be read beside that of the parts.
+std::string reference_text(const RunReport& report) {
+    const PartOutcome& whole = report.reference->outcome;
+    if (whole.result.code) return "the whole could not be meshed in one piece: " + whole.result.message;
+    const Distribution& dihedral = whole.result.quality.all.measures[0];
+    return fmt::format("{} tetrahedra in one piece in {:.2f} s; dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg",
+                       grouped(whole.result.tets), whole.seconds, dihedral.min(), dihedral.percentile(0.01),
+                       dihedral.percentile(0.5));
+}
+
+std::string improvement_text(const RunReport& report) {
+    const ImprovedAngles angles(report.improvement, report.quality);
+    return fmt::format("dihedral 1 % {:.1f} -> {:.1f}, min {:.1f} -> {:.1f} deg; {:.2f} s in all workers",
+                       angles.p1_before_deg, angles.p1_after_deg, angles.min_before_deg, angles.min_after_deg,
+                       report.improve_seconds);
+}
+
+// Returns the cells that the surface forces to be sharp, where these are of interest: always, or among the worst
+// hundredth.
+std::string forced_text(const ForcedDistributions& angles, bool always) {
+    const Distribution &forced = angles.forced, &others = angles.unforced;
+    if (forced.count() == 0 || (!always && others.count() > 0 && others.percentile(0.01) < forced.min())) return "";
+    const std::string text = fmt::format("by the surface: {} cell{}, dihedral min {:.1f} deg", grouped(forced.count()),
+                                         forced.count() == 1 ? "" : "s", forced.min());
+    if (others.count() == 0) return text;
+    return text + fmt::format("; others min {:.1f}, 1 % {:.1f}", others.min(), others.percentile(0.01));
+}
+
+// Returns bounds that were missed. Briefly, the usual ratio is left out, which cells at sharp places exceed in every
+// mesh; a bound of volumes stays, which only those have who ask for it.
+std::vector<ExceededBound> told_bounds(const RunReport& report, bool all) {
+    std::vector<ExceededBound> bounds = exceeded_bounds(report);
+    if (!all)
+        std::erase_if(bounds, [](const ExceededBound& each) {
+            return std::string_view(each.option) == "radius-edge" && each.bound == MesherOptions{}.radius_edge;
+        });
+    return bounds;
+}
+
+// The seconds of stages and workers.
+std::string time_text(const RunReport& report) {
+    const StageSeconds& s = report.seconds;
+    std::string text = fmt::format("{:.2f} s: read {:.2f}, decompose {:.2f}", s.wall, s.read, s.decompose);
+    if (!report.options.volume) return text;
+    const WorkerSeconds& w = report.worker_seconds;
+    text += fmt::format(
+        ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, store {:.2f}, start {:.2f}, idle {:.2f})",
+        s.prepare, s.mesh, w.mesher, w.verify, w.store, w.start, w.idle);
+    if (report.curve) text += fmt::format(", curve {:.2f}", s.curve);
+    return text + fmt::format(", write {:.2f}, hash {:.2f}", s.write, s.hash);
+}
+
+std::string division_text(const InputRemeshing& done) {
+    return fmt::format("{} of {} facets, which are coarser than the sizes (--surface keep forbids it)",
+                       grouped(done.facets_before - done.facets_kept), grouped(done.facets_before));
+}
+
+// Returns the reasons other than the size for short edges, and the way to change that.
+std::string finer_text(const FinerShares& finer) {
+    constexpr double told_share = 0.01;
+    std::vector<std::string> reasons;
+    const auto add = [&](double share, const char* reason) {
+        if (share >= told_share) reasons.push_back(fmt::format("{:.0f} % {}", 100 * share, reason));
+    };
+    add(finer.bound, "because it is curved (a larger --deviation allows longer edges)");
+    add(finer.features, "in strips between features");
+    add(finer.walls, "at thin walls");
+    if (reasons.empty()) return "";
+    return fmt::format("; finer than asked for on {:.0f} % of the area: {}", 100 * finer.sum(),
+                       fmt::join(reasons, ", "));
+}
+
+}  // namespace
+
+std::string repairs_text(const InputRepairs& repairs, const OrientationReport& turned) {
+    std::string text;
+    const auto add = [&](std::int64_t count, const char* what) {
+        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), what);
+    };
+    add(repairs.dropped_facets, "superfluous facets dropped");
+    add(turned.facets_flipped, "facets turned");
+    add(turned.shells_flipped, "shells turned");
+    add(repairs.merged_vertices, "vertices merged");
+    add(repairs.removed_facets, "facets of smaller components removed");
+    add(repairs.filled_holes, "holes filled");
+    return text;
+}
+
+std::string remeshing_text(const InputRemeshing& done) {
+    const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
+    return fmt::format(
+        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}; largest distances {:.2g} and {:.2g} of "
+        "{:.2g}{}",
+        grouped(done.facets_before), kept, done.smallest_angle_deg, done.smallest_angle_before_deg,
+        done.distance_to_input, done.distance_from_input, done.deviation, finer_text(done.finer));
+}
+
+namespace {
+
+// Sums over all cuts, and the smallest angle.
+struct InterfaceTotals {
+    double section_area = 0, area = 0, angle_deg = 180;
+};
+
+InterfaceTotals interface_totals(const std::vector<TreeNode>& nodes) {
+    InterfaceTotals totals;
+    for (const TreeNode& node : nodes) {
+        totals.section_area += node.section_area;
+        totals.area += node.interface_area;
+        if (node.cut_made) totals.angle_deg = std::min(totals.angle_deg, node.quality.angle_deg);
+    }
+    return totals;
+}
+
+class ReportLines {
+ public:
+    void add(const char* label, const std::string& value) {
+        if (!value.empty()) text_ += fmt::format("{:<11} {}\n", label, value);
+    }
+    const std::string& text() const { return text_; }
+
+ private:
+    std::string text_;
+};
+
+// Returns the regions, the largest first; of many, the others as a number.
+std::string regions_text(const RunReport& report) {
+    const Input& input = *report.input;
+    if (input.regions.empty()) return "";
+    constexpr std::size_t most = 6;
+    std::vector<std::int64_t> tets(input.regions.size(), 0);
+    for (const PartReport& part : report.parts) tets[static_cast<std::size_t>(part.region.value())] += part.result.tets;
+    std::vector<std::size_t> order(tets.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(tets[a], input.regions[a].volume) > std::pair(tets[b], input.regions[b].volume);
+    });
+    std::string text = fmt::format("{}:", order.size());
+    for (std::size_t i = 0; i < std::min(most, order.size()); ++i) {
+        const std::size_t r = order[i];
+        text += fmt::format("{} {} ", i > 0 ? "," : "", input.complex.region_names()[r]);
+        text += tets[r] > 0 ? grouped(tets[r]) : fmt::format("(volume {:.4g})", input.regions[r].volume);
+    }
+    return order.size() > most ? text + fmt::format(" and {} more", order.size() - most) : text;
+}
+
+void add_input(ReportLines& lines, const RunReport& report, bool all) {
+    const Input& input = *report.input;
+    if (all)
+        lines.add("input",
+                  fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
+                              input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
+    lines.add("repaired", repairs_text(input.repairs, input.orientation));
+    for (const StepReport& step : input.ladder.steps)
+        for (const RepairAction& action : step.actions)
+            lines.add("repair", fmt::format("{}: {}", name(step.kind), to_text(action)));
+    if (input.wrapped) lines.add("wrapped", to_text(*input.wrapped));
+    for (const std::string& note : input.notes) lines.add("note", note);
+    if (input.moved_vertices > 0)
+        lines.add("optimised", fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices),
+                                           input.largest_move));
+    if (input.remeshed && input.remeshed->only_divided) lines.add("divided", division_text(*input.remeshed));
+    if (input.remeshed && !input.remeshed->only_divided) lines.add("remeshed", remeshing_text(*input.remeshed));
+}
+
+void add_cuts(ReportLines& lines, const RunReport& report) {
+    lines.add("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
+                                   strategies_text(report.nodes)));
+    if (report.split_facets > 0)
+        lines.add("split", fmt::format("{} facets, where no contour of edges exists (--surface keep forbids it)",
+                                       grouped(report.split_facets)));
+    const InterfaceTotals totals = interface_totals(report.nodes);
+    if (totals.section_area > 0)
+        lines.add("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
+                                            totals.area, totals.area / totals.section_area, totals.angle_deg));
+}
+
+void add_way(ReportLines& lines, const RunReport& report) {
+    lines.add("TetGen", tetgen_text(report));
+    lines.add("retried", fallbacks_text(report));
+    lines.add("disturbed", disturbances_text(report));
+    const auto resumed = std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
+    if (resumed > 0) lines.add("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
+}
+
+std::string curve_text(const CurveReport& curve) {
+    std::string text =
+        fmt::format("{} of {} edges of the surface, {} straightened; {} cells, scaled Jacobian at least {:.3f}",
+                    grouped(curve.curved_edges), grouped(curve.surface_edges), grouped(curve.straightened_edges),
+                    grouped(curve.curved_cells), curve.worst_scaled_jacobian);
+    if (curve.moved_nodes > 0) text += fmt::format("; {} nodes inside were moved", grouped(curve.moved_nodes));
+    return text;
+}
+
+void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
+    const std::string parts =
+        all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
+    const std::string nodes =
+        report.mesh_nodes > 0 ? fmt::format(", {} nodes of order 2", grouped(report.mesh_nodes)) : std::string();
+    lines.add("mesh", fmt::format("{} tetrahedra, {} vertices{}{}", grouped(report.tets), grouped(report.vertices),
+                                  nodes, parts));
+    lines.add("regions", regions_text(report));
+    if (report.found_size) lines.add("cells", found_size_text(*report.found_size));
+    if (all) lines.add("filled", ways_text(report));
+    if (all) lines.add("recovered", recovery_text(report.recovery));
+    if (all && !report.improvement.is_empty()) lines.add("improved", improvement_text(report));
+    if (all && !report.sizes.empty())
+        lines.add("sizes",
+                  size_text(report.sizes, report.input->patch_names, !report.options.mesher.size.is_constant()));
+    const Distribution& dihedral = report.quality.all.measures[0];
+    const Distribution& ratio = report.quality.all.measures[2];
+    lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
+                                     dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
+    lines.add("forced", forced_text(report.quality.angles, all));
+    lines.add("bounds", exceeded_text(told_bounds(report, all)));
+    if (report.curve) lines.add("curved", curve_text(*report.curve));
+}
+
+std::string volume_text(const RunReport& report) {
+    const Input& input = *report.input;
+    const double before = volume_before_remeshing(input);
+    const double volume = input.volume + (report.curve ? report.curve->volume_gain : 0);
+    const bool is_as_read = input.ladder.steps.empty() && !input.wrapped;
+    const char* of = is_as_read ? "the file" : "the repaired surface";
+    if (volume == before) return fmt::format("{:.7g}, as {} has it", volume, of);
+    return fmt::format("{:.7g}; {} has {:.7g}, difference {:+.1e}", volume, of, before, (volume - before) / before);
+}
+
+std::string ranks_text(const RunReport& report) {
+    return fmt::format("{} rank{} x {} worker{}", report.ranks, report.ranks == 1 ? "" : "s", report.options.workers,
+                       report.options.workers == 1 ? "" : "s");
+}
+
+std::string processes_text(const RunReport& report) {
+    return fmt::format("{}, imbalance {:.2f}, peak memory {} MB", ranks_text(report), report.imbalance,
+                       report.peak_rss_bytes >> 20);
+}
+
+}  // namespace
+
+std::string to_text(const RunReport& report, ReportDetail detail) {
+    const bool all = detail == ReportDetail::all, meshed = report.options.volume;
+    ReportLines lines;
+    add_input(lines, report, all);
+    if (all || !meshed) add_cuts(lines, report);
+    add_way(lines, report);
+    if (meshed) add_mesh(lines, report, all);
+    if (report.reference) lines.add("reference", reference_text(report));
+    lines.add("time", all ? time_text(report) : fmt::format("{:.2f} s on {}", report.seconds.wall, ranks_text(report)));
+    if (all) lines.add("processes", processes_text(report));
+    lines.add("volume", volume_text(report));
+    lines.add("verified",
+              fmt::format("{}; volume error {:.1e}", report.verification.passed ? "yes, every law holds" : "NO",
+                          report.verification.volume_rel_error));
+    if (all) lines.add("mesh hash", report.mesh_hash);
+    return lines.text();
+}
+
+}  // namespace kerf

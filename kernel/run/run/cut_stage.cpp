@@ -1,0 +1,57 @@
+#include "run/run/cut_stage.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/core/host_name.h"
+#include "cut/decompose/straight_division.h"
+#include "run/prepare/gathered_nodes.h"
+#include "run/run/cuts_on_ranks.h"
+#include "run/run/range_of_rank.h"
+#include "run/run/trace.h"
+
+namespace kerf {
+
+namespace {
+
+// Divides parts without a contour of edges by straight cuts. These need all other parts beside them, because facets
+// that are split may be theirs, too.
+Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const DecomposeOptions& options,
+                                CutListener* cuts) {
+    const auto is_unfinished = [](const Leaf& leaf) { return leaf.leaves > 1; };
+    const bool any_own = std::any_of(own.leaves.begin(), own.leaves.end(), is_unfinished);
+    const std::vector<char> any_of_rank = all_gather(ranks, static_cast<char>(any_own));
+    if (std::none_of(any_of_rank.begin(), any_of_rank.end(), [](char any) { return any; })) return own;
+    Decomposition whole;
+    whole.nodes = gather_nodes(ranks, own.nodes, host_name());
+    whole.leaves = gather_items(ranks, own.leaves);
+    whole.contacts = std::move(own.contacts);
+    return in_agreement(
+        ranks, [&] { return divide_straight(std::move(whole), options, range_of_rank(options.parts, ranks), cuts); });
+}
+
+// Cuts on this rank alone. A single surface is taken out of `input`: the halves hold all that is needed of it.
+Decomposition cut_here(Input& input, const DecomposeOptions& options, LeafRange range, CutListener* cuts) {
+    return input.complex.region_count() == 1 ? decompose(input.complex.take_only_region(), options, range, cuts)
+                                             : decompose(input.complex, options, range, cuts);
+}
+
+}  // namespace
+
+Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& options, StageListener* listener) {
+    DecomposeOptions wanted = options.decompose;
+    const LeafRange range = range_of_rank(wanted.parts, ranks);
+    CutListener* cuts = listener;
+    std::optional<TraceRecorder> trace;
+    // A forecast counts the triangles of fine interfaces without making them.
+    if (options.dry_run && options.trace_file.empty()) wanted.cut.size = SizeField();
+    if (!options.trace_file.empty()) cuts = &trace.emplace(options, input, cuts);
+    in_agreement(ranks, [&] { tell_progress(listener, "decompose", 0, 1); });
+    Decomposition own = ranks.size() > 1 ? decompose_on_ranks(ranks, input.complex, wanted, cuts)
+                                         : in_agreement(ranks, [&] { return cut_here(input, wanted, range, cuts); });
+    if (wanted.facets == FacetPolicy::split) own = divide_unfinished(ranks, std::move(own), options.decompose, cuts);
+    if (trace) trace->write(options.trace_file, ranks, own, range);  // a run that fails later has one, too
+    return own;
+}
+
+}  // namespace kerf

@@ -1,0 +1,18 @@
+// The nodes of second order, numbered by all ranks.
+#pragma once
+
+#include "base/parallel/communicator.h"
+#include "files/part/edge_numbers.h"
+#include "files/part/second_order_parts.h"
+#include "run/report/listener.h"
+
+namespace kerf {
+
+/// Numbers the nodes on edges as number_edges() does in one process, while every rank loads its share of the parts.
+/// Collective; the same on all ranks. Throws Error on every rank alike.
+EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, RunListener* listener);
+
+/// Enters in the report the number of nodes of the mesh, and that of each part that was meshed.
+void count_nodes(const SecondOrderParts& parts, RunReport& report);
+
+}  // namespace kerf

@@ -1,0 +1,201 @@
+// The first rank decides all, in an order in which each choice has what it depends on: the input is read, lengths get
+// its units, a forecast refuses a surface that could not be filled before it is remeshed, then the surface is remeshed
+// and sized; nodes of second order are functions of the surface before it is cut, so they are made next; sizes are
+// taken on the surface that is cut, K follows from its sized volume, and the budget is checked again. The other ranks
+// get the result as bytes (run/run/told_plan.h). Two things are agreed on before that: the cores of a rank are the
+// fewest of any rank, because the defaults of K and workers depend on them and must not differ; and the first rank
+// borrows the processors of the sleeping ranks of its host. "Sized volume" is the volume in which each place counts by
+// the size that is wanted there.
+#include "run/run/plan.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/core/host_name.h"
+#include "base/core/threads.h"
+#include "base/parallel/on_root.h"
+#include "base/parallel/processors.h"
+#include "files/export/patch_types.h"
+#include "files/io/program_finder.h"
+#include "files/io/run_manifest.h"
+#include "run/prepare/cells.h"
+#include "run/prepare/remeshing.h"
+#include "run/prepare/size_reader.h"
+#include "run/request/saved_run.h"
+#include "run/run/forecast.h"
+#include "run/run/told_plan.h"
+
+namespace kerf {
+
+namespace {
+
+// The fewest facets of a part. Fewer than the first number leave no contour of edges; fewer than a tetrahedron has make
+// no part.
+std::int64_t least_facets(const DecomposeOptions& options) {
+    return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
+}
+
+// K as given, if the surface allows it; else that of a run into the same folder that was interrupted, perhaps on
+// another machine; else as it follows from the surface, its sized volume, the machine and its memory.
+std::int32_t part_count(const Input& input, const RunOptions& options, double volume, int ranks) {
+    const std::int32_t regions = input.complex.region_count();
+    const auto most =
+        static_cast<std::int32_t>(std::max<std::int64_t>(regions, input.facets / least_facets(options.decompose)));
+    const std::int32_t wanted = options.decompose.parts;
+    if (wanted == 0) {
+        const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output, input.file_hash);
+        if (interrupted >= regions && interrupted <= most) return interrupted;
+        return std::max({choose_parts(options, static_cast<double>(input.facets), volume, ranks, most),
+                         std::min(options.least_parts, most), regions});
+    }
+    if (wanted > most)
+        throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
+                                                  "finer surface.",
+                                                  input.path, input.facets, wanted, most));
+    return std::max(wanted, regions);
+}
+
+RunOptions sized_on(const Input& input, RunOptions options) {
+    return with_sizes_on(std::move(options), input.complex.arrays(), input.patch_names);
+}
+
+// The sized volume, in units of the size that holds where no region has one of its own.
+double sized_volume_of(const Input& input, const RunOptions& options) {
+    const RegionSizes& sizes = options.decompose.region_sizes;
+    const SizeField& all = options.mesher.size;
+    if (!sizes.empty() && !all.is_empty()) {
+        double sum = 0;
+        for (std::size_t r = 0; r < input.regions.size(); ++r)
+            sum += input.regions[r].volume * all.reference_volume() / sizes.of(RegionIndex(r), all).reference_volume();
+        return sum;
+    }
+    const SurfaceArrays surface = options.mesher.size.is_constant() ? SurfaceArrays() : input.complex.arrays();
+    return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
+}
+
+// Checks the budget of the surface that remeshing would make: a surface of many facets takes longer to be made than to
+// be found too large to be filled.
+void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
+    if (options.dry_run || surface_change(input, options) == SurfaceChange::none) return;
+    options = with_forecast_size(input, std::move(options));
+    options.sizes.growth = 0;  // from edges that are to change
+    options = sized_on(input, std::move(options));
+    const double volume = sized_volume_of(input, options), facets = forecast_changed_facets(input, options);
+    if (options.decompose.parts == 0)
+        options.decompose.parts =
+            choose_parts(options, facets, volume, ranks, std::numeric_limits<std::int32_t>::max());
+    check_budget(options, facets, volume, Facets::follow_size);
+}
+
+bool keeps_most_facets(const Input& input) { return !input.remeshed || 2 * input.remeshed->facets_kept > input.facets; }
+
+// The processors of the first rank's host, which that rank uses alone while the others wait.
+class ProcessorsOfHost {
+ public:
+    // Collective.
+    explicit ProcessorsOfHost(Communicator& ranks) {
+        const std::string host = host_name();
+        const Bytes of_root = ranks.broadcast(Bytes(host.begin(), host.end()), 0);
+        std::vector<Bytes> to_rank(static_cast<std::size_t>(ranks.size()));
+        if (std::string(of_root.begin(), of_root.end()) == host) to_rank[0] = to_bytes(own_);
+        for (const Bytes& bytes : ranks.exchange(std::move(to_rank))) {
+            if (bytes.empty()) continue;
+            ++ranks_;
+            const auto of_rank = from_bytes<std::vector<int>>(bytes);
+            all_.insert(all_.end(), of_rank.begin(), of_rank.end());
+        }
+        std::sort(all_.begin(), all_.end());
+        all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
+    }
+
+    // Calls body() with threads for all ranks of the host.
+    template <class Body>
+    void lend(int threads_of_rank, const Body& body) const {
+        struct Borrowed {
+            const ProcessorsOfHost& host;
+            int threads_of_rank;
+            ~Borrowed() {
+                allow_processors(host.own_);
+                set_thread_limit(threads_of_rank);
+            }
+        } const borrowed{*this, threads_of_rank};
+        const int most = std::max(threads_of_rank, static_cast<int>(all_.size()));
+        if (ranks_ > 1) allow_processors(all_);
+        set_thread_limit(std::min(threads_of_rank * std::max(1, ranks_), most));
+        body();
+    }
+
+ private:
+    std::vector<int> own_ = allowed_processors(), all_;
+    int ranks_ = 0;  // number of ranks of the host
+};
+
+// The options as far as a rank resolves them by itself.
+RunOptions resolved_request(const RunOptions& request, int cores_of_rank, const Input& input) {
+    RunOptions options = request;
+    if (input.is_ready) options.input = input.path;
+    options = resolved(std::move(options), cores_of_rank);
+    const bool meshes = options.volume && !options.dry_run;
+    if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
+    return options;
+}
+
+// Reads the input that plan.options name, and completes them.
+void plan_surface(RunPlan& plan, Input& input, int ranks, StageListener* listener) {
+    RunOptions wanted = std::move(plan.options);
+    if (!std::exchange(input.is_ready, false)) input = read_input(wanted.input, wanted.input_options, listener);
+    refuse_changed_input(wanted, input.file_hash);
+    wanted.input_options.weld_tolerance = input.weld_tolerance;
+    wanted = with_lengths(std::move(wanted), input.diagonal);
+    check_budget_before_remeshing(input, wanted, ranks);
+    const SurfaceArrays behind = surface_behind(input, wanted);
+    SizedInput sized = remesh_and_size(std::move(input), wanted, listener);
+    input = std::move(sized.input);
+    plan.surface_nodes = make_surface_nodes(input, behind, sized.options);
+    plan.found_size = sized.found;
+    if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
+    RunOptions options = sized_on(input, std::move(sized.options));
+    options.decompose.region_sizes = RegionSizes(max_volumes_of_regions(options.sizes, input));
+    require_patches(parse_patch_types(options.patch_types), input.patch_names);
+    if (options.split_regions) require_regions(input.complex.region_names().size());
+    const double volume = sized_volume_of(input, options);
+    options.decompose.parts = part_count(input, options, volume, ranks);
+    if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
+    const std::int32_t wanted_parts = wanted.decompose.parts;
+    if (wanted_parts > 0 && options.decompose.parts > wanted_parts)
+        input.notes.push_back(fmt::format("The {} regions are a part each, though -n {} asks for fewer parts.",
+                                          input.complex.region_count(), wanted_parts));
+    plan.options = std::move(options);
+}
+
+}  // namespace
+
+RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
+                 StageListener* listener) {
+    // Hosts may differ, but the defaults of K and workers must not.
+    for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
+    const ProcessorsOfHost host(ranks);
+    RunPlan plan;
+    in_agreement(ranks, [&] {
+        plan.options = resolved_request(request, cores_of_rank, input);
+        const bool meshes = plan.options.volume && !plan.options.dry_run;
+        if (meshes && !plan.options.transient) plan.worker_hash = describe_file("", plan.options.worker_program).hash;
+        if (listener) listener->on_progress("read", 0, 1);
+        set_thread_limit(plan.options.workers);  // they have nothing to do yet
+    });
+    const int threads = plan.options.workers;
+    const auto of_root = [&] {
+        host.lend(threads, [&] { plan_surface(plan, input, ranks.size(), listener); });
+        return ranks.size() > 1 ? bytes_of_plan(plan, input) : Bytes();
+    };
+    const Bytes told = bytes_of_root(ranks, of_root, [&] { end_if_cancelled(listener); });
+    in_agreement(ranks, [&] {
+        if (ranks.rank() != 0) take_plan(told, plan, input);
+    });
+    return plan;
+}
+
+}  // namespace kerf

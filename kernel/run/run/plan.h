@@ -1,0 +1,36 @@
+// The plan of a run, made from the request of a user.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/parallel/communicator.h"
+#include "run/prepare/cells.h"
+#include "run/prepare/input.h"
+#include "run/prepare/stage_listener.h"
+#include "run/prepare/surface_nodes.h"
+#include "run/request/options.h"
+
+namespace kerf {
+
+/// All choices of a run; none of them changes while its stages go on.
+struct RunPlan {
+    RunOptions options;  ///< resolved: K, lengths in units of the input, sizes over the surface that is cut
+    std::optional<FoundSize> found_size;  ///< size that was found for the number of tetrahedra that was asked for
+    std::string worker_hash;  ///< hash of the program that meshes the parts; empty if nothing is meshed, or the run is
+                              ///< transient
+    SurfaceNodes surface_nodes = {};  ///< nodes on edges, for cells of order 2; else none
+};
+
+/// Reads the surface into `input`, unless it is there already (Input::is_ready), remeshes it where that is asked for,
+/// puts it on the faces of a CAD file where cells of order 2 are to have curved edges (run/prepare/surface_nodes.h),
+/// and resolves the request. Throws Error on every rank alike; a run that cannot end well (check_budget()) is refused
+/// before the surface is remeshed or cut.
+///
+/// Collective; the same plan on every rank. The first rank does the work, with the processors of all ranks of its host,
+/// which sleep meanwhile. The `input` of other ranks gets numbers and names, and the surface only if it has several
+/// regions: repairs and remeshing are known to the first rank alone.
+RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
+                 StageListener* listener);
+
+}  // namespace kerf

@@ -1,0 +1,177 @@
+// A job goes through stages, whose times are told apart: the surface is filled (or halved first,
+// run/work/mesh_in_two.h), the laws of the mesh are verified, sizes and quality are measured, the part is hashed, and
+// it is stored. A mesh that breaks a law, or has cells without volume, is an error of the mesher like any other, and is
+// never stored. Memory sets the order: neighbours of cells are freed before the laws are verified, nothing is kept
+// twice, and the mesh moves into the part only after it is measured.
+//
+// All errors become part of the result, because the worker's answer is the only way back to the parent; memory that
+// runs out has a result of its own.
+#include "run/work/part_job.h"
+
+#include <fmt/format.h>
+
+#include "base/core/elements.h"
+#include "base/core/error.h"
+#include "base/core/out_of_memory.h"
+#include "base/core/record.h"
+#include "base/core/stopwatch.h"
+#include "files/io/checked_file.h"
+#include "files/io/file_bytes.h"
+#include "files/part/vtu_reader.h"
+#include "run/work/mesh_hash.h"
+#include "run/work/mesh_in_two.h"
+
+namespace kerf {
+
+namespace {
+
+// Runs a stage and adds its wall clock to `seconds`.
+template <class Stage>
+auto timed(double& seconds, Stage stage) {
+    struct AddAtEnd {
+        double& seconds;
+        Stopwatch stopwatch = {};
+        ~AddAtEnd() { seconds += stopwatch.seconds(); }
+    } timer{seconds};
+    return stage();
+}
+
+PartQuality quality_of_part(const TetMesh& mesh, const PartJob& job) {
+    std::vector<char> is_interface;
+    is_interface.reserve(job.surface.facets.size());
+    for (const Key key : job.surface.facet_key) is_interface.push_back(is_of_cut(key));
+    return measure_quality(mesh, {job.surface.facets, is_interface}, job.length_scale);
+}
+
+std::string broken_laws(const MeshLaws& laws) {
+    std::string text = "The mesher returned a mesh that breaks the laws:";
+    for (const MeshLaw& law : mesh_laws)
+        if (const std::int64_t count = laws.*law.count) text += fmt::format(" {} {};", count, law.broken);
+    return text + fmt::format(" volume {:.6g}, {:+.2g} from the surface's, of which rounding explains {:.2g}.",
+                              laws.volume, laws.volume - laws.surface_volume, laws.volume_error);
+}
+
+std::string without_volume(std::int64_t count) {
+    return fmt::format(
+        "{} no volume but for rounding: facets or walls of the surface are as thin. Use --surface remesh, or join what "
+        "lies so near with kerf repair.",
+        count == 1 ? "1 tetrahedron has" : fmt::format("{} tetrahedra have", count));
+}
+
+}  // namespace
+
+ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality& after) {
+    if (improvement.is_empty() || after.all.measures.empty()) return;
+    const Distribution &was = improvement.smallest_before, &is = after.all.measures[0];
+    min_before_deg = was.min();
+    p1_before_deg = was.percentile(0.01);
+    min_after_deg = is.min();
+    p1_after_deg = is.percentile(0.01);
+}
+
+Part part_of_job(const PartJob& job) {
+    TetMesh boundary;
+    boundary.vertices = job.surface.vertices;
+    boundary.boundary_vertex_count = static_cast<std::int32_t>(boundary.vertices.size());
+    return part_of_job(job, std::move(boundary));
+}
+
+Part part_of_job(const PartJob& job, TetMesh mesh) {
+    Part part;
+    part.id = job.part;
+    part.facets = job.surface.facets;
+    part.patch = job.surface.patch;
+    part.facet.reserve(part.facets.size());
+    for (const Key key : job.surface.facet_key) part.facet.push_back(is_of_input(key) ? key_index(key) : -1);
+    part.neighbour = job.neighbour;
+    part.tet_at_facet = tets_at_facets(mesh, part.facets);
+    part.global_id = job.boundary_id;
+    part.global_id.resize(mesh.vertices.size(), -1);
+    part.patch_names = job.patch_names;
+    part.region_names = job.region_names;
+    if (!job.region_names.empty()) part.regions = {{0, job.region}};
+    part.contact_vertices = job.contact_vertices;
+    part.contact_edges = job.contact_edges;
+    part.shared = job.shared;
+    part.shared_edges = job.shared_edges;
+    part.mesh = std::move(mesh);
+    return part;
+}
+
+void restore_stored_part(const std::string& part_file, const std::string& vtu_file, const PartJob& job) {
+    if (!is_complete_part_file(vtu_file)) return;
+    Part part;
+    try {
+        part = read_part(vtu_file);
+    } catch (const Error&) {  // the file is damaged
+        return;
+    }
+    if (!are_in_range(part.facets, static_cast<std::size_t>(part.mesh.boundary_vertex_count))) return;
+    part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
+    part.shared = job.shared;
+    part.shared_edges = job.shared_edges;
+    write_stored_part(part_file, part);
+}
+
+void write_job(const std::string& path, const PartJob& job) {
+    const Bytes record = to_record(job);
+    CheckedFile file(path, "wb");
+    file.write(record.data(), record.size());
+    file.close();
+}
+
+PartJob read_job(const std::string& path) {
+    auto job = from_record<PartJob>(read_file(path));
+    if (!job)
+        throw Error(ErrorCode::io, fmt::format("{} is damaged. Check the disk; the same command again goes on.", path));
+    return *std::move(job);
+}
+
+PartResult out_of_memory() {
+    PartResult result;
+    result.code = static_cast<int>(ErrorCode::memory);
+    result.message = "Out of memory in the worker. Use more parts, fewer workers or a larger --memory.";
+    return result;
+}
+
+PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::string& part_file, bool durable) {
+    PartResult result;
+    try {
+        result.mesher = call.options.name;
+        Filling filling = timed(result.mesh_seconds, [&] {
+            return call.cut_first ? mesh_in_two(job.surface, call.options) : mesh_volume(job.surface, call.options);
+        });
+        TetMesh& mesh = filling.mesh;
+        result.strategy = filling.strategy;
+        result.reason = filling.reason;
+        result.recovery = filling.recovery;
+        result.improvement = filling.improvement;
+        result.improve_seconds = filling.improve_seconds;
+        mesh.neighbours = {};  // parts are stored without neighbours
+        timed(result.verify_seconds, [&] { result.laws = verify_mesh(mesh, job.surface, FaceProof::sum); });
+        if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
+        if (result.laws.tets_without_volume > 0)
+            throw Error(ErrorCode::subdomain, without_volume(result.laws.tets_without_volume));
+        result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+        result.interior_vertices = mesh.interior_vertex_count();
+        result.tets = static_cast<std::int64_t>(mesh.tets.size());
+        result.core_tets = filling.core_tets;
+        timed(result.store_seconds, [&] {
+            result.sizes = measure_sizes(mesh, job.surface, call.options.size);
+            result.quality = quality_of_part(mesh, job);
+            result.angles = ImprovedAngles(result.improvement, result.quality);
+        });
+        const Part part = part_of_job(job, std::move(mesh));
+        timed(result.verify_seconds, [&] { result.hash = hash_part(part); });
+        timed(result.store_seconds, [&] { result.file_hash = write_stored_part(part_file, part, durable); });
+    } catch (const Error& e) {
+        result.code = static_cast<int>(e.code());
+        result.message = e.what();
+    } catch (const std::exception& e) {
+        if (!is_out_of_memory(e)) throw;
+        return out_of_memory();
+    }
+    return result;
+}
+
+}  // namespace kerf

@@ -1,0 +1,51 @@
+#include "surface/repair/repair_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/core/number_text.h"
+#include "surface/repair/repair_step.h"
+
+namespace kerf {
+
+void RepairAction::add(RepairPlace place) {
+    ++count;
+    if (places.size() < most_places) places.push_back(std::move(place));
+}
+
+bool StepReport::changed() const {
+    return std::any_of(actions.begin(), actions.end(), [](const RepairAction& action) {
+        return action.count > 0 && action.changes_surface && *action.refused_because == '\0';
+    });
+}
+
+bool RepairReport::changed() const {
+    return std::any_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.changed(); });
+}
+
+double RepairReport::largest_move() const {
+    double largest = 0;
+    for (const StepReport& step : steps) largest = std::max(largest, step.largest_move);
+    return largest;
+}
+
+std::string to_text(const RepairAction& action) {
+    std::string text = fmt::format("{} {}", grouped(action.count), action.count == 1 ? action.one : action.many);
+    if (!action.places.empty()) {
+        const RepairPlace& first = action.places.front();
+        text += fmt::format("{} near {}", action.count == 1 ? "," : ", the first", place_text(first.where));
+        if (*action.measure != '\0') text += fmt::format(", {:.6g} {}", first.measure, action.measure);
+    }
+    return *action.refused_because == '\0' ? text : fmt::format("{}; left: {}", text, action.refused_because);
+}
+
+std::string to_text(const RepairReport& report, const std::string& indent) {
+    std::string text;
+    for (const StepReport& step : report.steps)
+        for (const RepairAction& action : step.actions)
+            text += fmt::format("{}{:<14}{}\n", indent, name(step.kind), to_text(action));
+    return text;
+}
+
+}  // namespace kerf
