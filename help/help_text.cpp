@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "help/wrapped_text.h"
+#include "help/inside/wrapped_text.h"
 
 namespace kerf {
 

@@ -7,9 +7,9 @@
 #include <CLI/CLI.hpp>
 
 #include "base/core/error.h"
-#include "help/completion.h"
 #include "help/help_text.h"
-#include "help/man_page.h"
+#include "help/inside/completion.h"
+#include "help/inside/man_page.h"
 #include "help/usage_error.h"
 
 namespace kerf {

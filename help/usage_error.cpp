@@ -15,8 +15,8 @@
 #include <CLI/CLI.hpp>
 
 #include "help/command_help.h"
+#include "help/inside/old_spellings.h"
 #include "help/nearest.h"
-#include "help/old_spellings.h"
 
 namespace kerf {
 

@@ -21,7 +21,7 @@ std::string unknown_command(const CLI::App& app, const std::string& word);
 /// example or the place to read on; without a line end.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
 
-/// Returns the message about an option of an old spelling (help/old_spellings.h); empty if there is none.
+/// Returns the message about an option of an old spelling (help/inside/old_spellings.h); empty if there is none.
 std::string old_spelling(const CLI::App& app, int argc, const char* const* argv);
 
 /// Returns a validator of choices as suggest() has them, which refuses other values.

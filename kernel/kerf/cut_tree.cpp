@@ -5,8 +5,8 @@
 
 #include "base/core/host_name.h"
 #include "base/parallel/processors.h"
+#include "kerf/inside/run_request.h"
 #include "kerf/progress_listener.h"
-#include "kerf/run_request.h"
 #include "run/prepare/gathered_nodes.h"
 #include "run/run/cut_stage.h"
 #include "run/run/plan.h"

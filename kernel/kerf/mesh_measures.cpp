@@ -12,8 +12,8 @@
 #include "base/geometry/box.h"
 #include "files/quality/compared_quality.h"
 #include "fill/mesh/faces.h"
-#include "kerf/array_edge_nodes.h"
-#include "kerf/array_points.h"
+#include "kerf/inside/array_edge_nodes.h"
+#include "kerf/inside/array_points.h"
 #include "kerf/kerf.h"
 
 namespace kerf {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "files/io/output_file.h"
-#include "kerf/array_points.h"
+#include "kerf/inside/array_points.h"
 #include "kerf/kerf.h"
 #include "kerf/progress_listener.h"
 #include "run/prepare/surface_file.h"

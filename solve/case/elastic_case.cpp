@@ -8,10 +8,10 @@
 #include <algorithm>
 
 #include "files/io/file_bytes.h"
-#include "solve/case/body_load_reader.h"
-#include "solve/case/case_table.h"
-#include "solve/case/material_reader.h"
-#include "solve/case/petsc_options.h"
+#include "solve/case/inside/body_load_reader.h"
+#include "solve/case/inside/case_table.h"
+#include "solve/case/inside/material_reader.h"
+#include "solve/case/inside/petsc_options.h"
 
 namespace kerf {
 

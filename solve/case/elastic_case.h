@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/core/types.h"
+#include "solve/case/inside/material_table.h"
 #include "solve/case/material.h"
-#include "solve/case/material_table.h"
 
 namespace kerf {
 

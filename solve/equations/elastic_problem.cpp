@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
-#include "solve/equations/case_forces.h"
-#include "solve/equations/hold_supports.h"
-#include "solve/equations/place_materials.h"
-#include "solve/equations/rigid_motions.h"
+#include "solve/equations/inside/case_forces.h"
+#include "solve/equations/inside/hold_supports.h"
+#include "solve/equations/inside/place_materials.h"
+#include "solve/equations/inside/rigid_motions.h"
 
 namespace kerf {
 

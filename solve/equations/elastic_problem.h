@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "solve/case/elastic_case.h"
-#include "solve/equations/held_forces.h"
-#include "solve/equations/inertia_relief.h"
-#include "solve/equations/surface_springs.h"
+#include "solve/equations/inside/held_forces.h"
+#include "solve/equations/inside/inertia_relief.h"
+#include "solve/equations/inside/surface_springs.h"
 #include "solve/multigrid/node_frames.h"
 #include "solve/space/fe_space.h"
 #include "solve/space/space_bodies.h"

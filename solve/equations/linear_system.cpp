@@ -16,8 +16,8 @@
 #include <petscksp.h>
 
 #include "base/core/stopwatch.h"
-#include "solve/equations/block_rows.h"
-#include "solve/equations/held_stiffness.h"
+#include "solve/equations/inside/block_rows.h"
+#include "solve/equations/inside/held_stiffness.h"
 #include "solve/multigrid/list_exchange.h"
 
 namespace kerf {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solve/equations/elastic_problem.h"
-#include "solve/equations/petsc_session.h"
+#include "solve/equations/inside/petsc_session.h"
 
 namespace kerf {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
-#include "solve/equations/mode_solver.h"
+#include "solve/equations/inside/mode_solver.h"
 
 namespace kerf {
 

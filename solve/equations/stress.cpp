@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/equations/element_stress.h"
-#include "solve/equations/material_nodes.h"
-#include "solve/equations/stress_patches.h"
+#include "solve/equations/inside/element_stress.h"
+#include "solve/equations/inside/material_nodes.h"
+#include "solve/equations/inside/stress_patches.h"
 
 namespace kerf {
 

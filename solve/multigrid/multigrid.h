@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "solve/multigrid/inside/smoothed_aggregation.h"
 #include "solve/multigrid/level_matrix.h"
 #include "solve/multigrid/node_frames.h"
-#include "solve/multigrid/smoothed_aggregation.h"
 
 namespace kerf {
 

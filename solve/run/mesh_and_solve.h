@@ -9,7 +9,7 @@
 
 #include "run/report/report.h"
 #include "run/request/options.h"
-#include "solve/run/solve_run.h"
+#include "solve/run/inside/solve_run.h"
 
 namespace kerf {
 

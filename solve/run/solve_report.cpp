@@ -12,7 +12,7 @@
 #include "base/core/version.h"
 #include "files/io/json.h"
 #include "files/io/path_text.h"
-#include "solve/run/solve_run.h"
+#include "solve/run/inside/solve_run.h"
 
 namespace kerf {
 

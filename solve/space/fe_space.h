@@ -8,7 +8,7 @@
 #include "base/mpi/mpi_ranks.h"
 #include "files/part/part.h"
 #include "solve/multigrid/ghost_exchange.h"
-#include "solve/space/facet_element.h"
+#include "solve/space/inside/facet_element.h"
 #include "solve/space/tet_element.h"
 
 namespace kerf {

@@ -7,7 +7,7 @@
 #include "base/core/types.h"
 #include "fill/mesh/edge_table.h"
 #include "solve/case/material.h"
-#include "solve/space/quadrature.h"
+#include "solve/space/inside/quadrature.h"
 
 namespace kerf {
 

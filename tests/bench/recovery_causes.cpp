@@ -29,7 +29,7 @@
 #include "files/io/obj_writer.h"
 #include "fill/delaunay/delaunay.h"
 #include "fill/delaunay/faces.h"
-#include "fill/shell/face_recovery.h"
+#include "fill/shell/inside/face_recovery.h"
 #include "run/prepare/input.h"
 #include "surface/soup/triangle_tree.h"
 

@@ -1,5 +1,5 @@
 // Solids that touch are found by coarse facets, and those that are near each other are not.
-#include "files/cad/contact.h"
+#include "files/cad/inside/contact.h"
 
 #include <optional>
 

@@ -7,7 +7,7 @@
 
 #include "cad/cad_files.h"
 #include "files/io/file_bytes.h"
-#include "files/quality/measured_mesh.h"
+#include "files/quality/inside/measured_mesh.h"
 #include "support/file_contents.h"
 #include "support/places.h"
 #include "support/program.h"

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "help/old_spellings.h"
+#include "help/inside/old_spellings.h"
 #include "run/request/options.h"
 #include "support/assets.h"
 #include "support/file_contents.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "export/cases.h"
-#include "files/export/ghosts.h"
+#include "files/export/inside/ghosts.h"
 #include "files/part/parts_of_order.h"
 #include "files/part/run_parts.h"
 #include "run/run/edge_numbering.h"

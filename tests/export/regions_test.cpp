@@ -9,7 +9,7 @@
 #include "export/msh_reader.h"
 #include "export/regions_cases.h"
 #include "files/export/format.h"
-#include "files/export/hdf5_arrays.h"
+#include "files/export/inside/hdf5_arrays.h"
 #include "files/part/joined_surfaces.h"
 #include "support/all_formats.h"
 #include "support/temporary_folder.h"

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "base/geometry/triangle.h"
-#include "run/prepare/labelled_facets.h"
+#include "run/prepare/inside/labelled_facets.h"
 #include "support/slice.h"
 #include "support/voxel_regions.h"
 #include "surface/complex/mass_properties.h"
 #include "surface/diagnosis/intersections.h"
+#include "surface/remesh/inside/sheets.h"
 #include "surface/remesh/remesh.h"
-#include "surface/remesh/sheets.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

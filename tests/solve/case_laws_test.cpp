@@ -6,7 +6,7 @@
 #include "cube_of_parts.h"
 #include "solve/equations/elastic_problem.h"
 #include "solve/equations/linear_system.h"
-#include "solve/run/case_report.h"
+#include "solve/run/inside/case_report.h"
 
 namespace kerf {
 namespace {

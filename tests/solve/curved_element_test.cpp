@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "solve/equations/mass_matrix.h"
-#include "solve/space/facet_element.h"
+#include "solve/equations/inside/mass_matrix.h"
+#include "solve/space/inside/facet_element.h"
 #include "solve/space/tet_element.h"
 
 namespace kerf {

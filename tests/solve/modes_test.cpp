@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files/part/vtu_reader.h"
-#include "solve/equations/mass_matrix.h"
+#include "solve/equations/inside/mass_matrix.h"
 #include "solve/equations/modes.h"
 #include "support/file_contents.h"
 #include "support/mpirun.h"

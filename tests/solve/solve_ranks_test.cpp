@@ -13,12 +13,12 @@
 #include "base/core/error.h"
 #include "cube_of_parts.h"
 #include "files/part/run_parts.h"
-#include "solve/equations/block_rows.h"
 #include "solve/equations/elastic_problem.h"
 #include "solve/equations/error_sizes.h"
-#include "solve/equations/held_stiffness.h"
+#include "solve/equations/inside/block_rows.h"
+#include "solve/equations/inside/held_stiffness.h"
+#include "solve/equations/inside/rigid_motions.h"
 #include "solve/equations/linear_system.h"
-#include "solve/equations/rigid_motions.h"
 #include "solve/equations/stress.h"
 
 namespace kerf {

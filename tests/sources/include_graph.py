@@ -18,8 +18,8 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">\n]+)[">]', re.M)
 
 
 def room_of(path):
-    """kernel/surface/repair of kernel/surface/repair/inside/rims.h, cli of cli/merge.cpp."""
-    folders = path.split("/")[:-1]
+    """kernel/surface/repair of kernel/surface/repair/inside/rims.h, cli of cli/main.cpp."""
+    folders = [folder for folder in path.split("/")[:-1] if folder != "inside"]
     return "/".join(folders[:DEPTH.get(folders[0], 1)]) if folders else path
 
 

@@ -193,21 +193,22 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
     EXPECT_EQ(files_including([](const std::string& name) { return name == "mpi.h"; }),
               (std::set<std::string>{"kernel/kerf/mpi.h", "kernel/base/mpi/mpi_ranks.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name.starts_with("petsc"); }),
-              (std::set<std::string>{"solve/equations/linear_system.cpp", "solve/equations/petsc_session.cpp"}));
+              (std::set<std::string>{"solve/equations/linear_system.cpp", "solve/equations/inside/petsc_session.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "tetgen.h"; }),
-              std::set<std::string>{"kernel/fill/volume/tetgen_adapter.cpp"});
-    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
-              (std::set<std::string>{
-                  "kernel/base/geometry/predicates.cpp", "kernel/surface/wrap/alpha_wrap.cpp",
-                  "kernel/surface/arrange/facet_divider.cpp", "kernel/surface/openings/hole_triangulation.cpp",
-                  "kernel/surface/diagnosis/intersections.cpp", "kernel/surface/soup/planar_delaunay.cpp"}));
+              std::set<std::string>{"kernel/fill/volume/inside/tetgen_adapter.cpp"});
+    EXPECT_EQ(
+        files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
+        (std::set<std::string>{
+            "kernel/base/geometry/predicates.cpp", "kernel/surface/wrap/inside/alpha_wrap.cpp",
+            "kernel/surface/arrange/inside/facet_divider.cpp", "kernel/surface/openings/inside/hole_triangulation.cpp",
+            "kernel/surface/diagnosis/intersections.cpp", "kernel/surface/soup/planar_delaunay.cpp"}));
     const std::set<std::string> slow_parts = {"Eigen/Dense", "Eigen/Eigenvalues", "Eigen/QR",
                                               "Eigen/SVD",   "Eigen/Sparse",      "Eigen/SparseCholesky"};
     EXPECT_EQ(files_including([&](const std::string& name) { return slow_parts.contains(name); }),
               (std::set<std::string>{"kernel/base/geometry/sparse_factors.cpp",
                                      "kernel/base/geometry/symmetric_axes.cpp", "solve/multigrid/dense.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "toml++"; }),
-              (std::set<std::string>{"kernel/run/request/config_file.cpp", "solve/case/case_table.h"}));
+              (std::set<std::string>{"kernel/run/request/config_file.cpp", "solve/case/inside/case_table.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
               (std::set<std::string>{"kernel/files/io/compressed.cpp", "viewer/render/image.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "Model"; }),
@@ -215,7 +216,7 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
     for (const std::string& file : files_including([](const std::string& name) { return name.ends_with(".hxx"); }))
         EXPECT_TRUE(file.starts_with("kernel/files/cad/")) << file << " includes OpenCASCADE";
     EXPECT_EQ(files_including([](const std::string& name) { return name == "hdf5.h"; }),
-              std::set<std::string>{"kernel/files/export/hdf5_file.cpp"});
+              std::set<std::string>{"kernel/files/export/inside/hdf5_file.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "GLFW"; }),
               std::set<std::string>{"viewer/render/window.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return name == "GL/osmesa.h"; }),
@@ -223,7 +224,7 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "EGL"; }),
               std::set<std::string>{"viewer/render/egl_context.cpp"});
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "fontconfig"; }),
-              std::set<std::string>{"viewer/panels/font_file.cpp"});
+              std::set<std::string>{"viewer/panels/inside/font_file.cpp"});
     for (const std::string& file : files_including(
              [](const std::string& name) { return name.starts_with("imgui") || first_folder(name) == "GL"; }))
         EXPECT_TRUE(file.starts_with("viewer/render/") || file.starts_with("viewer/panels/") ||

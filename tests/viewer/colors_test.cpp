@@ -7,7 +7,7 @@
 #include "support/assets.h"
 #include "viewer/driver.h"
 #include "viewer/model/timeline.h"
-#include "viewer/scene/colors.h"
+#include "viewer/scene/inside/colors.h"
 
 namespace kerf::test {
 namespace {

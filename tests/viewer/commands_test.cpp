@@ -1,5 +1,5 @@
 // The table of commands, and what finds them: keys, menus, the search box.
-#include "viewer/panels/commands.h"
+#include "viewer/panels/inside/commands.h"
 
 #include <algorithm>
 #include <set>

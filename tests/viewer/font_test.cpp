@@ -8,7 +8,7 @@
 
 #include "support/temporary_folder.h"
 #include "viewer/driver.h"
-#include "viewer/panels/font_file.h"
+#include "viewer/panels/inside/font_file.h"
 
 namespace kerf::test {
 namespace {

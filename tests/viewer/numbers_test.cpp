@@ -10,7 +10,7 @@
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
 #include "viewer/driver.h"
-#include "viewer/render/widest_places.h"
+#include "viewer/render/inside/widest_places.h"
 #include "viewer/words_on_screen.h"
 
 namespace kerf::test {

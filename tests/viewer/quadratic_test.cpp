@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "fill/mesh/edge_table.h"
-#include "viewer/model/part_edges.h"
-#include "viewer/scene/cell_shapes.h"
-#include "viewer/scene/quadratic_triangle.h"
-#include "viewer/scene/shapes.h"
+#include "viewer/model/inside/part_edges.h"
+#include "viewer/scene/inside/cell_shapes.h"
+#include "viewer/scene/inside/quadratic_triangle.h"
+#include "viewer/scene/inside/shapes.h"
 
 namespace kerf::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/seeded_numbers.h"
-#include "viewer/model/region_places.h"
+#include "viewer/model/inside/region_places.h"
 
 namespace kerf::view {
 namespace {

@@ -15,7 +15,7 @@
 #include "support/write_off.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
-#include "viewer/scene/cell_shapes.h"
+#include "viewer/scene/inside/cell_shapes.h"
 
 namespace kerf::test {
 namespace {

@@ -14,8 +14,8 @@
 #include "viewer/app/keys.h"
 #include "viewer/driver.h"
 #include "viewer/model/line_of_sight.h"
+#include "viewer/scene/inside/shapes.h"
 #include "viewer/scene/selection.h"
-#include "viewer/scene/shapes.h"
 
 namespace kerf::test {
 namespace {

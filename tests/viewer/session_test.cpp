@@ -23,13 +23,13 @@
 #include "support/write_off.h"
 #include "surface/complex/mass_properties.h"
 #include "viewer/model/file_kind.h"
-#include "viewer/model/loader.h"
-#include "viewer/model/node_surface.h"
-#include "viewer/model/part_files.h"
-#include "viewer/model/replayer.h"
-#include "viewer/model/run_events.h"
-#include "viewer/model/run_process.h"
-#include "viewer/model/store.h"
+#include "viewer/model/inside/loader.h"
+#include "viewer/model/inside/node_surface.h"
+#include "viewer/model/inside/part_files.h"
+#include "viewer/model/inside/replayer.h"
+#include "viewer/model/inside/run_events.h"
+#include "viewer/model/inside/run_process.h"
+#include "viewer/model/inside/store.h"
 
 namespace kerf::view {
 namespace {

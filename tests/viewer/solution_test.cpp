@@ -8,9 +8,9 @@
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "viewer/golden_image.h"
-#include "viewer/model/solution.h"
+#include "viewer/model/inside/solution.h"
+#include "viewer/scene/inside/shapes.h"
 #include "viewer/scene/selection.h"
-#include "viewer/scene/shapes.h"
 #include "viewer/solved_cube.h"
 #include "viewer/words_on_screen.h"
 

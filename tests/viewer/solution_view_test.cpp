@@ -12,7 +12,7 @@
 #include "support/places.h"
 #include "viewer/panels/text.h"
 #include "viewer/render/line_labels.h"
-#include "viewer/scene/arrows.h"
+#include "viewer/scene/inside/arrows.h"
 #include "viewer/scene/selection.h"
 #include "viewer/solved_cube.h"
 

@@ -12,7 +12,7 @@
 #include "support/surface_files.h"
 #include "support/temporary_folder.h"
 #include "viewer/model/advice.h"
-#include "viewer/model/node_surface.h"
+#include "viewer/model/inside/node_surface.h"
 #include "viewer/model/session.h"
 #include "viewer/model/timeline.h"
 

@@ -8,7 +8,7 @@
 #include "base/core/error.h"
 #include "viewer/app/command_line.h"
 #include "viewer/model/view_state.h"
-#include "viewer/scene/shapes.h"
+#include "viewer/scene/inside/shapes.h"
 
 namespace kerf::view {
 namespace {

@@ -1,7 +1,7 @@
 // The names of colourings, for files and command lines, and their titles in the legend.
 #include <array>
 
-#include "viewer/model/name_index.h"
+#include "viewer/model/inside/name_index.h"
 #include "viewer/model/view_state.h"
 
 namespace kerf::view {

@@ -12,8 +12,8 @@
 #include "run/prepare/input.h"
 #include "run/request/options.h"
 #include "run/run/trace.h"
-#include "viewer/model/region_places.h"
-#include "viewer/model/solution.h"
+#include "viewer/model/inside/region_places.h"
+#include "viewer/model/inside/solution.h"
 #include "viewer/model/tree.h"
 
 namespace kerf::view {

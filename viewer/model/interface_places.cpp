@@ -1,4 +1,4 @@
-// The angles are those by which cut/cut/acceptance.h judges an interface.
+// The angles are those by which cut/cut/inside/acceptance.h judges an interface.
 #include "viewer/model/interface_places.h"
 
 #include <algorithm>

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "viewer/model/document_loader.h"
-#include "viewer/model/own_runs.h"
+#include "viewer/model/inside/document_loader.h"
+#include "viewer/model/inside/own_runs.h"
 
 namespace kerf::view {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "viewer/model/fetched.h"
-#include "viewer/model/repairs.h"
-#include "viewer/model/run_pair.h"
+#include "viewer/model/inside/fetched.h"
+#include "viewer/model/inside/repairs.h"
+#include "viewer/model/inside/run_pair.h"
 
 namespace kerf::view {
 

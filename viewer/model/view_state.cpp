@@ -17,7 +17,7 @@
 #include "base/core/error.h"
 #include "files/io/json.h"
 #include "files/io/path_text.h"
-#include "viewer/model/name_index.h"
+#include "viewer/model/inside/name_index.h"
 
 namespace kerf::view {
 

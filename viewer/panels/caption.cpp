@@ -13,7 +13,7 @@
 #include "base/core/number_text.h"
 #include "base/core/words.h"
 #include "viewer/model/shown_parts.h"
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

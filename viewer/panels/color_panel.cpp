@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "viewer/model/surface_values.h"
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

@@ -9,9 +9,9 @@
 #include <imgui_internal.h>  // the veil behind the dialog
 #include <imgui_stdlib.h>
 
-#include "viewer/panels/icons.h"
 #include "viewer/panels/imgui_input.h"
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/icons.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

@@ -1,7 +1,7 @@
 // The axes of the file as the camera has turned them; a click on an end looks from there.
 #include <algorithm>
 
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

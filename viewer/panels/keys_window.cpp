@@ -1,6 +1,6 @@
 #include <string_view>
 
-#include "viewer/panels/commands.h"
+#include "viewer/panels/inside/commands.h"
 
 namespace kerf::view {
 

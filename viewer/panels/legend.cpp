@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

@@ -7,7 +7,7 @@
 
 #include "viewer/model/session.h"
 #include "viewer/model/timeline.h"
-#include "viewer/panels/widgets.h"
+#include "viewer/panels/inside/widgets.h"
 #include "viewer/scene/layer.h"
 
 namespace kerf::view {

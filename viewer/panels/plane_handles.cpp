@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

@@ -14,7 +14,7 @@
 #include "viewer/model/advice.h"
 #include "viewer/model/line_of_sight.h"
 #include "viewer/model/repaired_places.h"
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

@@ -8,8 +8,8 @@
 
 #include "base/core/number_text.h"
 #include "viewer/model/shown_parts.h"
-#include "viewer/panels/icons.h"
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/icons.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

@@ -4,7 +4,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "viewer/panels/commands.h"
+#include "viewer/panels/inside/commands.h"
 
 namespace kerf::view {
 

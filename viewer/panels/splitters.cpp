@@ -1,7 +1,7 @@
 // Handles at the borders of the panels, by which a user makes columns as wide and the timeline as high as he wants.
 #include <algorithm>
 
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

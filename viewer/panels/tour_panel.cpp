@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "viewer/model/tour.h"
-#include "viewer/panels/parts.h"
+#include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
 

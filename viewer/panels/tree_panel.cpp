@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "viewer/model/shown_parts.h"
-#include "viewer/panels/icons.h"
-#include "viewer/panels/parts.h"
-#include "viewer/panels/tree_columns.h"
-#include "viewer/panels/tree_words.h"
+#include "viewer/panels/inside/icons.h"
+#include "viewer/panels/inside/parts.h"
+#include "viewer/panels/inside/tree_columns.h"
+#include "viewer/panels/inside/tree_words.h"
 
 namespace kerf::view {
 

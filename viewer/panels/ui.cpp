@@ -12,7 +12,7 @@
 #include <imgui_internal.h>  // whether any popup is open
 
 #include "viewer/model/shown_parts.h"
-#include "viewer/panels/commands.h"
+#include "viewer/panels/inside/commands.h"
 
 namespace kerf::view {
 

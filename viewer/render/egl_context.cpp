@@ -2,8 +2,8 @@
 #include <array>
 #include <cstdlib>
 
-#include "viewer/render/gl.h"
-#include "viewer/render/offscreen_contexts.h"
+#include "viewer/render/inside/gl.h"
+#include "viewer/render/inside/offscreen_contexts.h"
 
 #define EGL_NO_X11
 #include <EGL/egl.h>

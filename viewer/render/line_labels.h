@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "viewer/render/seen_lines.h"
+#include "viewer/render/inside/seen_lines.h"
 
 namespace kerf::view {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
-#include "viewer/render/offscreen_contexts.h"
+#include "viewer/render/inside/offscreen_contexts.h"
 
 namespace kerf::view {
 

@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "viewer/render/offscreen_contexts.h"
+#include "viewer/render/inside/offscreen_contexts.h"
 
 // Before osmesa.h, whose own OpenGL header hides the types of the functions of 1.1.
-#include "viewer/render/gl.h"
+#include "viewer/render/inside/gl.h"
 
 #include <GL/osmesa.h>
 

@@ -12,14 +12,14 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
-#include "viewer/render/framebuffer.h"
-#include "viewer/render/gl.h"
-#include "viewer/render/gpu_geometry.h"
-#include "viewer/render/picker.h"
-#include "viewer/render/shader_program.h"
-#include "viewer/render/stroke_painter.h"
-#include "viewer/render/triangle_painter.h"
-#include "viewer/render/ui_painter.h"
+#include "viewer/render/inside/framebuffer.h"
+#include "viewer/render/inside/gl.h"
+#include "viewer/render/inside/gpu_geometry.h"
+#include "viewer/render/inside/picker.h"
+#include "viewer/render/inside/shader_program.h"
+#include "viewer/render/inside/stroke_painter.h"
+#include "viewer/render/inside/triangle_painter.h"
+#include "viewer/render/inside/ui_painter.h"
 
 namespace kerf::view {
 

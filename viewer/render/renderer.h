@@ -9,8 +9,8 @@
 
 #include "viewer/model/camera.h"
 #include "viewer/render/image.h"
-#include "viewer/render/seen_lines.h"
-#include "viewer/render/widest_places.h"
+#include "viewer/render/inside/seen_lines.h"
+#include "viewer/render/inside/widest_places.h"
 #include "viewer/scene/layer.h"
 
 struct ImDrawData;

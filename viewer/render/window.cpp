@@ -17,7 +17,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
-#include "viewer/render/gl.h"
+#include "viewer/render/inside/gl.h"
 
 namespace kerf::view {
 

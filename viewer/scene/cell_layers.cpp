@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/scene/part_layers.h"
+#include "viewer/scene/inside/part_layers.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "viewer/scene/legend.h"
+#include "viewer/scene/inside/legend.h"
 
 namespace kerf::view {
 

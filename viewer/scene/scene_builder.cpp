@@ -10,9 +10,9 @@
 
 #include <cmath>
 
-#include "viewer/scene/cut_layers.h"
-#include "viewer/scene/legend.h"
-#include "viewer/scene/part_layers.h"
+#include "viewer/scene/inside/cut_layers.h"
+#include "viewer/scene/inside/legend.h"
+#include "viewer/scene/inside/part_layers.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {

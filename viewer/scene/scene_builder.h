@@ -8,7 +8,7 @@
 
 #include "viewer/model/session.h"
 #include "viewer/model/view_state.h"
-#include "viewer/scene/geometry_cache.h"
+#include "viewer/scene/inside/geometry_cache.h"
 #include "viewer/scene/layer.h"
 
 namespace kerf::view {

@@ -10,7 +10,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include "base/geometry/wide_integer.h"
+#include "base/geometry/inside/wide_integer.h"
 
 namespace kerf {
 

@@ -12,9 +12,9 @@
 
 #include "base/core/check.h"
 #include "base/core/stopwatch.h"
-#include "cut/cut/interface.h"
-#include "cut/cut/plane.h"
-#include "cut/cut/plane_trial.h"
+#include "cut/cut/inside/interface.h"
+#include "cut/cut/inside/plane.h"
+#include "cut/cut/inside/plane_trial.h"
 #include "surface/complex/touching.h"
 
 namespace kerf {

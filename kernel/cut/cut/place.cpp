@@ -10,8 +10,8 @@
 
 #include "base/core/check.h"
 #include "base/geometry/triangle.h"
-#include "cut/cut/ordered_terms.h"
-#include "cut/cut/plane.h"
+#include "cut/cut/inside/ordered_terms.h"
+#include "cut/cut/inside/plane.h"
 
 namespace kerf {
 

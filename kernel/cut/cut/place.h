@@ -1,7 +1,7 @@
 // The choice of the axis and the share of the load for a cut.
 #pragma once
 
-#include "cut/cut/options.h"
+#include "cut/cut/inside/options.h"
 #include "surface/complex/mass_properties.h"
 
 namespace kerf {

@@ -8,7 +8,7 @@
 #include "base/core/check.h"
 #include "base/core/elements.h"
 #include "base/core/threads.h"
-#include "cut/cut/band.h"
+#include "cut/cut/inside/band.h"
 
 namespace kerf {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "cut/cut/facet_split.h"
-#include "cut/cut/options.h"
+#include "cut/cut/inside/facet_split.h"
+#include "cut/cut/inside/options.h"
 #include "surface/complex/mass_properties.h"
 
 namespace kerf {

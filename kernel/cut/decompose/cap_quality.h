@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "cut/decompose/face_complex.h"
+#include "cut/decompose/inside/face_complex.h"
 
 namespace kerf {
 

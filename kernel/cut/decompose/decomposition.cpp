@@ -11,7 +11,7 @@
 #include "base/core/check.h"
 #include "base/core/error.h"
 #include "base/core/threads.h"
-#include "cut/decompose/region_tree.h"
+#include "cut/decompose/inside/region_tree.h"
 
 namespace kerf {
 

@@ -114,8 +114,8 @@ Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRa
                         CutListener* listener = nullptr);
 
 /// Cuts the regions of a complex, each into at least one of options.parts subdomains: above the roots of the regions
-/// are nodes that share them out (cut/decompose/region_tree.h). No cut crosses a wall, and no part has cells of two
-/// regions. Half-edges are built only for regions that have leaves in the range. Throws Error(input) for a region
+/// are nodes that share them out (cut/decompose/inside/region_tree.h). No cut crosses a wall, and no part has cells of
+/// two regions. Half-edges are built only for regions that have leaves in the range. Throws Error(input) for a region
 /// without volume. All else is as for a surface.
 Decomposition decompose(const Complex& complex, const DecomposeOptions& options, LeafRange range,
                         CutListener* listener = nullptr);

@@ -13,7 +13,7 @@
 #include "base/core/stopwatch.h"
 #include "cut/decompose/cap_quality.h"
 #include "cut/decompose/cap_triangulation.h"
-#include "cut/decompose/face_complex.h"
+#include "cut/decompose/inside/face_complex.h"
 #include "surface/complex/touching.h"
 
 namespace kerf {

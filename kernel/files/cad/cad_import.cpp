@@ -20,13 +20,13 @@
 #include <Standard_Failure.hxx>
 
 #include "base/core/error.h"
-#include "files/cad/assembly_mesher.h"
-#include "files/cad/body_mesher.h"
-#include "files/cad/contact.h"
-#include "files/cad/healing.h"
-#include "files/cad/imprint.h"
-#include "files/cad/model.h"
-#include "files/cad/projection.h"
+#include "files/cad/inside/assembly_mesher.h"
+#include "files/cad/inside/body_mesher.h"
+#include "files/cad/inside/contact.h"
+#include "files/cad/inside/healing.h"
+#include "files/cad/inside/imprint.h"
+#include "files/cad/inside/model.h"
+#include "files/cad/inside/projection.h"
 #include "surface/diagnosis/intersections.h"
 #include "surface/regions/region_finder.h"
 

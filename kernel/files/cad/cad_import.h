@@ -14,14 +14,14 @@ namespace kerf {
 ///
 /// Facets are welded by the topology of the model, never by coordinates. Loose faces are sewn where the file has no
 /// solid. The volume is right to CadOptions::volume_tolerance, by chords that get finer and by vertices a little off
-/// the curved faces (files/cad/volume_balance.h), unless that takes more facets than some 100,000s, or 80,000 of one
-/// face. With CadOptions::on_faces all vertices stay on the faces, with little between these and the facets. No two
+/// the curved faces (files/cad/inside/volume_balance.h), unless that takes more facets than some 100,000s, or 80,000 of
+/// one face. With CadOptions::on_faces all vertices stay on the faces, with little between these and the facets. No two
 /// facets cross. Soup::notes says what was read, converted, sewn, divided or left out.
 ///
 /// Where solids touch, all of them are regions: the faces, edges and vertices in which they touch exist once
-/// (files/cad/imprint.h), Soup::sides and Soup::region_names are set, and the volume of each is right. Where none
-/// touch, these stay empty, unless a solid lies inside of another one: it is cut out of that, and both are regions,
-/// too.
+/// (files/cad/inside/imprint.h), Soup::sides and Soup::region_names are set, and the volume of each is right. Where
+/// none touch, these stay empty, unless a solid lies inside of another one: it is cut out of that, and both are
+/// regions, too.
 ///
 /// Throws Error(input), in one sentence that names the file, the solids or faces and the way out, for a file that is
 /// damaged or cut off or holds no faces, as SolidDefect for solids that are open, intersect themselves or overlap, or
@@ -30,8 +30,9 @@ namespace kerf {
 /// settings.
 CadBody import_cad(std::string_view content, const std::string& path, const CadOptions& options = {});
 
-/// Puts points on the faces and curves that import_cad() tessellates with the same options (files/cad/projection.h).
-/// Throws as import_cad(), takes as much time and memory, and about 10 us a point more.
+/// Puts points on the faces and curves that import_cad() tessellates with the same options
+/// (files/cad/inside/projection.h). Throws as import_cad(), takes as much time and memory, and about 10 us a point
+/// more.
 ProjectedPoints project_on_cad(std::string_view content, const std::string& path, const CadOptions& options,
                                const CadPoints& points);
 

@@ -4,7 +4,7 @@
 //
 // OpenCASCADE wants a file's name, and Kerf has bytes that may come out of an archive: they are given a name by a file
 // in memory.
-#include "files/cad/model.h"
+#include "files/cad/inside/model.h"
 
 #include <cmath>
 #include <map>

@@ -2,23 +2,24 @@
 // and sets; no materials, no steps. Nodes and elements are numbered from 1. A node set has the nodes on edges, too.
 //
 // NALL and EALL hold all nodes and elements; BODY_1, BODY_2, ... the elements of the materials
-// (files/export/materials.h), or sets named by the regions where there are several; SUBDOMAIN_1, SUBDOMAIN_2, ... those
-// of the parts in the order of the tree. The surface of a wall between regions is of elements in the first of the two.
-// For a patch INLET there are the node set INLET, the element-based surface INLET, and the element sets INLET_S1 to
-// INLET_S4 of which it consists: those with the patch at this face. Names are words (files/export/word_names.h) that
-// differ by more than case. A line is shorter than the 132 characters that old readers see, and a coordinate has no
-// more than the 20 that a reader may look at, so that few of them lose their last digits.
+// (files/export/inside/materials.h), or sets named by the regions where there are several; SUBDOMAIN_1, SUBDOMAIN_2,
+// ... those of the parts in the order of the tree. The surface of a wall between regions is of elements in the first of
+// the two. For a patch INLET there are the node set INLET, the element-based surface INLET, and the element sets
+// INLET_S1 to INLET_S4 of which it consists: those with the patch at this face. Names are words
+// (files/export/inside/word_names.h) that differ by more than case. A line is shorter than the 132 characters that old
+// readers see, and a coordinate has no more than the 20 that a reader may look at, so that few of them lose their last
+// digits.
 #include <algorithm>
 #include <charconv>
 
 #include <fmt/format.h>
 
-#include "files/export/by_patch.h"
 #include "files/export/format.h"
-#include "files/export/materials.h"
-#include "files/export/text_rows.h"
+#include "files/export/inside/by_patch.h"
+#include "files/export/inside/materials.h"
+#include "files/export/inside/text_rows.h"
+#include "files/export/inside/word_names.h"
 #include "files/export/whole_mesh.h"
-#include "files/export/word_names.h"
 #include "files/part/region_walls.h"
 
 namespace kerf {

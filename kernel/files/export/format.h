@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/export/export_files.h"
+#include "files/export/inside/export_files.h"
 #include "files/io/output_kind.h"
 #include "files/part/part.h"
 

@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "files/export/format.h"
-#include "files/export/hdf5_arrays.h"
-#include "files/export/hdf5_file.h"
-#include "files/export/materials.h"
+#include "files/export/inside/hdf5_arrays.h"
+#include "files/export/inside/hdf5_file.h"
+#include "files/export/inside/materials.h"
 #include "files/export/whole_mesh.h"
 #include "files/io/vtk_cell_types.h"
 #include "files/part/bodies.h"

@@ -1,15 +1,15 @@
 // The text format of Medit (.mesh, version 2: numbers of 32 bits, coordinates as doubles), which MMG, ParMmg, FreeFEM
-// and gmsh read. References count from 1: that of a tetrahedron is its material (files/export/materials.h), that of a
-// triangle its patch; names are comments. Walls between regions are triangles, once each. Which part a tetrahedron is
-// of is not said. Of order 2 there are TetrahedraP2 and TrianglesP2 in their place, with the nodes of edges 12 23 13 14
-// 24 34 behind the corners, as gmsh has them, and Vizir where a file does not say another order.
+// and gmsh read. References count from 1: that of a tetrahedron is its material (files/export/inside/materials.h), that
+// of a triangle its patch; names are comments. Walls between regions are triangles, once each. Which part a tetrahedron
+// is of is not said. Of order 2 there are TetrahedraP2 and TrianglesP2 in their place, with the nodes of edges 12 23 13
+// 14 24 34 behind the corners, as gmsh has them, and Vizir where a file does not say another order.
 #include <fmt/format.h>
 
 #include "files/export/format.h"
-#include "files/export/materials.h"
-#include "files/export/text_rows.h"
+#include "files/export/inside/materials.h"
+#include "files/export/inside/text_rows.h"
+#include "files/export/inside/word_names.h"
 #include "files/export/whole_mesh.h"
-#include "files/export/word_names.h"
 
 namespace kerf {
 

@@ -2,8 +2,8 @@
 // groups of ranks that it shares vertices, edges or faces with, itself alone as the first. All ranks of a group list
 // its entities in the same order, and name the corners of an edge or face in the same order, too: MFEM orients the
 // unknowns of edges and faces by that. Here all are in the order of global numbers. The attribute of a tetrahedron is
-// its material (files/export/materials.h), that of a triangle its patch, both from 1. Names of attributes are comments,
-// because only version 1.3 of the format has them, which older releases of MFEM refuse.
+// its material (files/export/inside/materials.h), that of a triangle its patch, both from 1. Names of attributes are
+// comments, because only version 1.3 of the format has them, which older releases of MFEM refuse.
 //
 // Of order 2 the nodes of each rank are a function of the space H1_3D_P2 in place of the vertices: first those of
 // vertices, then those of edges in the order of MFEM's numbers for them: as they come up, tetrahedron after
@@ -19,7 +19,7 @@
 #include <fmt/format.h>
 
 #include "files/export/format.h"
-#include "files/export/materials.h"
+#include "files/export/inside/materials.h"
 #include "files/export/whole_mesh.h"
 
 namespace kerf {

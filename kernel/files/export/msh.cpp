@@ -4,9 +4,9 @@
 // Nodes and elements have the same tags in all files. Tags count from 1, numbers in Kerf from 0. Nodes have their
 // global numbers; elements are all tetrahedra, in the order of the parts, and then all triangles on patches. Triangles
 // on interfaces are not written, as Gmsh leaves them out without Mesh.PartitionCreateTopology. A node belongs to its
-// first patch, or else to a volume. Every material (files/export/materials.h) is a physical group, as programs expect,
-// and what a part has of one a volume of its own. Walls between regions are triangles of their patch, once each; their
-// nodes are on it in both parts. Of order 2 elements have ten and six nodes.
+// first patch, or else to a volume. Every material (files/export/inside/materials.h) is a physical group, as programs
+// expect, and what a part has of one a volume of its own. Walls between regions are triangles of their patch, once
+// each; their nodes are on it in both parts. Of order 2 elements have ten and six nodes.
 #include <algorithm>
 #include <array>
 
@@ -14,9 +14,9 @@
 
 #include "base/core/error.h"
 #include "files/export/format.h"
-#include "files/export/materials.h"
-#include "files/export/msh_part.h"
-#include "files/export/msh_writer.h"
+#include "files/export/inside/materials.h"
+#include "files/export/inside/msh_part.h"
+#include "files/export/inside/msh_writer.h"
 #include "files/export/whole_mesh.h"
 
 namespace kerf {

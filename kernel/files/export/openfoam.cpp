@@ -14,9 +14,9 @@
 // processor lists the regions as cell zones, in the same order, also those that it has no cell of.
 //
 // With FormatOptions::split_regions each region has a mesh of its own, constant/REGION/polyMesh, of which every
-// processor has a piece, maybe an empty one (files/export/openfoam_regions.h).
+// processor has a piece, maybe an empty one (files/export/inside/openfoam_regions.h).
 //
-// A patch is named by a word (files/export/word_names.h) that is not one of OpenFOAM's for the patches between
+// A patch is named by a word (files/export/inside/word_names.h) that is not one of OpenFOAM's for the patches between
 // processors; its own name is in a comment, if it is another one. So are zones. Cells are polyhedra with flat faces:
 // there are none of second order.
 #include <algorithm>
@@ -28,11 +28,11 @@
 #include "base/core/check.h"
 #include "base/core/error.h"
 #include "files/export/format.h"
-#include "files/export/materials.h"
-#include "files/export/openfoam_mesh.h"
-#include "files/export/openfoam_regions.h"
-#include "files/export/text_rows.h"
-#include "files/export/word_names.h"
+#include "files/export/inside/materials.h"
+#include "files/export/inside/openfoam_mesh.h"
+#include "files/export/inside/openfoam_regions.h"
+#include "files/export/inside/text_rows.h"
+#include "files/export/inside/word_names.h"
 #include "files/part/bodies.h"
 
 namespace kerf {

@@ -1,15 +1,16 @@
-// SU2's native text format: a marker for every patch that has triangles, named by a word (files/export/word_names.h),
-// because SU2's lists of markers separate them by commas and blanks. A marker bounds the zone: walls between regions
-// lie inside of it and are no markers. Which part and which region a tetrahedron is of is not said: a zone of SU2 is a
-// mesh for itself, which would have vertices of its own. SU2 counts with 64 bits, and has no cells of second order.
+// SU2's native text format: a marker for every patch that has triangles, named by a word
+// (files/export/inside/word_names.h), because SU2's lists of markers separate them by commas and blanks. A marker
+// bounds the zone: walls between regions lie inside of it and are no markers. Which part and which region a tetrahedron
+// is of is not said: a zone of SU2 is a mesh for itself, which would have vertices of its own. SU2 counts with 64 bits,
+// and has no cells of second order.
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "files/export/format.h"
-#include "files/export/text_rows.h"
+#include "files/export/inside/text_rows.h"
+#include "files/export/inside/word_names.h"
 #include "files/export/whole_mesh.h"
-#include "files/export/word_names.h"
 #include "files/io/vtk_cell_types.h"
 #include "files/part/bodies.h"
 

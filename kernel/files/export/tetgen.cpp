@@ -1,14 +1,14 @@
 // The files of TetGen (.node, .ele, .face), numbered from 0. The attribute of a tetrahedron is its
-// material (files/export/materials.h), from 1; the boundary marker of a face its patch, from 1. Faces between parts are
-// not among them, but walls between regions are, once each, as TetGen has them. Of order 2 the tetrahedra have ten
-// nodes, as those of its switch -o2, and the faces three.
+// material (files/export/inside/materials.h), from 1; the boundary marker of a face its patch, from 1. Faces between
+// parts are not among them, but walls between regions are, once each, as TetGen has them. Of order 2 the tetrahedra
+// have ten nodes, as those of its switch -o2, and the faces three.
 #include <fmt/format.h>
 
 #include "files/export/format.h"
-#include "files/export/materials.h"
-#include "files/export/text_rows.h"
+#include "files/export/inside/materials.h"
+#include "files/export/inside/text_rows.h"
+#include "files/export/inside/word_names.h"
 #include "files/export/whole_mesh.h"
-#include "files/export/word_names.h"
 
 namespace kerf {
 

@@ -2,8 +2,8 @@
 // are handed out in pieces of 2^21 global numbers: the rows of a piece lie in an array, and each part that has some of
 // its numbers is loaded and fills them in. Which part has numbers in which piece is known after the first round, in
 // which all are loaded. Parts are visited backwards, so that where several have a node, the row of the first part
-// stays. Triangles are sorted by patches in batches (files/export/by_patch.h). So memory does not grow with the mesh,
-// for more reads of its parts.
+// stays. Triangles are sorted by patches in batches (files/export/inside/by_patch.h). So memory does not grow with the
+// mesh, for more reads of its parts.
 #include "files/export/whole_mesh.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
-#include "files/export/by_patch.h"
+#include "files/export/inside/by_patch.h"
 
 namespace kerf {
 

@@ -1,4 +1,4 @@
-#include "files/export/hdf5_arrays.h"
+#include "files/export/inside/hdf5_arrays.h"
 
 #include <algorithm>
 #include <vector>

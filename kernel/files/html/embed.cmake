@@ -2,7 +2,7 @@
 # other characters. Written while CMake configures, so that whoever reads the sources without a build finds it.
 function(embed_files output folder)
   string(CONCAT source "// Longer texts than the standard promises, but all compilers of ours take them.\n"
-    "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#include \"files/html/page_files.h\"\n"
+    "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#include \"files/html/inside/page_files.h\"\n"
     "\nnamespace kerf::page_files {\n")
   foreach(file ${ARGN})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${file})

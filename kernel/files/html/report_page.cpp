@@ -1,5 +1,5 @@
 // The page is assets/report/page.html with its style, its scripts, the part of three.js that these need (made by
-// assets/report/make_bundle.sh), and two blocks of data: JSON, and the triangles (files/html/packed_surface.h),
+// assets/report/make_bundle.sh), and two blocks of data: JSON, and the triangles (files/html/inside/packed_surface.h),
 // compressed and as base64. No other file or address is named in it. The address under which a page is opened says what
 // its view shows, which tests use, too. A page is sent to others, so paths lose their folders, and of the report only
 // the members stay that the scripts read. The surfaces are read twice: for the box of the grid, and for the triangles,
@@ -16,9 +16,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/core/error.h"
-#include "files/html/packed_surface.h"
-#include "files/html/page_files.h"
-#include "files/html/page_surface.h"
+#include "files/html/inside/packed_surface.h"
+#include "files/html/inside/page_files.h"
+#include "files/html/inside/page_surface.h"
 #include "files/io/compressed.h"
 #include "files/io/json.h"
 #include "files/io/listed_files.h"

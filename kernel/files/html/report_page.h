@@ -18,7 +18,8 @@ struct ReportPage {
 
 /// Returns the page of a run of kerf mesh or kerf decompose that has ended, even if parts of it could not be meshed:
 /// the figures of its report, and the surfaces of its parts, with 16 bits a coordinate and at most `limit` > 0
-/// triangles (files/html/page_surface.h). It needs no other file and no network. The bytes depend on the folder alone.
+/// triangles (files/html/inside/page_surface.h). It needs no other file and no network. The bytes depend on the folder
+/// alone.
 ///
 /// Throws Error(io), with the way out, for a folder that is no such run, Error(usage) for a solution, and
 /// Error(verification) where the report or a surface is not as Kerf has written it. Memory: the page, and a part at a

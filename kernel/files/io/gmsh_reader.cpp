@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "base/core/error.h"
-#include "files/io/gmsh_elements.h"
-#include "files/io/gmsh_model.h"
-#include "files/io/gmsh_source.h"
-#include "files/io/mesh_scanners.h"
+#include "files/io/inside/gmsh_elements.h"
+#include "files/io/inside/gmsh_model.h"
+#include "files/io/inside/gmsh_source.h"
+#include "files/io/inside/mesh_scanners.h"
 #include "files/io/soup_builder.h"
 #include "files/io/surface_reader.h"
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "files/io/mesh_scanners.h"
+#include "files/io/inside/mesh_scanners.h"
+#include "files/io/inside/text_scanner.h"
 #include "files/io/soup_builder.h"
 #include "files/io/surface_reader.h"
-#include "files/io/text_scanner.h"
 
 namespace kerf {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "files/io/inside/text_scanner.h"
 #include "files/io/soup_builder.h"
 #include "files/io/surface_reader.h"
-#include "files/io/text_scanner.h"
 
 namespace kerf {
 

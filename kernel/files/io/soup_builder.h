@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/core/error.h"
-#include "files/io/polygon_fan.h"
-#include "files/io/tet_collector.h"
+#include "files/io/inside/polygon_fan.h"
+#include "files/io/inside/tet_collector.h"
 #include "surface/soup/facet_triangulation.h"
 #include "surface/soup/soup.h"
 #include "surface/soup/vertex_table.h"

@@ -9,8 +9,8 @@
 #include "base/core/check.h"
 #include "base/core/elements.h"
 #include "base/geometry/triangle.h"
+#include "files/io/inside/stl_format.h"
 #include "files/io/output_file.h"
-#include "files/io/stl_format.h"
 
 namespace kerf {
 

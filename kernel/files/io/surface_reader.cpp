@@ -16,8 +16,8 @@
 #include "files/io/cad_body.h"
 #include "files/io/compressed.h"
 #include "files/io/file_bytes.h"
-#include "files/io/stl_format.h"
-#include "files/io/text_scanner.h"
+#include "files/io/inside/stl_format.h"
+#include "files/io/inside/text_scanner.h"
 #include "files/io/threemf_file.h"
 #include "files/io/zip_archive.h"
 

@@ -1,9 +1,10 @@
 // The scanners of formats give a SoupBuilder vertices, triangles and tetrahedra; here they become a mesh that the rest
 // of Kerf can rely on. The format is told by the first word of the text, TetGen's two files by the ending of the name.
-// In the file of any program a tetrahedron may have either orientation: the exact sign decides (files/io/tet_sign.h),
-// and a negative one has two corners swapped; flat ones stay for the measures to report. Nodes that are no corners are
-// dropped only where cells of higher order were read by their corners, so that the vertices of all other files keep
-// their numbers. The extent is limited to 1e-90 to 1e90, so that volumes do not leave the range of doubles.
+// In the file of any program a tetrahedron may have either orientation: the exact sign decides
+// (files/io/inside/tet_sign.h), and a negative one has two corners swapped; flat ones stay for the measures to report.
+// Nodes that are no corners are dropped only where cells of higher order were read by their corners, so that the
+// vertices of all other files keep their numbers. The extent is limited to 1e-90 to 1e90, so that volumes do not leave
+// the range of doubles.
 #include "files/io/tet_mesh_reader.h"
 
 #include <algorithm>
@@ -17,10 +18,10 @@
 #include "base/core/error.h"
 #include "files/io/compressed.h"
 #include "files/io/file_bytes.h"
-#include "files/io/mesh_scanners.h"
+#include "files/io/inside/mesh_scanners.h"
+#include "files/io/inside/tet_sign.h"
+#include "files/io/inside/text_scanner.h"
 #include "files/io/soup_builder.h"
-#include "files/io/tet_sign.h"
-#include "files/io/text_scanner.h"
 
 namespace kerf {
 

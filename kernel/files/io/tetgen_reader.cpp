@@ -16,10 +16,10 @@
 
 #include "files/io/compressed.h"
 #include "files/io/file_bytes.h"
-#include "files/io/mesh_scanners.h"
+#include "files/io/inside/mesh_scanners.h"
+#include "files/io/inside/text_scanner.h"
 #include "files/io/soup_builder.h"
 #include "files/io/surface_reader.h"
-#include "files/io/text_scanner.h"
 
 namespace kerf {
 

@@ -1,9 +1,9 @@
 // VTU is XML around arrays: FieldData and Piece > Points, Cells, CellData > DataArray. The tags are scanned without a
 // parser of XML: first the structure of the whole file is read, with the place of each array in the text, then the
-// values of the arrays that are needed, piece by piece (files/io/vtu_arrays.h). Arrays of cells that are not read are
-// passed over without decoding. Regions come from an array of the cells, for tetrahedra, or from the arrays "front" and
-// "back" of triangles, which count only if all pieces have both. Numbers of regions are those of the file until all
-// cells are read, and are made consecutive in their order then.
+// values of the arrays that are needed, piece by piece (files/io/inside/vtu_arrays.h). Arrays of cells that are not
+// read are passed over without decoding. Regions come from an array of the cells, for tetrahedra, or from the arrays
+// "front" and "back" of triangles, which count only if all pieces have both. Numbers of regions are those of the file
+// until all cells are read, and are made consecutive in their order then.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,13 +14,13 @@
 #include <string_view>
 #include <vector>
 
-#include "files/io/mesh_scanners.h"
-#include "files/io/region_facets.h"
+#include "files/io/inside/mesh_scanners.h"
+#include "files/io/inside/region_facets.h"
+#include "files/io/inside/text_scanner.h"
+#include "files/io/inside/vtu_arrays.h"
 #include "files/io/soup_builder.h"
 #include "files/io/surface_reader.h"
-#include "files/io/text_scanner.h"
 #include "files/io/vtk_cell_types.h"
-#include "files/io/vtu_arrays.h"
 
 namespace kerf {
 

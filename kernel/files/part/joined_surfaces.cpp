@@ -12,7 +12,7 @@
 #include "files/io/checked_file.h"
 #include "files/io/vtk_cell_types.h"
 #include "files/part/appended_vtu.h"
-#include "files/part/vtu_header.h"
+#include "files/part/inside/vtu_header.h"
 
 namespace kerf {
 

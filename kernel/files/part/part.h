@@ -13,7 +13,7 @@
 
 #include "base/core/ids.h"
 #include "files/part/edge_nodes.h"
-#include "files/part/name_table.h"
+#include "files/part/inside/name_table.h"
 #include "fill/mesh/tet_mesh.h"
 
 namespace kerf {

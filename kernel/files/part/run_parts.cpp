@@ -20,7 +20,7 @@
 #include "files/io/run_folder.h"
 #include "files/io/run_manifest.h"
 #include "files/part/curved_nodes_file.h"
-#include "files/part/edge_node_reader.h"
+#include "files/part/inside/edge_node_reader.h"
 #include "files/part/part_store.h"
 #include "files/part/run_names.h"
 #include "files/part/second_order_parts.h"

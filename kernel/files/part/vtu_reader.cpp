@@ -17,8 +17,8 @@
 #include "base/core/elements.h"
 #include "files/io/checked_file.h"
 #include "files/io/vtk_cell_types.h"
-#include "files/part/edge_node_reader.h"
-#include "files/part/part_arrays_file.h"
+#include "files/part/inside/edge_node_reader.h"
+#include "files/part/inside/part_arrays_file.h"
 #include "files/part/vtu_writer.h"
 
 namespace kerf {

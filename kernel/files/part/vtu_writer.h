@@ -7,8 +7,8 @@
 
 #include "base/core/hash.h"
 #include "files/part/cell_fields.h"
+#include "files/part/inside/vtu_header.h"
 #include "files/part/part.h"
-#include "files/part/vtu_header.h"
 
 namespace kerf {
 

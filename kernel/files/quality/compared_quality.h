@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "files/quality/measured_mesh.h"
-#include "files/quality/quality_gate.h"
+#include "files/quality/inside/measured_mesh.h"
+#include "files/quality/inside/quality_gate.h"
 #include "files/quality/quality_text.h"
 
 namespace kerf {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "files/quality/measured_mesh.h"
+#include "files/quality/inside/measured_mesh.h"
 
 namespace kerf {
 

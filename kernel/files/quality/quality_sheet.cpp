@@ -14,7 +14,7 @@
 #include "base/core/error.h"
 #include "base/core/number_text.h"
 #include "base/core/xml_text.h"
-#include "files/quality/histogram_rows.h"
+#include "files/quality/inside/histogram_rows.h"
 #include "files/quality/quality_text.h"
 
 namespace kerf {

@@ -15,7 +15,7 @@
 
 #include "base/core/error.h"
 #include "base/core/number_text.h"
-#include "files/quality/histogram_rows.h"
+#include "files/quality/inside/histogram_rows.h"
 
 namespace kerf {
 

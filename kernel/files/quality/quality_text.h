@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "files/quality/measured_mesh.h"
+#include "files/quality/inside/measured_mesh.h"
 
 namespace kerf {
 

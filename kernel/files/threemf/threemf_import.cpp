@@ -1,9 +1,9 @@
 // Build items place objects; an object has a mesh of its own, or is made of components, which place other objects. So
 // the way down from an item to a mesh gives its place, by the product of all transformations, and its name. A
 // transformation that mirrors would turn facets inside out, so these are turned then. Objects are counted from the text
-// before lib3mf reads it (files/threemf/placed_objects.h), since it follows components without a limit; the limits are
-// checked again on the way down, for objects, levels and facets. The library is optional: only the program kerf-3mf
-// links it, whose answer is a CadBody as that of kerf-cad is.
+// before lib3mf reads it (files/threemf/inside/placed_objects.h), since it follows components without a limit; the
+// limits are checked again on the way down, for objects, levels and facets. The library is optional: only the program
+// kerf-3mf links it, whose answer is a CadBody as that of kerf-cad is.
 #include "files/threemf/threemf_import.h"
 
 #include <map>
@@ -17,7 +17,7 @@
 #include "files/io/soup_builder.h"
 #include "files/io/threemf_file.h"
 #include "files/io/zip_archive.h"
-#include "files/threemf/placed_objects.h"
+#include "files/threemf/inside/placed_objects.h"
 
 namespace kerf {
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/geometry/predicates.h"
-#include "fill/delaunay/spatial_order.h"
+#include "fill/delaunay/inside/spatial_order.h"
 
 namespace kerf {
 

@@ -9,7 +9,7 @@
 // through faces that the point sees, and shrinks until it sees all faces around it; faces are "unseen" if the point is
 // behind them or in their plane. Cells of the cavity are marked (EditableTets::Cell), and every way out of the search
 // takes the marks back. New cells take the places of old ones, and find each other by a square table of edges
-// (fill/delaunay/star_edges.h), or by sorting where a star is too large for it.
+// (fill/delaunay/inside/star_edges.h), or by sorting where a star is too large for it.
 #include "fill/delaunay/triangulation.h"
 
 #include <algorithm>

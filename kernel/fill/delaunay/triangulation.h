@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "fill/delaunay/star_edges.h"
+#include "fill/delaunay/inside/star_edges.h"
 #include "fill/mesh/editable_tets.h"
 
 namespace kerf {

@@ -13,8 +13,8 @@
 
 #include "base/core/check.h"
 #include "base/core/error.h"
-#include "fill/improve/edge_removal.h"
-#include "fill/improve/vertex_insertion.h"
+#include "fill/improve/inside/edge_removal.h"
+#include "fill/improve/inside/vertex_insertion.h"
 
 namespace kerf {
 

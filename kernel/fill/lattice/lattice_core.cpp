@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "base/core/error.h"
-#include "fill/lattice/clearance.h"
-#include "fill/lattice/sites_inside.h"
+#include "fill/lattice/inside/clearance.h"
+#include "fill/lattice/inside/sites_inside.h"
 
 namespace kerf {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fill/lattice/site_blocks.h"
+#include "fill/lattice/inside/site_blocks.h"
 #include "surface/complex/surface.h"
 
 namespace kerf {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fill/mesh/forced_cells.h"
+#include "fill/mesh/inside/forced_cells.h"
 #include "fill/mesh/tet_mesh.h"
 
 namespace kerf {
@@ -143,7 +143,7 @@ struct TriangleDistributions {
 };
 
 /// The measures of ForcedDistributions: TetQuality::min_dihedral_deg of cells that the surface forces to be sharp
-/// (fill/mesh/forced_cells.h), and of the others.
+/// (fill/mesh/inside/forced_cells.h), and of the others.
 inline constexpr Measure forced_measure = {"forced_dihedral_deg", "smallest dihedral angle forced", "deg", true},
                          unforced_measure = {"unforced_dihedral_deg", "smallest dihedral angle not forced", "deg",
                                              true};

@@ -1,6 +1,6 @@
 // One pass over the cells tells whether all are positive, the sum of their volumes, and by a sum
-// (fill/mesh/boundary_chain.h) whether the surface is their boundary. Where all of that holds no face needs to be
-// looked for. Each point inside lies in as many cells as the surface winds around it, that is in one; so at most two
+// (fill/mesh/inside/boundary_chain.h) whether the surface is their boundary. Where all of that holds no face needs to
+// be looked for. Each point inside lies in as many cells as the surface winds around it, that is in one; so at most two
 // cells have a face, and from different sides.
 //
 // Else, and for a mesh that names its neighbours, broken laws are counted face by face. Interior faces: tetrahedron t
@@ -20,8 +20,8 @@
 #include "base/core/elements.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/tetrahedron.h"
-#include "fill/mesh/boundary_chain.h"
 #include "fill/mesh/faces.h"
+#include "fill/mesh/inside/boundary_chain.h"
 #include "surface/complex/mass_properties.h"
 
 namespace kerf {

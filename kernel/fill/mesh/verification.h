@@ -51,7 +51,7 @@ void MeshLaws::archive(Archive& a) {
 
 /// The proof by which the faces of a mesh without neighbours are told to be those of the surface.
 enum class FaceProof {
-    sum,       ///< wrong with a probability of 3e-18 (fill/mesh/boundary_chain.h); 20 ns a cell and no memory
+    sum,       ///< wrong with a probability of 3e-18 (fill/mesh/inside/boundary_chain.h); 20 ns a cell and no memory
     matching,  ///< never wrong; 100 ns a cell, and as much memory as the cells
 };
 

@@ -11,9 +11,9 @@
 #include "fill/delaunay/delaunay.h"
 #include "fill/delaunay/delaunay_flips.h"
 #include "fill/delaunay/faces.h"
-#include "fill/shell/face_recovery.h"
-#include "fill/shell/steiner_points.h"
-#include "fill/shell/vertex_merging.h"
+#include "fill/shell/inside/face_recovery.h"
+#include "fill/shell/inside/steiner_points.h"
+#include "fill/shell/inside/vertex_merging.h"
 
 namespace kerf {
 

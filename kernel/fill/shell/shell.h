@@ -5,7 +5,7 @@
 
 #include "fill/mesh/tet_mesh.h"
 #include "fill/shell/facet_recovery_counts.h"
-#include "fill/shell/refinement.h"
+#include "fill/shell/inside/refinement.h"
 #include "surface/complex/surface.h"
 
 namespace kerf {

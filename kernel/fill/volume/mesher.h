@@ -8,7 +8,7 @@
 #include "fill/improve/improve.h"
 #include "fill/mesh/tet_mesh.h"
 #include "fill/shell/facet_recovery_counts.h"
-#include "fill/volume/tetgen_options.h"
+#include "fill/volume/inside/tetgen_options.h"
 #include "surface/complex/surface.h"
 #include "surface/size/size_field.h"
 

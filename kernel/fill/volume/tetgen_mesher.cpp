@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "fill/volume/inside/tetgen_adapter.h"
 #include "fill/volume/meshers.h"
-#include "fill/volume/tetgen_adapter.h"
 
 namespace kerf {
 

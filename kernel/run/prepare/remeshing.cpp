@@ -7,7 +7,7 @@
 // A deviation that nobody gave is a twentieth of the wanted length, less where the body is thin, and volumes must then
 // stay. Where nobody has asked for remeshing, or the surface is a wrap, a bound or volume that cannot be kept does not
 // end the run: the facets stay and are divided instead. Lengths of regions are told to the remesher by labels
-// (run/prepare/labelled_facets.h), of a wall the smaller.
+// (run/prepare/inside/labelled_facets.h), of a wall the smaller.
 #include "run/prepare/remeshing.h"
 
 #include <algorithm>
@@ -24,12 +24,12 @@
 #include "base/core/number_text.h"
 #include "base/core/regular_tet.h"
 #include "base/parallel/process_memory.h"
-#include "run/prepare/facet_division.h"
-#include "run/prepare/labelled_facets.h"
-#include "run/prepare/periodicity.h"
+#include "run/prepare/inside/facet_division.h"
+#include "run/prepare/inside/labelled_facets.h"
+#include "run/prepare/inside/periodicity.h"
+#include "run/prepare/inside/thin_layers.h"
 #include "run/prepare/size_reader.h"
 #include "run/prepare/slivers.h"
-#include "run/prepare/thin_layers.h"
 #include "surface/complex/mass_properties.h"
 #include "surface/remesh/remesh.h"
 #include "surface/remesh/thickness.h"

@@ -13,7 +13,7 @@ namespace kerf {
 /// The change of a surface before it is cut.
 enum class SurfaceChange {
     none,
-    division,  ///< coarse facets are divided in their planes (run/prepare/facet_division.h)
+    division,  ///< coarse facets are divided in their planes (run/prepare/inside/facet_division.h)
     remeshing
 };
 
@@ -37,8 +37,8 @@ double forecast_changed_facets(const Input& input, const RunOptions& options);
 
 /// Returns the input, remeshed where `options` ask for it, or with a note about slivers. Remeshing that nobody has
 /// asked for is noted; where only few facets need it, the others stay (facets_away_from_slivers()), unless sizes are
-/// wanted. So do sides that match (run/prepare/periodicity.h), unless more than one in fifty of their facets is a
-/// sliver. Where facets are good but coarser than sizes, they are divided, unless the options keep them. Surface,
+/// wanted. So do sides that match (run/prepare/inside/periodicity.h), unless more than one in fifty of their facets is
+/// a sliver. Where facets are good but coarser than sizes, they are divided, unless the options keep them. Surface,
 /// counts, area and volume are the new ones then, and Input::remeshed reports the change. The wanted lengths are those
 /// of options.sizes. `listener`, unless null, is told of the stage "remesh" again and again while it lasts, with the
 /// number of steps that are done, of an unknown total. Throws Error(usage) for a deviation out of range, Error(memory)

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "run/prepare/input.h"
+#include "run/prepare/inside/repair_measures.h"
 #include "run/prepare/remedy.h"
-#include "run/prepare/repair_measures.h"
 #include "run/prepare/stage_listener.h"
 #include "run/request/input_options.h"
 

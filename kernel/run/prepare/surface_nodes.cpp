@@ -1,8 +1,9 @@
-// Nodes of edges come from a CAD model (run/prepare/cad_nodes.h), where there is one, or else from the triangles that a
-// remeshed surface was made of. In that case the middle of an edge goes to the closest point of the facets of the same
-// patch in the file; if the edge is sharp or a border, to the closest of the edges of the file between the same
-// patches, which a tree of triangles holds as needles without area. Only nodes off the middle by more than rounding are
-// kept, and none off it by more than a tenth of the edge: such an edge is too long for the curve that it stands for.
+// Nodes of edges come from a CAD model (run/prepare/inside/cad_nodes.h), where there is one, or else from the triangles
+// that a remeshed surface was made of. In that case the middle of an edge goes to the closest point of the facets of
+// the same patch in the file; if the edge is sharp or a border, to the closest of the edges of the file between the
+// same patches, which a tree of triangles holds as needles without area. Only nodes off the middle by more than
+// rounding are kept, and none off it by more than a tenth of the edge: such an edge is too long for the curve that it
+// stands for.
 #include "run/prepare/surface_nodes.h"
 
 #include <algorithm>
@@ -13,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "base/core/number_text.h"
-#include "run/prepare/cad_nodes.h"
-#include "run/prepare/surface_places.h"
+#include "run/prepare/inside/cad_nodes.h"
+#include "run/prepare/inside/surface_places.h"
 #include "surface/soup/triangle_tree.h"
 
 namespace kerf {

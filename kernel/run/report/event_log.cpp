@@ -12,7 +12,7 @@
 #include "files/io/json.h"
 #include "files/io/output_file.h"
 #include "files/io/path_text.h"
-#include "run/report/recovery_json.h"
+#include "run/report/inside/recovery_json.h"
 
 namespace kerf {
 

@@ -9,8 +9,8 @@
 #include "base/core/error.h"
 #include "run/prepare/input.h"
 #include "run/prepare/remedy.h"
+#include "run/report/inside/region_summary.h"
 #include "run/report/patch_summary.h"
-#include "run/report/region_summary.h"
 
 namespace kerf {
 

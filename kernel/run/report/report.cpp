@@ -14,7 +14,7 @@
 #include "base/core/error.h"
 #include "base/core/number_text.h"
 #include "base/core/words.h"
-#include "run/report/exceeded_bounds.h"
+#include "run/report/inside/exceeded_bounds.h"
 #include "surface/repair/repair_step.h"
 
 namespace kerf {

@@ -11,8 +11,8 @@
 #include "files/io/path_text.h"
 #include "files/quality/quality_json.h"
 #include "run/report/cut_json.h"
-#include "run/report/exceeded_bounds.h"
-#include "run/report/recovery_json.h"
+#include "run/report/inside/exceeded_bounds.h"
+#include "run/report/inside/recovery_json.h"
 #include "run/report/repair_json.h"
 #include "run/report/report.h"
 

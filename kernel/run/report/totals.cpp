@@ -19,8 +19,8 @@ namespace kerf {
 namespace {
 
 // Returns the most by which straight cuts change the sum of the parts' volumes. A new vertex lies beside its edge by
-// less than 16 e times the largest coordinate (cut/cut/facet_split.cpp), e = 2^-53, and so does each piece beside its
-// facet, once for each level of the tree.
+// less than 16 e times the largest coordinate (cut/cut/inside/facet_split.cpp), e = 2^-53, and so does each piece
+// beside its facet, once for each level of the tree.
 double error_of_splits(const RunReport& report) {
     if (report.split_facets == 0) return 0;
     NodeId last = 1;

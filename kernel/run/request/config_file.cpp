@@ -1,8 +1,8 @@
 // A config file is one flat table of TOML, keys being the names of options. Writing and reading go through the text of
-// a field (run/request/option_field.h), so that a value means the same here, on the command line and in a saved run;
-// only quotes, lists and the point of floating-point numbers are TOML's own. toml++ sorts keys, so entries are put back
-// into the order of the file. Paths are texts with escapes (files/io/path_text.h), because TOML must be UTF-8 and paths
-// need not be.
+// a field (run/request/inside/option_field.h), so that a value means the same here, on the command line and in a saved
+// run; only quotes, lists and the point of floating-point numbers are TOML's own. toml++ sorts keys, so entries are put
+// back into the order of the file. Paths are texts with escapes (files/io/path_text.h), because TOML must be UTF-8 and
+// paths need not be.
 #include "run/request/config_file.h"
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 #include "files/io/output_file.h"
 #include "fill/volume/mesher.h"
 #include "run/request/input_options.h"
-#include "run/request/option_field.h"
+#include "run/request/inside/option_field.h"
 #include "surface/size/size_options.h"
 
 namespace kerf {

@@ -6,8 +6,8 @@
 #include "base/core/host_name.h"
 #include "cut/decompose/straight_division.h"
 #include "run/prepare/gathered_nodes.h"
-#include "run/run/cuts_on_ranks.h"
-#include "run/run/range_of_rank.h"
+#include "run/run/inside/cuts_on_ranks.h"
+#include "run/run/inside/range_of_rank.h"
 #include "run/run/trace.h"
 
 namespace kerf {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "files/part/part_indices.h"
-#include "run/run/range_of_rank.h"
+#include "run/run/inside/range_of_rank.h"
 
 namespace kerf {
 

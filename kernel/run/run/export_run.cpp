@@ -27,7 +27,7 @@
 #include "files/part/parts_of_order.h"
 #include "files/part/solution_parts.h"
 #include "run/run/edge_numbering.h"
-#include "run/run/write_stage.h"
+#include "run/run/inside/write_stage.h"
 
 namespace kerf {
 

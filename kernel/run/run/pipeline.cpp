@@ -36,17 +36,17 @@
 #include "run/prepare/gathered_nodes.h"
 #include "run/report/totals.h"
 #include "run/request/saved_run.h"
-#include "run/run/curve_stage.h"
 #include "run/run/cut_stage.h"
 #include "run/run/edge_numbering.h"
-#include "run/run/forecast.h"
+#include "run/run/inside/curve_stage.h"
+#include "run/run/inside/forecast.h"
+#include "run/run/inside/reference.h"
+#include "run/run/inside/run_files.h"
+#include "run/run/inside/volume_stage.h"
+#include "run/run/inside/write_stage.h"
 #include "run/run/plan.h"
 #include "run/run/prepare_stage.h"
-#include "run/run/reference.h"
-#include "run/run/run_files.h"
 #include "run/run/shared_folder.h"
-#include "run/run/volume_stage.h"
-#include "run/run/write_stage.h"
 
 namespace kerf {
 

@@ -2,8 +2,8 @@
 // its units, a forecast refuses a surface that could not be filled before it is remeshed, then the surface is remeshed
 // and sized; nodes of second order are functions of the surface before it is cut, so they are made next; sizes are
 // taken on the surface that is cut, K follows from its sized volume, and the budget is checked again. The other ranks
-// get the result as bytes (run/run/told_plan.h). Two things are agreed on before that: the cores of a rank are the
-// fewest of any rank, because the defaults of K and workers depend on them and must not differ; and the first rank
+// get the result as bytes (run/run/inside/told_plan.h). Two things are agreed on before that: the cores of a rank are
+// the fewest of any rank, because the defaults of K and workers depend on them and must not differ; and the first rank
 // borrows the processors of the sleeping ranks of its host. "Sized volume" is the volume in which each place counts by
 // the size that is wanted there.
 #include "run/run/plan.h"
@@ -25,8 +25,8 @@
 #include "run/prepare/remeshing.h"
 #include "run/prepare/size_reader.h"
 #include "run/request/saved_run.h"
-#include "run/run/forecast.h"
-#include "run/run/told_plan.h"
+#include "run/run/inside/forecast.h"
+#include "run/run/inside/told_plan.h"
 
 namespace kerf {
 

@@ -1,8 +1,9 @@
 // Nothing of the run that wrote the files is trusted but the plan of its parts in report.json. The hashes tell any
 // change since then; all that follows from the mesh is computed again, in case somebody has computed the hashes again.
-// Each part is checked by itself, on threads (run/run/part_files_check.h), and only its boundary is kept: vertices,
-// interface triangles and pieces of input facets of all parts are then sorted and compared, so that memory follows the
-// surface. These laws of the whole are left out where a part cannot be read, as each of them would only repeat that.
+// Each part is checked by itself, on threads (run/run/inside/part_files_check.h), and only its boundary is kept:
+// vertices, interface triangles and pieces of input facets of all parts are then sorted and compared, so that memory
+// follows the surface. These laws of the whole are left out where a part cannot be read, as each of them would only
+// repeat that.
 #include "run/run/verify_folder.h"
 
 #include <algorithm>
@@ -36,11 +37,11 @@
 #include "files/part/vtu_writer.h"
 #include "run/prepare/remeshing.h"
 #include "run/prepare/surface_nodes.h"
-#include "run/run/edge_node_check.h"
-#include "run/run/input_pieces.h"
-#include "run/run/number_distance.h"
-#include "run/run/part_files_check.h"
-#include "run/run/reported_options.h"
+#include "run/run/inside/edge_node_check.h"
+#include "run/run/inside/input_pieces.h"
+#include "run/run/inside/number_distance.h"
+#include "run/run/inside/part_files_check.h"
+#include "run/run/inside/reported_options.h"
 #include "run/work/mesh_hash.h"
 
 namespace kerf {

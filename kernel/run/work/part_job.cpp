@@ -1,8 +1,8 @@
 // A job goes through stages, whose times are told apart: the surface is filled (or halved first,
-// run/work/mesh_in_two.h), the laws of the mesh are verified, sizes and quality are measured, the part is hashed, and
-// it is stored. A mesh that breaks a law, or has cells without volume, is an error of the mesher like any other, and is
-// never stored. Memory sets the order: neighbours of cells are freed before the laws are verified, nothing is kept
-// twice, and the mesh moves into the part only after it is measured.
+// run/work/inside/mesh_in_two.h), the laws of the mesh are verified, sizes and quality are measured, the part is
+// hashed, and it is stored. A mesh that breaks a law, or has cells without volume, is an error of the mesher like any
+// other, and is never stored. Memory sets the order: neighbours of cells are freed before the laws are verified,
+// nothing is kept twice, and the mesh moves into the part only after it is measured.
 //
 // All errors become part of the result, because the worker's answer is the only way back to the parent; memory that
 // runs out has a result of its own.
@@ -18,8 +18,8 @@
 #include "files/io/checked_file.h"
 #include "files/io/file_bytes.h"
 #include "files/part/vtu_reader.h"
+#include "run/work/inside/mesh_in_two.h"
 #include "run/work/mesh_hash.h"
-#include "run/work/mesh_in_two.h"
 
 namespace kerf {
 

@@ -10,7 +10,7 @@
 #include "fill/mesh/quality.h"
 #include "fill/mesh/verification.h"
 #include "fill/volume/retries.h"
-#include "run/work/size_ratios.h"
+#include "run/work/inside/size_ratios.h"
 #include "surface/complex/surface.h"
 
 namespace kerf {

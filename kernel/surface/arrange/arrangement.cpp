@@ -17,12 +17,12 @@
 #include <optional>
 
 #include "base/geometry/predicates.h"
-#include "surface/arrange/crossing_pairs.h"
-#include "surface/arrange/divided_facets.h"
-#include "surface/arrange/facet_divider.h"
-#include "surface/arrange/near_features.h"
-#include "surface/arrange/plane_groups.h"
-#include "surface/arrange/plane_overlaps.h"
+#include "surface/arrange/inside/crossing_pairs.h"
+#include "surface/arrange/inside/divided_facets.h"
+#include "surface/arrange/inside/facet_divider.h"
+#include "surface/arrange/inside/near_features.h"
+#include "surface/arrange/inside/plane_groups.h"
+#include "surface/arrange/inside/plane_overlaps.h"
 
 namespace kerf {
 

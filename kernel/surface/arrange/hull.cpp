@@ -1,6 +1,6 @@
 #include "surface/arrange/hull.h"
 
-#include "surface/arrange/side_labels.h"
+#include "surface/arrange/inside/side_labels.h"
 #include "surface/regions/divided_space.h"
 #include "surface/soup/radial_order.h"
 

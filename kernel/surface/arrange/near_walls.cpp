@@ -15,7 +15,7 @@
 #include "base/geometry/box_tree.h"
 #include "base/geometry/closest_point.h"
 #include "base/geometry/triangle.h"
-#include "surface/arrange/facet_contact.h"
+#include "surface/arrange/inside/facet_contact.h"
 
 namespace kerf {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/core/ids.h"
-#include "surface/complex/contacts.h"
+#include "surface/complex/inside/contacts.h"
 #include "surface/complex/surface.h"
 #include "surface/soup/facet_sides.h"
 

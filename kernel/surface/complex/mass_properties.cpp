@@ -14,7 +14,7 @@
 #include "base/core/elements.h"
 #include "base/core/threads.h"
 #include "base/geometry/triangle.h"
-#include "surface/complex/principal_axes.h"
+#include "surface/complex/inside/principal_axes.h"
 
 namespace kerf {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "surface/complex/complex.h"
-#include "surface/complex/principal_axes.h"
+#include "surface/complex/inside/principal_axes.h"
 
 namespace kerf {
 

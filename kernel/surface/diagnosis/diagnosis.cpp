@@ -21,9 +21,9 @@
 #include "base/geometry/box.h"
 #include "base/geometry/predicates.h"
 #include "surface/complex/manifold_defects.h"
+#include "surface/diagnosis/inside/poor_shapes.h"
 #include "surface/diagnosis/intersections.h"
 #include "surface/diagnosis/open_loops.h"
-#include "surface/diagnosis/poor_shapes.h"
 #include "surface/diagnosis/superfluous_facets.h"
 #include "surface/soup/edge_corners.h"
 

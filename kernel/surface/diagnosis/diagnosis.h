@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/diagnosis/defect.h"
+#include "surface/diagnosis/inside/defect.h"
 #include "surface/diagnosis/orientation.h"
 
 namespace kerf {

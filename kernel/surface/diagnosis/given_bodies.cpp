@@ -12,7 +12,7 @@
 
 #include "base/core/check.h"
 #include "base/geometry/union_find.h"
-#include "surface/diagnosis/wall_mismatch.h"
+#include "surface/diagnosis/inside/wall_mismatch.h"
 
 namespace kerf {
 

@@ -25,7 +25,7 @@ GivenBodies separate_patches(const Soup& soup);
 
 /// Finds the defects of each body alone, as diagnose() does, with its name in Defect::bodies; and, if none of these
 /// keeps a body from being meshed, the places where two bodies overlap or have unlike facets
-/// (surface/diagnosis/wall_mismatch.h). Requirements as diagnose().
+/// (surface/diagnosis/inside/wall_mismatch.h). Requirements as diagnose().
 Diagnosis diagnose_bodies(const Soup& soup, const GivenBodies& bodies, const DiagnosisOptions& options = {});
 
 /// Adds the places where two regions (by Soup::sides), or two of `bodies` without sides, are at most a hundredth of a

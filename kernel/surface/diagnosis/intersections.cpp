@@ -29,7 +29,7 @@
 #include "base/geometry/closest_point.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/vector_pair.h"
-#include "surface/diagnosis/facet_tree.h"
+#include "surface/diagnosis/inside/facet_tree.h"
 
 namespace kerf {
 

@@ -4,7 +4,7 @@
 
 #include "base/core/elements.h"
 #include "surface/diagnosis/open_loops.h"
-#include "surface/openings/hole_triangulation.h"
+#include "surface/openings/inside/hole_triangulation.h"
 
 namespace kerf {
 

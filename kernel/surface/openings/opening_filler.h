@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "surface/openings/opening.h"
+#include "surface/openings/inside/opening.h"
 
 namespace kerf {
 

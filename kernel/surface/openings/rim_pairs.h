@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "surface/openings/opening.h"
+#include "surface/openings/inside/opening.h"
 
 namespace kerf {
 

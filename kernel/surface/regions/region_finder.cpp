@@ -18,9 +18,9 @@
 #include "base/core/error.h"
 #include "base/core/number_text.h"
 #include "surface/complex/mass_properties.h"
-#include "surface/regions/cell_walk.h"
 #include "surface/regions/cells.h"
 #include "surface/regions/divided_space.h"
+#include "surface/regions/inside/cell_walk.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

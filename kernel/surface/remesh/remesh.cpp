@@ -17,12 +17,12 @@
 #include "base/core/error.h"
 #include "base/geometry/triangle.h"
 #include "surface/complex/touching.h"
-#include "surface/remesh/edited_surface.h"
-#include "surface/remesh/fold_sizes.h"
-#include "surface/remesh/inspection.h"
+#include "surface/remesh/inside/edited_surface.h"
+#include "surface/remesh/inside/fold_sizes.h"
+#include "surface/remesh/inside/inspection.h"
+#include "surface/remesh/inside/triangle_shaping.h"
+#include "surface/remesh/inside/volume_restoration.h"
 #include "surface/remesh/thickness.h"
-#include "surface/remesh/triangle_shaping.h"
-#include "surface/remesh/volume_restoration.h"
 
 namespace kerf {
 

@@ -1,17 +1,18 @@
 // Facets that bound nothing go, in this order: facets with a repeated vertex or without finite coordinates; facets
-// without area (surface/repair/flat_facets.h), whose neighbours are divided at their vertices so that nothing opens;
-// copies (surface/repair/facet_copies.h), which come last because the pieces of those neighbours may be such. Bodies
-// that share facets are united where their winding numbers tell how (surface/repair/covered_facets.h); where these
-// bodies also cross, or are to be regions, that is left to a later step, if there is one.
+// without area (surface/repair/inside/flat_facets.h), whose neighbours are divided at their vertices so that nothing
+// opens; copies (surface/repair/inside/facet_copies.h), which come last because the pieces of those neighbours may be
+// such. Bodies that share facets are united where their winding numbers tell how
+// (surface/repair/inside/covered_facets.h); where these bodies also cross, or are to be regions, that is left to a
+// later step, if there is one.
 #include <algorithm>
 #include <utility>
 
 #include "base/core/elements.h"
-#include "surface/repair/covered_facets.h"
-#include "surface/repair/facet_copies.h"
-#include "surface/repair/flat_facets.h"
+#include "surface/repair/inside/covered_facets.h"
+#include "surface/repair/inside/facet_copies.h"
+#include "surface/repair/inside/flat_facets.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 
 namespace kerf {
 

@@ -2,7 +2,7 @@
 // (surface/arrange/hull.h), by winding numbers (Jacobson et al. 2013, jacobson2013). Shells are turned outwards before
 // (surface/arrange/shell_turning.h), because winding numbers are meaningless for shells that are turned at random.
 // There are two other ways: facets that part regions named elsewhere are divided only, and all pieces stay; bodies that
-// are to be regions become that by their cells (surface/repair/body_regions.h).
+// are to be regions become that by their cells (surface/repair/inside/body_regions.h).
 //
 // A "piece" is a facet of the arrangement, its parent the facet of the soup that it is of; `fate_` is per piece,
 // `turned_` per facet. The soup is not changed where nothing crosses and nothing goes, nor where more area would be
@@ -20,9 +20,9 @@
 #include "surface/arrange/divided_soup.h"
 #include "surface/arrange/hull.h"
 #include "surface/arrange/shell_turning.h"
-#include "surface/repair/body_regions.h"
+#include "surface/repair/inside/body_regions.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include "surface/repair/loose_sheets.h"
+#include "surface/repair/inside/loose_sheets.h"
+#include "surface/repair/inside/rims.h"
+#include "surface/repair/inside/touching_fans.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
-#include "surface/repair/touching_fans.h"
 
 namespace kerf {
 

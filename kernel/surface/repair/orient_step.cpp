@@ -13,8 +13,8 @@
 #include "surface/arrange/winding_number.h"
 #include "surface/diagnosis/orientation.h"
 #include "surface/regions/cells.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

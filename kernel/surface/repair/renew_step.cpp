@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/geometry/triangle.h"
-#include "surface/repair/remaining_defects.h"
+#include "surface/repair/inside/remaining_defects.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 
 namespace kerf {
 

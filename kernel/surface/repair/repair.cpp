@@ -12,9 +12,9 @@
 #include "base/core/error.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
-#include "surface/repair/remaining_defects.h"
+#include "surface/repair/inside/remaining_defects.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 
 namespace kerf {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "surface/repair/rims.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

@@ -12,9 +12,9 @@
 #include "surface/arrange/arrangement.h"
 #include "surface/arrange/divided_soup.h"
 #include "surface/arrange/near_walls.h"
-#include "surface/repair/body_regions.h"
+#include "surface/repair/inside/body_regions.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

@@ -4,8 +4,8 @@
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 
 namespace kerf {
 

@@ -1,14 +1,14 @@
 // Borders are joined at distances that grow up to the tolerance, so that the best fit is joined first: a vertex on an
 // edge before another vertex farther away. At each distance there are rounds, until nothing is joined any more: near
-// vertices of borders become one (surface/repair/border_merger.h), then vertices near an edge go onto it
-// (surface/repair/border_points.h). Only changes stay by which two facets share an edge.
+// vertices of borders become one (surface/repair/inside/border_merger.h), then vertices near an edge go onto it
+// (surface/repair/inside/border_points.h). Only changes stay by which two facets share an edge.
 #include <algorithm>
 
 #include "base/geometry/closest_point.h"
-#include "surface/repair/border_merger.h"
-#include "surface/repair/border_points.h"
+#include "surface/repair/inside/border_merger.h"
+#include "surface/repair/inside/border_points.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

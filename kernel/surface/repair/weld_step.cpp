@@ -1,9 +1,9 @@
 // Only where the surface is open: elsewhere two near vertices are a thin wall, or a short edge of a fine triangulation.
 #include <algorithm>
 
-#include "surface/repair/border_merger.h"
+#include "surface/repair/inside/border_merger.h"
+#include "surface/repair/inside/rims.h"
 #include "surface/repair/repair_step.h"
-#include "surface/repair/rims.h"
 
 namespace kerf {
 

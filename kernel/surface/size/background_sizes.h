@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/geometry/box_tree.h"
-#include "surface/size/sized_triangles.h"
+#include "surface/size/inside/sized_triangles.h"
 
 namespace kerf {
 

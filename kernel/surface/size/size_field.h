@@ -10,8 +10,8 @@
 
 #include "base/core/bytes.h"
 #include "surface/size/background_sizes.h"
-#include "surface/size/sized_shapes.h"
-#include "surface/size/sized_triangles.h"
+#include "surface/size/inside/sized_shapes.h"
+#include "surface/size/inside/sized_triangles.h"
 
 namespace kerf {
 

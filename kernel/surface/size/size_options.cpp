@@ -15,7 +15,7 @@
 #include "base/core/error.h"
 #include "base/core/regular_tet.h"
 #include "base/geometry/box.h"
-#include "surface/size/surface_sizes.h"
+#include "surface/size/inside/surface_sizes.h"
 
 namespace kerf {
 

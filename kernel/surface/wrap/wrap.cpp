@@ -1,9 +1,10 @@
-// A wrap is an alpha wrap with an offset (Portaneri et al. 2022, portaneri2022; surface/wrap/alpha_wrap.h), whose
-// vertices are drawn back to the surface (surface/wrap/wrap_pullback.h). Facets without area are left out first. Then
-// the distance from wrap to surface and back is proven, not sampled (surface/wrap/proven_distance.h); the way back
-// counts only facets that are seen, from which a ray across them leaves freely on one side, because facets inside are
-// lost on purpose. The gap is the diameter of the balls that carve; its limits, as shares of the diagonal, and an
-// estimate of the number of facets, area over squared gap, keep the cost in bounds.
+// A wrap is an alpha wrap with an offset (Portaneri et al. 2022, portaneri2022; surface/wrap/inside/alpha_wrap.h),
+// whose vertices are drawn back to the surface (surface/wrap/inside/wrap_pullback.h). Facets without area are left out
+// first. Then the distance from wrap to surface and back is proven, not sampled
+// (surface/wrap/inside/proven_distance.h); the way back counts only facets that are seen, from which a ray across them
+// leaves freely on one side, because facets inside are lost on purpose. The gap is the diameter of the balls that
+// carve; its limits, as shares of the diagonal, and an estimate of the number of facets, area over squared gap, keep
+// the cost in bounds.
 #include "surface/wrap/wrap.h"
 
 #include <algorithm>
@@ -17,9 +18,9 @@
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "surface/soup/edge_corners.h"
-#include "surface/wrap/alpha_wrap.h"
-#include "surface/wrap/proven_distance.h"
-#include "surface/wrap/wrap_pullback.h"
+#include "surface/wrap/inside/alpha_wrap.h"
+#include "surface/wrap/inside/proven_distance.h"
+#include "surface/wrap/inside/wrap_pullback.h"
 
 namespace kerf {
 

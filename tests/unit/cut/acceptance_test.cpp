@@ -1,5 +1,5 @@
 // Interface, acceptance and split: from a contour to two closed halves.
-#include "cut/cut/acceptance.h"
+#include "cut/cut/inside/acceptance.h"
 
 #include <algorithm>
 #include <random>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cut/cut/contour.h"
-#include "cut/cut/shell_placement.h"
+#include "cut/cut/inside/contour.h"
+#include "cut/cut/inside/shell_placement.h"
 #include "cut/cut/split.h"
 #include "support/voxels.h"
 #include "surface/complex/mass_properties.h"

@@ -1,15 +1,15 @@
 // Contours across walls whose edges are slanted: how they are laid out, and what is made of them.
-#include "cut/cut/contour_layout.h"
+#include "cut/cut/inside/contour_layout.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "cut/cut/acceptance.h"
-#include "cut/cut/contour.h"
-#include "cut/cut/interface.h"
-#include "cut/cut/interface_smoothing.h"
+#include "cut/cut/inside/acceptance.h"
+#include "cut/cut/inside/contour.h"
+#include "cut/cut/inside/interface.h"
+#include "cut/cut/inside/interface_smoothing.h"
 #include "support/shapes.h"
 
 namespace kerf {

@@ -1,5 +1,5 @@
 // Band, labels and contour: the way from a plane to closed loops of surface edges.
-#include "cut/cut/contour.h"
+#include "cut/cut/inside/contour.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cut/cut/labels.h"
-#include "cut/cut/plane.h"
+#include "cut/cut/inside/labels.h"
+#include "cut/cut/inside/plane.h"
 #include "support/assets.h"
 #include "support/shapes.h"
 

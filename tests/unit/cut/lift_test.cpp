@@ -1,4 +1,4 @@
-#include "cut/cut/lift.h"
+#include "cut/cut/inside/lift.h"
 
 #include <algorithm>
 #include <cmath>

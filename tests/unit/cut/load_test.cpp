@@ -1,4 +1,4 @@
-#include "cut/cut/load.h"
+#include "cut/cut/inside/load.h"
 
 #include <algorithm>
 #include <numbers>

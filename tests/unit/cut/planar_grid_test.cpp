@@ -1,4 +1,4 @@
-#include "cut/cut/planar_grid.h"
+#include "cut/cut/inside/planar_grid.h"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "cut/decompose/region_tree.h"
+#include "cut/decompose/inside/region_tree.h"
 
 #include <numeric>
 

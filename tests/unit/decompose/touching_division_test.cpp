@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/core/bytes.h"
-#include "cut/cut/facet_split.h"
+#include "cut/cut/inside/facet_split.h"
 #include "cut/decompose/straight_division.h"
 #include "support/decomposition_laws.h"
 #include "support/slice.h"

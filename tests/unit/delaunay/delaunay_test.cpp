@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "fill/delaunay/spatial_order.h"
+#include "fill/delaunay/inside/spatial_order.h"
 #include "support/point_sets.h"
 
 namespace kerf {

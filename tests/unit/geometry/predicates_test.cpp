@@ -5,7 +5,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
-#include "base/geometry/wide_integer.h"
+#include "base/geometry/inside/wide_integer.h"
 #include "support/point_sets.h"
 
 namespace kerf {

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "files/html/packed_surface.h"
-#include "files/html/page_surface.h"
+#include "files/html/inside/packed_surface.h"
+#include "files/html/inside/page_surface.h"
 #include "files/io/compressed.h"
 #include "support/assets.h"
 #include "support/file_contents.h"

@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
-#include "fill/improve/edge_removal.h"
-#include "fill/improve/edited_mesh.h"
+#include "fill/improve/inside/edge_removal.h"
+#include "fill/improve/inside/edited_mesh.h"
 #include "fill/mesh/adjacency.h"
 #include "fill/mesh/verification.h"
 #include "fill/shell/shell.h"

@@ -1,4 +1,4 @@
-#include "files/io/polygon_fan.h"
+#include "files/io/inside/polygon_fan.h"
 
 #include <cmath>
 #include <numbers>

@@ -11,8 +11,8 @@
 #include "base/core/error.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/tetrahedron.h"
+#include "files/io/inside/tet_skin.h"
 #include "files/io/surface_reader.h"
-#include "files/io/tet_skin.h"
 #include "region_files.h"
 #include "support/seeded_numbers.h"
 

@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "base/core/error.h"
-#include "files/io/tet_skin.h"
+#include "files/io/inside/tet_skin.h"
 #include "support/archives.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"

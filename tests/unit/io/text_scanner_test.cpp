@@ -1,4 +1,4 @@
-#include "files/io/text_scanner.h"
+#include "files/io/inside/text_scanner.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // A mesh in memory falls into the parts of which it was joined.
-#include "kerf/parts_of_arrays.h"
+#include "kerf/inside/parts_of_arrays.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "fill/mesh/forced_cells.h"
+#include "fill/mesh/inside/forced_cells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@
 #include "base/geometry/predicates.h"
 #include "base/geometry/tetrahedron.h"
 #include "fill/mesh/adjacency.h"
-#include "fill/mesh/boundary_chain.h"
+#include "fill/mesh/inside/boundary_chain.h"
 #include "support/shapes.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "files/part/name_table.h"
+#include "files/part/inside/name_table.h"
 
 #include <gtest/gtest.h>
 

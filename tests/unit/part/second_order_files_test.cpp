@@ -8,7 +8,7 @@
 
 #include "files/io/file_bytes.h"
 #include "files/part/curved_nodes_file.h"
-#include "files/part/edge_node_reader.h"
+#include "files/part/inside/edge_node_reader.h"
 #include "files/part/vtu_writer.h"
 #include "support/io_error.h"
 #include "support/random_part.h"

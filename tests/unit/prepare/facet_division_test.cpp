@@ -1,5 +1,5 @@
 // Facets that are coarser than sizes are divided where they lie.
-#include "run/prepare/facet_division.h"
+#include "run/prepare/inside/facet_division.h"
 
 #include <numeric>
 

@@ -1,4 +1,4 @@
-#include "run/prepare/repair_measures.h"
+#include "run/prepare/inside/repair_measures.h"
 
 #include <cmath>
 #include <limits>

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "run/prepare/periodicity.h"
+#include "run/prepare/inside/periodicity.h"
+#include "run/prepare/inside/thin_layers.h"
 #include "run/prepare/remeshing.h"
-#include "run/prepare/thin_layers.h"
 #include "support/shapes.h"
 #include "support/slice.h"
 #include "support/voxel_regions.h"

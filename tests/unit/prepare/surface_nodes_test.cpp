@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/prepare/surface_places.h"
+#include "run/prepare/inside/surface_places.h"
 #include "support/shapes.h"
 
 namespace kerf {

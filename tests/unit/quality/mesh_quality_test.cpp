@@ -1,5 +1,5 @@
 // The quality of whole meshes: measured, as text and picture, and held against limits.
-#include "files/quality/measured_mesh.h"
+#include "files/quality/inside/measured_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 #include "base/core/error.h"
 #include "files/quality/compared_quality.h"
-#include "files/quality/histogram_rows.h"
+#include "files/quality/inside/histogram_rows.h"
 #include "files/quality/quality_sheet.h"
 #include "support/shapes.h"
 #include "support/surface_files.h"

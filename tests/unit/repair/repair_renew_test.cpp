@@ -5,7 +5,7 @@
 
 #include "support/seeded_numbers.h"
 #include "support/shapes.h"
-#include "surface/repair/remaining_defects.h"
+#include "surface/repair/inside/remaining_defects.h"
 #include "surface/repair/repair.h"
 
 namespace kerf {

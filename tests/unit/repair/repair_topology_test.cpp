@@ -12,8 +12,8 @@
 #include "support/voxels.h"
 #include "surface/complex/mass_properties.h"
 #include "surface/diagnosis/diagnosis.h"
-#include "surface/repair/facet_copies.h"
-#include "surface/repair/touching_fans.h"
+#include "surface/repair/inside/facet_copies.h"
+#include "surface/repair/inside/touching_fans.h"
 
 namespace kerf {
 namespace {

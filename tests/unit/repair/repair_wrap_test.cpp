@@ -15,8 +15,8 @@
 #include "surface/complex/mass_properties.h"
 #include "surface/diagnosis/intersections.h"
 #include "surface/soup/triangle_tree.h"
-#include "surface/wrap/alpha_wrap.h"
-#include "surface/wrap/proven_distance.h"
+#include "surface/wrap/inside/alpha_wrap.h"
+#include "surface/wrap/inside/proven_distance.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-#include "run/report/exceeded_bounds.h"
+#include "run/report/inside/exceeded_bounds.h"
 
 #include <random>
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/core/check.h"
-#include "cut/cut/contour.h"
-#include "cut/cut/interface.h"
+#include "cut/cut/inside/contour.h"
+#include "cut/cut/inside/interface.h"
 #include "cut/cut/split.h"
 #include "cut/cut/triangulation.h"
 #include "cut/decompose/tree_node.h"

@@ -1,5 +1,5 @@
 // Ranks cut what one alone would, each node once, and end together. Ranks are threads here.
-#include "run/run/cuts_on_ranks.h"
+#include "run/run/inside/cuts_on_ranks.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run/run/range_of_rank.h"
+#include "run/run/inside/range_of_rank.h"
 #include "support/assets.h"
 #include "support/decomposition_laws.h"
 #include "support/failing_ranks.h"

@@ -1,4 +1,4 @@
-#include "run/run/forecast.h"
+#include "run/run/inside/forecast.h"
 
 #include <random>
 #include <sstream>

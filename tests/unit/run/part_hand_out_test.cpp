@@ -1,5 +1,5 @@
 // Many ranks and parts, without workers: who gets what, and how many messages that takes.
-#include "run/run/part_hand_out.h"
+#include "run/run/inside/part_hand_out.h"
 
 #include <atomic>
 #include <deque>

@@ -13,9 +13,9 @@
 #include "fill/delaunay/faces.h"
 #include "fill/lattice/lattice_core.h"
 #include "fill/mesh/verification.h"
-#include "fill/shell/crossing.h"
-#include "fill/shell/face_recovery.h"
-#include "fill/shell/ring_flips.h"
+#include "fill/shell/inside/crossing.h"
+#include "fill/shell/inside/face_recovery.h"
+#include "fill/shell/inside/ring_flips.h"
 #include "support/point_sets.h"
 #include "support/shapes.h"
 

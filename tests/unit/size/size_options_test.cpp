@@ -7,7 +7,7 @@
 
 #include "base/core/error.h"
 #include "support/size_fields.h"
-#include "surface/size/surface_sizes.h"
+#include "surface/size/inside/surface_sizes.h"
 #include "surface/size/volume_samples.h"
 
 namespace kerf {

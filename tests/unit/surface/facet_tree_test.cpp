@@ -1,5 +1,5 @@
 // Facets at vertices of many: which pairs meet, and how many are asked.
-#include "surface/diagnosis/facet_tree.h"
+#include "surface/diagnosis/inside/facet_tree.h"
 
 #include <algorithm>
 #include <array>

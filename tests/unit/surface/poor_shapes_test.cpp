@@ -1,4 +1,4 @@
-#include "surface/diagnosis/poor_shapes.h"
+#include "surface/diagnosis/inside/poor_shapes.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // Boxes side by side, whose distance is known, turned and moved at random.
-#include "surface/diagnosis/wall_mismatch.h"
+#include "surface/diagnosis/inside/wall_mismatch.h"
 
 #include <random>
 

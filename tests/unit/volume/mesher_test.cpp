@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/core/error.h"
-#include "cut/cut/load.h"
+#include "cut/cut/inside/load.h"
 #include "files/io/surface_reader.h"
 #include "fill/mesh/quality.h"
 #include "fill/mesh/verification.h"

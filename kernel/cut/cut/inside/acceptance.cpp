@@ -1,0 +1,254 @@
+// Interface and surface are compared in the plane: triangles whose boxes overlap there and whose heights overlap, up to
+// the rounding of both, are handed to the exact test. Points of the interface are numbered after the vertices of the
+// surface, contour points share the number of their surface vertex, so that shared corners are recognised by number.
+#include "cut/cut/inside/acceptance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "base/core/check.h"
+#include "base/geometry/angles.h"
+#include "base/geometry/closest_point.h"
+#include "cut/cut/inside/planar_grid.h"
+#include "surface/diagnosis/intersections.h"
+
+namespace kerf {
+
+namespace {
+
+class InterfaceJudge {
+ public:
+    InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface);
+
+    std::vector<std::int32_t> chords() const;
+    std::vector<std::int32_t> intersections(const CancellationCheck& check_cancelled,
+                                            std::vector<Collision>& collisions);
+    // Quality, with the vertices below the thresholds of the options.
+    InterfaceQuality measure(const CutOptions& options, std::vector<std::int32_t>& soft);
+
+ private:
+    struct NearFacet : SlabFacet {
+        PlanarBox box;
+    };
+    std::int32_t id(std::int32_t point) const {
+        return point < contour_count_ ? interface_.contour[point] : surface_.vertex_count() + point;
+    }
+    Triangle ids(const Triangle& t) const { return {id(t[0]), id(t[1]), id(t[2])}; }
+    std::array<Vec3, 3> corners(const Triangle& t) const {
+        return {interface_.points[t[0]], interface_.points[t[1]], interface_.points[t[2]]};
+    }
+    std::array<Vec3, 3> facet_corners(const Triangle& t) const {
+        return {surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])};
+    }
+    void add_contour_corners(const Triangle& t, std::vector<std::int32_t>& vertices) const {
+        for (std::int32_t point : t)
+            if (point < contour_count_) vertices.push_back(interface_.contour[point]);
+    }
+    void find_slab_facets();
+    void measure_angles(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
+    void measure_dihedrals(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
+    void measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft);
+
+    const Surface& surface_;
+    const Band& band_;
+    const Interface& interface_;
+    std::int32_t contour_count_;
+    std::vector<PlanarBox> boxes_;    // of the interface triangles
+    std::vector<double> low_, high_;  // heights of the interface triangles
+    std::vector<NearFacet> slab_;     // facets that share heights with the interface
+    PlanarGrid grid_;                 // of the interface triangles
+};
+
+std::vector<PlanarBox> triangle_boxes(const Interface& interface, const Plane& plane) {
+    std::vector<PlanarBox> boxes(interface.triangles.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::int32_t point : interface.triangles[i]) boxes[i].extend(plane.project(interface.points[point]));
+    return boxes;
+}
+
+InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface)
+    : surface_(surface),
+      band_(band),
+      interface_(interface),
+      contour_count_(static_cast<std::int32_t>(interface.contour.size())),
+      boxes_(triangle_boxes(interface, band.plane)),
+      grid_(boxes_) {
+    for (const Triangle& t : interface.triangles) {
+        const auto [low, high] =
+            std::minmax({band.plane.distance(interface.points[t[0]]), band.plane.distance(interface.points[t[1]]),
+                         band.plane.distance(interface.points[t[2]])});
+        low_.push_back(low);
+        high_.push_back(high);
+    }
+    find_slab_facets();
+}
+
+void InterfaceJudge::find_slab_facets() {
+    const double low = *std::min_element(low_.begin(), low_.end()) - band_.rounding;
+    const double high = *std::max_element(high_.begin(), high_.end()) + band_.rounding;
+    band_.for_each_facet_between(surface_, low, high, [&](const SlabFacet& facet) {
+        PlanarBox box;
+        for (std::int32_t v : surface_.vertices(facet.facet)) box.extend(band_.plane.project(surface_.point(v)));
+        slab_.push_back({facet, box});
+    });
+}
+
+// Contour edges appear once as directed edges of interface triangles, all others twice. An edge between contour points
+// that the surface has too would get four facets.
+std::vector<std::int32_t> InterfaceJudge::chords() const {
+    std::vector<std::array<std::int32_t, 2>> between;
+    for (const Triangle& t : interface_.triangles)
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t a = t[i], b = t[(i + 1) % 3];
+            if (a < contour_count_ && b < contour_count_) between.push_back({std::min(a, b), std::max(a, b)});
+        }
+    std::sort(between.begin(), between.end());
+    std::vector<std::int32_t> vertices;
+    for (std::size_t i = 1; i < between.size(); ++i) {
+        if (between[i] != between[i - 1]) continue;
+        const std::int32_t a = interface_.contour[between[i][0]], b = interface_.contour[between[i][1]];
+        if (surface_.find_half_edge(a, b) >= 0) vertices.insert(vertices.end(), {a, b});
+    }
+    return vertices;
+}
+
+std::vector<std::int32_t> InterfaceJudge::intersections(const CancellationCheck& check_cancelled,
+                                                        std::vector<Collision>& collisions) {
+    std::vector<std::int32_t> vertices;
+    const auto keep = [&](const std::array<Vec3, 3>& first, const std::array<Vec3, 3>& second) {
+        if (collisions.size() < max_collisions) collisions.push_back({first, second});
+    };
+    for (const NearFacet& f : slab_) {
+        const Triangle t = surface_.vertices(f.facet);
+        grid_.for_each_overlap(grown(f.box, band_.rounding), [&](std::int32_t i) {
+            if (low_[i] > f.high + band_.rounding || high_[i] < f.low - band_.rounding) return;
+            const Triangle& s = interface_.triangles[i];
+            if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
+            keep(corners(s), facet_corners(t));
+            vertices.insert(vertices.end(), t.begin(), t.end());
+            add_contour_corners(s, vertices);
+        });
+    }
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+        check_cancelled.at(i);
+        grid_.for_each_overlap(grown(boxes_[i], band_.rounding), [&](std::int32_t j) {
+            if (static_cast<std::size_t>(j) <= i) return;
+            const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
+            if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
+            keep(corners(s), corners(t));
+            add_contour_corners(s, vertices);
+            add_contour_corners(t, vertices);
+        });
+    }
+    return vertices;
+}
+
+void InterfaceJudge::measure_angles(double threshold, InterfaceQuality& quality,
+                                    std::vector<std::int32_t>& soft) const {
+    for (const Triangle& t : interface_.triangles) {
+        const auto p = corners(t);
+        for (int i = 0; i < 3; ++i) {
+            const double angle = angle_degrees(p[i], p[(i + 1) % 3], p[(i + 2) % 3]);
+            quality.angle_deg = std::min(quality.angle_deg, angle);
+            if (angle < threshold) add_contour_corners(t, soft);
+        }
+    }
+}
+
+void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quality,
+                                       std::vector<std::int32_t>& soft) const {
+    for (const Triangle& t : interface_.triangles)
+        for (int i = 0; i < 3; ++i) {
+            if (t[i] >= contour_count_ || t[(i + 1) % 3] >= contour_count_) continue;
+            const std::int32_t from = interface_.contour[t[i]], to = interface_.contour[t[(i + 1) % 3]];
+            const std::int32_t h = surface_.find_half_edge(from, to);
+            if (h < 0) continue;  // an interior edge between contour points
+            const Vec3 &a = surface_.point(from), &b = surface_.point(to);
+            const Vec3 inward = towards_apex(a, b, interface_.points[t[(i + 2) % 3]]);
+            for (std::int32_t side : {h, Surface::opposite(h)}) {
+                const Vec3 along = towards_apex(a, b, surface_.point(surface_.to_vertex(surface_.next(side))));
+                const double angle = degrees_of_cosine(inward.dot(along));
+                quality.dihedral_deg = std::min(quality.dihedral_deg, angle);
+                if (angle < threshold) soft.insert(soft.end(), {from, to});
+            }
+        }
+}
+
+// Distances off the contour: surface vertices to interface triangles and interior interface points to facets.
+void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) {
+    std::vector<char> seen(band_.vertices.size(), 0);
+    for (std::int32_t v : interface_.contour) seen[band_.vertex_index_of[v]] = 1;
+    const auto on_contour = [&](std::int32_t v) {
+        const std::int32_t i = band_.vertex_index_of[v];
+        return i >= 0 && seen[i];
+    };
+    std::vector<double> size(boxes_.size());
+    for (std::size_t i = 0; i < size.size(); ++i) {
+        const auto p = corners(interface_.triangles[i]);
+        size[i] = ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
+    }
+    for (const NearFacet& f : slab_) {
+        const Triangle t = surface_.vertices(f.facet);
+        const auto facet = facet_corners(t);
+        const double margin = threshold * f.box.diagonal().norm();
+        grid_.for_each_overlap(grown(f.box, margin), [&](std::int32_t i) {
+            const double reach = threshold * size[i];
+            if (low_[i] > f.high + reach || high_[i] < f.low - reach) return;
+            const Triangle& s = interface_.triangles[i];
+            const auto p = corners(s);
+            const auto note = [&](double distance) {
+                quality.gap_rel = std::min(quality.gap_rel, distance / size[i]);
+                if (distance >= reach) return;
+                soft.insert(soft.end(), t.begin(), t.end());
+                add_contour_corners(s, soft);
+            };
+            for (int k = 0; k < 3; ++k)
+                if (!on_contour(t[k])) note(point_triangle_distance(facet[k], p[0], p[1], p[2]));
+            for (int k = 0; k < 3; ++k)
+                if (s[k] >= contour_count_) note(point_triangle_distance(p[k], facet[0], facet[1], facet[2]));
+        });
+    }
+}
+
+InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<std::int32_t>& soft) {
+    InterfaceQuality quality;
+    measure_angles(options.good_angle_deg, quality, soft);
+    measure_dihedrals(options.good_dihedral_deg, quality, soft);
+    measure_gaps(options.good_gap_rel, quality, soft);
+    return quality;
+}
+
+bool is_good(const InterfaceQuality& quality, const CutOptions& options) {
+    return quality.angle_deg >= options.good_angle_deg && quality.dihedral_deg >= options.good_dihedral_deg &&
+           quality.gap_rel >= options.good_gap_rel;
+}
+
+}  // namespace
+
+Verdict judge_interface(const Surface& surface, const Band& band, const Interface& interface,
+                        const CutOptions& options) {
+    KERF_CHECK(band.fits(surface) && !interface.triangles.empty());
+    KERF_CHECK(interface.planar.size() == interface.points.size());
+    Verdict verdict;
+    InterfaceJudge judge(surface, band, interface);
+    options.check_cancelled();
+    verdict.failed = judge.chords();
+    if (!verdict.failed.empty()) {
+        verdict.refusal = Refusal::chord;
+        return verdict;
+    }
+    options.check_cancelled();
+    verdict.failed = judge.intersections(options.check_cancelled, verdict.collisions);
+    if (!verdict.collisions.empty()) {  // which may lie off the contour, and then at no vertex of the surface
+        verdict.refusal = Refusal::intersection;
+        return verdict;
+    }
+    verdict.quality = judge.measure(options, verdict.failed);
+    options.check_cancelled();
+    if (!is_good(verdict.quality, options)) verdict.refusal = Refusal::soft;  // at a vertex of the surface or within
+    return verdict;
+}
+
+}  // namespace kerf

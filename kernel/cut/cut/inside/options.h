@@ -1,0 +1,51 @@
+// The options of cuts that a user may choose.
+#pragma once
+
+#include "base/core/cancellation.h"
+#include "cut/cut/cut.h"
+#include "cut/cut/inside/load.h"
+#include "surface/size/size_field.h"
+
+namespace kerf {
+
+/// The criterion that places the plane.
+enum class Criterion {
+    inertia,      ///< across the principal axis of the smallest moment, bisecting the load
+    volume,       ///< across a coordinate axis, bisecting the volume
+    equidistant,  ///< across a coordinate axis, bisecting the extent
+};
+
+struct CutOptions {
+    Criterion criterion = Criterion::inertia;
+    std::int32_t axis = -1;  ///< coordinate axis 0, 1, 2 of the plane's normal; -1: chosen by the criterion
+    ContourMethod contour = ContourMethod::min_cut;
+    LoadModel load;                 ///< the quantity that the halves share evenly
+    SizeField size;                 ///< of tetrahedra; bounds interface triangles, too
+    double load_window = 0.1;       ///< planes whose load is further off are tried last
+    std::int32_t plane_steps = 6;   ///< on either side, per axis
+    std::int32_t repairs = 9;       ///< rounds of local repair per plane
+    double good_dihedral_deg = 25;  ///< thresholds of InterfaceQuality below which a cut is soft
+    double good_angle_deg = 20;
+    double good_gap_rel = 0.2;
+    std::int64_t max_interface_points = 1 << 29;  ///< with more, bisect() throws Error(memory)
+    CancellationCheck check_cancelled;            ///< called during every cut
+
+    /// The longest wanted edge of an interface at a point; infinity: any. If the size is the same everywhere, it is a
+    /// little larger than the edge of the largest wanted tetrahedron; sizes that differ by place are means, which a
+    /// bound a little below them gives.
+    double max_interface_edge(const Vec3& p) const { return (size.is_constant() ? 1.1 : 0.95) * size.at(p); }
+    /// The options for this body, whose load samples are included, see LoadModel::of().
+    CutOptions of(const Surface& surface) const {
+        CutOptions options = *this;
+        if (bisected_load().depends_on_place()) options.load = load.of(surface);
+        return options;
+    }
+    /// The load that the criterion bisects: the volume for Criterion::volume, else `load`.
+    LoadModel bisected_load() const {
+        LoadModel bisected = load;
+        if (criterion == Criterion::volume) bisected.balance = Balance::volume;
+        return bisected;
+    }
+};
+
+}  // namespace kerf

@@ -1,0 +1,76 @@
+// Facets that overlap pair by pair may lead around a bend where they are small or thin. Facets that are not near the
+// plane of the largest one therefore make groups of their own.
+#include "surface/arrange/inside/plane_groups.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "base/geometry/union_find.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double allowed_tolerances = 4;
+
+// Facets with the same corners are divided together, though they may be in no overlapping pair.
+void join_copies(const DividedFacets& divided, std::span<const std::int32_t> chosen, UnionFind& joined) {
+    std::vector<std::pair<Triangle, std::int32_t>> sorted;
+    sorted.reserve(chosen.size());
+    for (const std::int32_t f : chosen) {
+        Triangle t = divided.facets[f];
+        std::sort(t.begin(), t.end());
+        sorted.emplace_back(t, f);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].first == sorted[i - 1].first) joined.join(sorted[i].second, sorted[i - 1].second);
+}
+
+// Puts those first that are near the plane of the first one, the largest, and returns where the others begin.
+std::vector<std::int32_t>::iterator gather_plane(const DividedFacets& divided,
+                                                 std::vector<std::int32_t>::iterator begin,
+                                                 std::vector<std::int32_t>::iterator end, double allowed) {
+    const Corners p = divided.corners(divided.facets[*begin]);
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+    return std::stable_partition(begin, end, [&](std::int32_t f) {
+        const Corners q = divided.corners(divided.facets[f]);
+        return f == *begin || std::all_of(q.begin(), q.end(),
+                                          [&](const Vec3& x) { return std::abs(normal.dot(x - p[0])) <= allowed; });
+    });
+}
+
+double square_of_area(const DividedFacets& divided, std::int32_t facet) {
+    const Corners p = divided.corners(divided.facets[facet]);
+    return (p[1] - p[0]).cross(p[2] - p[0]).squaredNorm();
+}
+
+}  // namespace
+
+PlaneGroups group_planes(const DividedFacets& divided, std::span<const std::int32_t> chosen,
+                         std::span<const FacetPair> overlaps, double tolerance) {
+    UnionFind joined(divided.facets.size());
+    for (const FacetPair& pair : overlaps) joined.join(pair[0], pair[1]);
+    join_copies(divided, chosen, joined);
+    PlaneGroups groups{{chosen.begin(), chosen.end()}, {0}, std::vector<std::int32_t>(divided.facets.size(), -1)};
+    std::vector<std::int32_t>& facets = groups.facets;
+    std::stable_sort(facets.begin(), facets.end(),
+                     [&](std::int32_t a, std::int32_t b) { return joined.root(a) < joined.root(b); });
+    for (auto begin = facets.begin(); begin != facets.end();) {
+        const std::int32_t root = joined.root(*begin);
+        const auto end = std::find_if(begin, facets.end(), [&](std::int32_t f) { return joined.root(f) != root; });
+        std::stable_sort(begin, end, [&](std::int32_t a, std::int32_t b) {
+            return square_of_area(divided, a) > square_of_area(divided, b);
+        });
+        while (begin != end) {
+            const auto next = gather_plane(divided, begin, end, allowed_tolerances * tolerance);
+            for (; begin != next; ++begin) groups.of[*begin] = static_cast<std::int32_t>(groups.count());
+            groups.first.push_back(static_cast<std::size_t>(next - facets.begin()));
+        }
+    }
+    return groups;
+}
+
+}  // namespace kerf

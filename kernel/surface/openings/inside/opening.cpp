@@ -1,0 +1,156 @@
+// An opening is described by the outline of its rims: their points one after another, each rim in the direction of
+// facets that would fill it. Triangles and patches use places in the outline, not vertices of the soup. The bend is the
+// mean angle between the normals of the triangle inside and the facet outside over all edges of the rims, weighted by
+// their lengths: it tells a hole, an end and the rim of a sheet apart. Edges that the surface has between points of the
+// rims are "taken": a patch with one of them would give it more than two facets. Only smooth patches need the
+// surroundings, the facets at the rims and their other vertices, which are numbered on from the outline.
+#include "surface/openings/inside/opening.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "base/geometry/angles.h"
+#include "base/geometry/triangle.h"
+
+namespace kerf {
+
+namespace {
+
+struct RimOutline {
+    std::vector<Vec3> points, apexes;     // of all rims
+    std::vector<std::int32_t> vertices;   // of the soup
+    std::vector<std::int32_t> counts;     // of each rim
+    std::vector<std::int32_t> successor;  // of each point
+
+    RimOutline(const Soup& soup, const std::vector<const Rim*>& rims) {
+        for (const Rim* rim : rims) {
+            const auto first = static_cast<std::int32_t>(points.size());
+            const auto count = static_cast<std::int32_t>(rim->vertices.size());
+            for (std::int32_t i = 0; i < count; ++i) successor.push_back(first + (i + 1) % count);
+            for (const std::int32_t v : rim->vertices) points.push_back(soup.vertices[v]);
+            vertices.insert(vertices.end(), rim->vertices.begin(), rim->vertices.end());
+            apexes.insert(apexes.end(), rim->apexes.begin(), rim->apexes.end());
+            counts.push_back(count);
+        }
+    }
+};
+
+double mean_bend(const RimOutline& outline, const std::vector<Triangle>& triangles) {
+    double sum = 0, length = 0;
+    for (const Triangle& t : triangles)
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t a = t[i], b = t[(i + 1) % 3];
+            if (outline.successor[a] != b) continue;
+            const Vec3 &p = outline.points[a], &q = outline.points[b];
+            const Vec3 inside = doubled_area_vector(p, q, outline.points[t[(i + 2) % 3]]);
+            const Vec3 outside = doubled_area_vector(q, p, outline.apexes[a]);
+            const double weight = (q - p).norm();
+            if (inside.isZero(0) || outside.isZero(0)) continue;
+            sum += weight * angle_between(inside, outside);
+            length += weight;
+        }
+    return length > 0 ? sum / length * 180 / std::numbers::pi : 0;
+}
+
+// Returns the edges of the surface between vertices of the rims that are not edges of a rim.
+std::vector<UndirectedEdge> taken_edges(const OpenRims& all, const RimOutline& outline) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> place;  // of vertices of the soup
+    for (std::size_t i = 0; i < outline.vertices.size(); ++i)
+        place.emplace_back(outline.vertices[i], static_cast<std::int32_t>(i));
+    std::sort(place.begin(), place.end());
+    std::vector<UndirectedEdge> taken;
+    for (std::size_t i = 0; i < outline.vertices.size(); ++i)
+        for (const std::int32_t f : all.facets_at(outline.vertices[i]))
+            for (const std::int32_t v : all.soup().facets[f]) {
+                const auto found = std::lower_bound(place.begin(), place.end(), std::pair(v, -1));
+                if (found == place.end() || found->first != v) continue;
+                const auto a = static_cast<std::int32_t>(i), b = found->second;
+                if (a < b && outline.successor[a] != b && outline.successor[b] != a) taken.push_back({a, b});
+            }
+    std::sort(taken.begin(), taken.end());
+    taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
+    return taken;
+}
+
+PatchSurroundings surroundings(const OpenRims& all, const RimOutline& outline) {
+    PatchSurroundings around;
+    std::vector<std::int32_t> facets;
+    for (const std::int32_t v : outline.vertices) {
+        const auto at = all.facets_at(v);
+        facets.insert(facets.end(), at.begin(), at.end());
+        around.is_whole.push_back(all.is_passed_once(v));
+    }
+    std::sort(facets.begin(), facets.end());
+    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+    std::vector<std::pair<std::int32_t, std::int32_t>> place;  // of vertices of the soup: of the rims, then others
+    for (std::size_t i = 0; i < outline.vertices.size(); ++i)
+        place.emplace_back(outline.vertices[i], static_cast<std::int32_t>(i));
+    std::sort(place.begin(), place.end());
+    const std::size_t on_rims = place.size();
+    std::vector<std::int32_t> beside;
+    const auto find = [&](std::int32_t v) {
+        const auto end = place.begin() + static_cast<std::ptrdiff_t>(on_rims);
+        const auto found = std::lower_bound(place.begin(), end, std::pair(v, -1));
+        return found != end && found->first == v ? found->second : -1;
+    };
+    for (const std::int32_t f : facets)
+        for (const std::int32_t v : all.soup().facets[f])
+            if (find(v) < 0 && all.soup().vertices[v].allFinite()) beside.push_back(v);
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    for (const std::int32_t v : beside) around.points.push_back(all.soup().vertices[v]);
+    for (const std::int32_t f : facets) {
+        std::array<std::int32_t, 3> own{};
+        bool is_finite = true;
+        for (int i = 0; i < 3; ++i) {
+            const std::int32_t v = all.soup().facets[f][i];
+            is_finite &= all.soup().vertices[v].allFinite();
+            own[i] = find(v);
+            if (own[i] < 0)
+                own[i] = static_cast<std::int32_t>(outline.vertices.size()) +
+                         static_cast<std::int32_t>(std::lower_bound(beside.begin(), beside.end(), v) - beside.begin());
+        }
+        if (is_finite) around.facets.push_back(own);
+    }
+    return around;
+}
+
+}  // namespace
+
+std::int32_t RimOpening::edges() const {
+    std::size_t sum = 0;
+    for (const Rim* rim : rims) sum += rim->vertices.size();
+    return static_cast<std::int32_t>(sum);
+}
+
+double RimOpening::length() const {
+    double sum = 0;
+    for (const Rim* rim : rims) sum += rim->length;
+    return sum;
+}
+
+RimOpening make_opening(const OpenRims& all, std::vector<const Rim*> rims) {
+    RimOpening opening;
+    const RimOutline outline(all.soup(), rims);
+    opening.triangles = rims.size() == 1 ? triangulate_rim(outline.points, outline.apexes)
+                                         : triangulate_band(rims[0]->points(all.soup()), rims[1]->points(all.soup()));
+    opening.rims = std::move(rims);
+    opening.bend = mean_bend(outline, opening.triangles);
+    const bool goes_on = opening.bend > BendDegrees::straight && opening.bend < BendDegrees::lid;
+    opening.is_flat = !goes_on && is_planar(rim_plane(outline.points), outline.points);
+    return opening;
+}
+
+ShapedPatch make_patch(const OpenRims& all, const RimOpening& opening, PatchShape shape, double growth) {
+    RimOutline outline(all.soup(), opening.rims);
+    const PatchSurroundings around = shape == PatchShape::smooth ? surroundings(all, outline) : PatchSurroundings();
+    std::vector<UndirectedEdge> taken = taken_edges(all, outline);
+    PatchMesh mesh(std::move(outline.points), opening.triangles, outline.counts, std::move(taken));
+    bool is_usable = !opening.triangles.empty() && mesh.is_within_rims();
+    if (is_usable && shape != PatchShape::plain) mesh.refine(growth);
+    if (is_usable && shape == PatchShape::smooth) is_usable = fair_patch(mesh, around);
+    is_usable = is_usable && mesh.spans_rims();
+    return {std::move(mesh), is_usable};
+}
+
+}  // namespace kerf

@@ -1,0 +1,186 @@
+// A change is accepted in this order: no facet turns over against the normal of its flat region, or of the input near
+// it; the place that a vertex leaves, and every vertex of the input for which the facets stand, stays within its
+// tolerance of one of the new facets; and each new facet is near the input as a whole, by Nearness. A facet that stays
+// in its flat region needs no proof, as the plane is near the input. Only facets of the input that face the same way
+// count as near, lest a facet comes to the other side of a thin wall. The vertices for which a facet stands are a list
+// through `next_point_`, from the facet's first_point to -1; those that are in no list are `unlisted`: they have not
+// moved, or only within a flat region, where none is needed.
+#include "surface/remesh/inside/input_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/geometry/closest_point.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double least_turn_cosine = 0.5;  // of the normal of a new facet against that of the input
+constexpr double facing_cosine = -0.1;     // of a facet's normal against that of the input that it may be near
+constexpr int most_divisions = 60;         // of a facet, to see that it is near the input
+
+double squared_distance(const Vec3& p, const EditMesh::Corners& t) {
+    return (p - closest_point(p, t[0], t[1], t[2])).squaredNorm();
+}
+
+}  // namespace
+
+InputBound::InputBound(const InputShape& input)
+    : input_(input),
+      near_input_(input.tree(), input.facets()),
+      planes_(input.regions().planes),
+      next_point_(input.vertices().size(), unlisted) {}
+
+void InputBound::find_regions(EditMesh& mesh, double share) {
+    const SurfaceArrays now = mesh.arrays();
+    const auto is_border = [&](std::int32_t corner) {
+        const Triangle& t = now.facets[corner / 3];
+        const EditMesh::VertexHandle v(t[corner % 3]), w(t[(corner + 1) % 3]);
+        return mesh.data(mesh.edge_between(v, w)).is_feature;
+    };
+    const auto flatness = [&](std::int32_t f) {
+        const std::int32_t near = mesh.data(EditMesh::FaceHandle(f)).near;
+        return share * input_.largest_tolerance() * input_.share_by_thickness(near);
+    };
+    FlatRegions regions = find_flat_regions(now.vertices, now.facets,
+                                            {.tolerance = flatness, .noise = input_.noise(), .is_border = is_border});
+    planes_ = std::move(regions.planes);
+    for (const auto f : mesh.faces()) mesh.data(f).region = regions.of[f.idx()];
+}
+
+bool InputBound::keeps_turns(const EditMesh& mesh, const NewFacets& star) const {
+    for (std::size_t i = 0; i < star.facets.size(); ++i) {
+        const auto& data = mesh.data(star.facets[i]);
+        const Vec3& wanted = data.region >= 0 ? planes_[data.region].normal : input_.normal(data.near);
+        const Vec3 normal = area_normal(star.corners[i]);
+        if (!(normal.dot(wanted) > least_turn_cosine * normal.norm())) return false;
+    }
+    return true;
+}
+
+bool InputBound::stays_in_region(std::int32_t region, const EditMesh::Corners& now) const {
+    if (region < 0) return false;
+    const FlatRegion& flat = planes_[region];
+    return flat.contains(now[0]) && flat.contains(now[1]) && flat.contains(now[2]);
+}
+
+bool InputBound::is_near_input(EditMesh& mesh, EditMesh::FaceHandle f, const EditMesh::Corners& now) {
+    const Vec3 normal = area_normal(now);
+    const double least = facing_cosine * normal.norm();
+    return near_input_.holds(
+        now, share_ * input_.largest_tolerance(),
+        [&](std::int32_t facet) {
+            return input_.normal(facet).dot(normal) > least ? share_ * input_.tolerance(facet) : -1;
+        },
+        most_divisions, mesh.data(f).near);
+}
+
+bool InputBound::holds_points(std::span<const std::int32_t> points, std::span<const EditMesh::Corners> facets) const {
+    return std::all_of(points.begin(), points.end(), [&](std::int32_t point) {
+        const Vec3& p = input_.vertices()[point];
+        const double tolerance = share_ * input_.vertex_tolerance(point);
+        return std::any_of(facets.begin(), facets.end(),
+                           [&](const EditMesh::Corners& t) { return squared_distance(p, t) <= tolerance * tolerance; });
+    });
+}
+
+bool InputBound::accepts_star(EditMesh& mesh, EditMesh::VertexHandle v, bool is_inside, NewFacets& star) {
+    if (!keeps_turns(mesh, star)) return false;
+    star.stays.clear();
+    for (std::size_t i = 0; i < star.facets.size(); ++i)
+        star.stays.push_back(stays_in_region(mesh.data(star.facets[i]).region, star.corners[i]));
+    const bool all_stay = std::all_of(star.stays.begin(), star.stays.end(), [](char stays) { return stays != 0; });
+    if (is_inside && all_stay) return true;
+    const double tolerance = share_ * mesh.data(v).tolerance;
+    const bool holds_vertex = std::any_of(star.corners.begin(), star.corners.end(), [&](const EditMesh::Corners& t) {
+        return squared_distance(mesh.point(v), t) <= tolerance * tolerance;
+    });
+    if (!holds_vertex) return false;
+    points_.clear();
+    for (const auto f : mesh.vf_range(v)) list_points(mesh.data(f).first_point, points_);
+    list_vertex(mesh, v, points_);
+    if (!holds_points(points_, star.corners)) return false;
+    for (std::size_t i = 0; i < star.facets.size(); ++i)
+        if (star.stays[i] == 0 && !is_near_input(mesh, star.facets[i], star.corners[i])) return false;
+    return true;
+}
+
+bool InputBound::accepts_flip(EditMesh& mesh, EditMesh::EdgeHandle e, const NewFacets& pair) {
+    points_.clear();
+    for (const EditMesh::FaceHandle f : pair.facets) list_points(mesh.data(f).first_point, points_);
+    if (!holds_points(points_, pair.corners)) return false;
+    // The edge that goes must be near the new facets as well.
+    const EditMesh::VertexHandle a = mesh.from_vertex_handle(mesh.halfedge_handle(e, 0));
+    const EditMesh::VertexHandle b = mesh.to_vertex_handle(mesh.halfedge_handle(e, 0));
+    const Vec3 middle = (mesh.point(a) + mesh.point(b)) / 2;
+    const double tolerance = share_ * std::min(mesh.data(a).tolerance, mesh.data(b).tolerance);
+    if (std::min(squared_distance(middle, pair.corners[0]), squared_distance(middle, pair.corners[1])) >
+        tolerance * tolerance)
+        return false;
+    return is_near_input(mesh, pair.facets[0], pair.corners[0]) && is_near_input(mesh, pair.facets[1], pair.corners[1]);
+}
+
+bool InputBound::lies_on_line(const EditMesh& mesh, EditMesh::VertexHandle v) {
+    return std::count_if(mesh.cve_begin(v), mesh.cve_end(v),
+                         [&](EditMesh::EdgeHandle e) { return !mesh.is_flat(e); }) == 2;
+}
+
+std::optional<Vec3> InputBound::place_near(const EditMesh& mesh, EditMesh::VertexHandle v, const Vec3& wanted,
+                                           bool is_inside) const {
+    if (is_inside) {
+        const FlatRegion& flat = planes_[mesh.data(*mesh.cvf_begin(v)).region];
+        return Vec3(wanted - flat.normal.dot(wanted - mesh.point(v)) * flat.normal);
+    }
+    std::array<Vec3, 2> ends;
+    int borders = 0, features = 0;
+    for (const auto out : mesh.voh_range(v)) {
+        const EditMesh::EdgeHandle e = mesh.edge_handle(out);
+        features += mesh.data(e).is_feature ? 1 : 0;
+        if (mesh.is_flat(e)) continue;
+        if (borders < 2) ends[borders] = mesh.point(mesh.to_vertex_handle(out));
+        ++borders;
+    }
+    if (borders == 2) {  // along the line towards the end that lies in the wanted direction
+        const Vec3 &p = mesh.point(v), step = wanted - p;
+        const Vec3& end = step.dot(ends[0] - p) > step.dot(ends[1] - p) ? ends[0] : ends[1];
+        const double t = step.dot(end - p) / (end - p).squaredNorm();
+        return t > 0 ? std::optional<Vec3>(p + std::min(t, 0.5) * (end - p)) : std::nullopt;
+    }
+    if (features > 0) return std::nullopt;
+    // Any facet below will do, not only the closest one: accepts_star() decides whether the place is near enough.
+    const std::int32_t near = mesh.data(*mesh.cvf_begin(v)).near;
+    if (const std::int32_t below = near_input_.facet_below(wanted, near); below >= 0) {
+        const auto& [a, b, c] = input_.tree().corners(below);
+        const Vec3 place = closest_point(wanted, a, b, c);
+        if ((place - wanted).norm() < mesh.size(v)) return place;
+    }
+    // No further than a facet that is known to be near.
+    const double squared = input_.tree().squared_distance_to(wanted, near);
+    return squared == 0 ? wanted : input_.tree().closest(wanted, (1 + 1e-6) * squared).point;
+}
+
+void InputBound::list_vertex(const EditMesh& mesh, EditMesh::VertexHandle v, std::vector<std::int32_t>& points) const {
+    const std::int32_t number = mesh.data(v).input;
+    if (number >= 0 && next_point_[number] == unlisted) points.push_back(number);
+}
+
+void InputBound::give_points(EditMesh& mesh, std::span<const std::int32_t> points,
+                             std::span<const EditMesh::FaceHandle> facets) {
+    for (const EditMesh::FaceHandle f : facets) mesh.data(f).first_point = -1;
+    for (const std::int32_t point : points) {
+        const Vec3& p = input_.vertices()[point];
+        EditMesh::FaceHandle best = facets.front();
+        double least = std::numeric_limits<double>::infinity();
+        for (const EditMesh::FaceHandle f : facets)
+            if (const double squared = squared_distance(p, mesh.corners(f)); squared < least) {
+                least = squared;
+                best = f;
+            }
+        next_point_[point] = mesh.data(best).first_point;
+        mesh.data(best).first_point = point;
+    }
+}
+
+}  // namespace kerf

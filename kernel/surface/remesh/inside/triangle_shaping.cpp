@@ -1,0 +1,299 @@
+// First the surface is made simple, then it is given sizes, then triangles are shaped to them. Flat regions are made
+// Delaunay by Lawson's flips (Lawson 1977, lawson1977); features nearer than the bound are merged; all that the bound
+// does not need is collapsed, with a part of the tolerance only, so that room is left; then flat regions are found anew
+// and sizes found, once, because sizes read from a surface that changes would chase each other. Each pass then splits,
+// smooths, collapses and flips. An edge is long or short by its ratio to its wanted length. `split_ratio` and
+// `collapse_ratio` are so far apart that no half of an edge that is split is collapsed again. Splits take the longest
+// ratio first, but split the longest edge of its facet, and of the facet beyond, and so on (Rivara 1997), which makes
+// no needles. Refusals are remembered with the number of the last operation: a refused element is not tried again until
+// something around it has changed.
+#include "surface/remesh/inside/triangle_shaping.h"
+
+#include <algorithm>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "surface/remesh/inside/feature_merger.h"
+#include "surface/remesh/inside/fold_sizes.h"
+
+namespace kerf {
+
+namespace {
+
+// Edges over their wanted length. A half of one that is split must not be one that is collapsed.
+constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
+constexpr double least_move = 0.03;  // of the size at a vertex
+constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
+constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
+// Shares of the tolerance: early operations, and flatness, leave room for later ones.
+constexpr double share_of_merging = 0.8, share_of_simplification = 0.4, share_of_flatness = 0.2;
+// Lower bounds of the sizes that folds ask for.
+constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005;
+constexpr std::int64_t steps_between_polls = 256;
+
+// Remembers refusals: an operation that was refused is refused again as long as nothing around has changed.
+class Refusals {
+ public:
+    bool knows(int element, std::int64_t last_change) const {
+        return element < static_cast<int>(changes_.size()) && last_change <= changes_[element];
+    }
+    void note(int element, std::int64_t changes) {
+        if (element >= static_cast<int>(changes_.size())) changes_.resize(element + 1, -1);
+        changes_[element] = changes;
+    }
+    void clear() { changes_.clear(); }
+
+ private:
+    std::vector<std::int64_t> changes_;  // how many there had been, by element
+};
+
+class Shaping {
+ public:
+    Shaping(EditedSurface& surface, const RemeshOptions& options) : surface_(surface), options_(options) {}
+
+    void run() {
+        flip_flat_edges();
+        surface_.set_share(share_of_merging);
+        merge_features(surface_, [this] { poll(); });
+        surface_.set_share(share_of_simplification);
+        simplify();
+        surface_.set_share(1);
+        surface_.find_regions(share_of_flatness);
+        refused_flips_.clear();  // by another share and other numbers
+        flip_flat_edges();
+        sizes_.emplace(surface_, FoldSizeOptions{.longest = options_.longest,
+                                                 .shortest = std::max(shortest_over_deviation * options_.deviation,
+                                                                      shortest_over_longest * options_.longest),
+                                                 .thinnest = shortest_on_walls(options_),
+                                                 .growth = options_.growth,
+                                                 .edges_per_thickness = options_.edges_per_thickness,
+                                                 .wanted = options_.wanted,
+                                                 .poll = CancellationCheck(options_.poll)});
+        for (int pass = 0; pass < passes; ++pass) {
+            split_long_edges();
+            smooth();
+            collapse_short_edges();
+            flip_edges();
+        }
+        for (int pass = 0; pass < last_passes; ++pass) {
+            smooth();
+            flip_edges();
+            mend_needles();
+        }
+    }
+
+ private:
+    using Edge = EditedSurface::Edge;
+    using Vertex = EditedSurface::Vertex;
+    using HalfEdge = EditedSurface::HalfEdge;
+    const EditMesh& mesh() const { return surface_.mesh(); }
+
+    // Cheap: called for every edge or vertex.
+    void poll() {
+        if (options_.poll && ++steps_ % steps_between_polls == 0) options_.poll();
+    }
+
+    double target(Edge e) const {
+        const auto [a, b] = mesh().ends(e);
+        return std::min(std::max(mesh().data(a).asked, mesh().data(b).asked),
+                        std::min(mesh().size(a), mesh().size(b)) + options_.growth * mesh().calc_edge_length(e) / 3);
+    }
+    double ratio(Edge e) const { return mesh().calc_edge_length(e) / target(e); }
+    bool is_alive(Edge e) const { return !mesh().status(e).deleted(); }
+
+    // Lawson's flips within flat regions.
+    void flip_flat_edges() {
+        std::vector<Edge> open;
+        for (const auto e : mesh().edges()) open.push_back(e);
+        std::reverse(open.begin(), open.end());
+        legalise(open, 20 * open.size());
+    }
+
+    void legalise(std::vector<Edge>& open, std::size_t limit) {
+        for (std::size_t steps = 0; !open.empty() && steps < limit; ++steps) {
+            const Edge e = open.back();
+            open.pop_back();
+            if (!is_alive(e) || !mesh().is_flat(e) || !surface_.make_delaunay(e)) continue;
+            for (const int side : {0, 1}) {
+                const HalfEdge h = mesh().halfedge_handle(e, side);
+                open.push_back(mesh().edge_handle(mesh().next_halfedge_handle(h)));
+                open.push_back(mesh().edge_handle(mesh().prev_halfedge_handle(h)));
+            }
+        }
+        open.clear();
+    }
+
+    // Edges by length, shortest first.
+    template <class Wanted>
+    std::vector<std::pair<double, Edge>> edges_by_length(Wanted is_wanted) const {
+        std::vector<std::pair<double, Edge>> edges;
+        for (const auto e : mesh().edges())
+            if (const double length = mesh().calc_edge_length(e); is_wanted(e, length)) edges.emplace_back(length, e);
+        std::sort(edges.begin(), edges.end());
+        return edges;
+    }
+
+    std::int64_t last_change_around(Edge e) const {
+        const auto [a, b] = mesh().ends(e);
+        return std::max(mesh().last_change(a), mesh().last_change(b));
+    }
+
+    // Collapses all edges that the bound does not need.
+    void simplify() {
+        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
+        Refusals refused;
+        for (int pass = 0; pass < most_simplifications; ++pass) {
+            std::size_t collapsed = 0;
+            for (const auto& [length, e] :
+                 edges_by_length([&](Edge, double length) { return length < 0.8 * options_.longest; })) {
+                poll();
+                if (!is_alive(e) || refused.knows(e.idx(), last_change_around(e))) continue;
+                if (surface_.collapse_either_way(e, rules))
+                    ++collapsed;
+                else
+                    refused.note(e.idx(), surface_.changes());
+            }
+            flip_edges();
+            if (collapsed * 100 < mesh().n_faces()) break;
+        }
+    }
+
+    void collapse_short_edges() {
+        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .longest = split_ratio};
+        for (const auto& [length, e] : edges_by_length([&](Edge e, double) { return ratio(e) < collapse_ratio; })) {
+            poll();
+            if (!is_alive(e) || !(ratio(e) < collapse_ratio)) continue;
+            if (refused_collapses_.knows(e.idx(), last_change_around(e))) continue;
+            if (!surface_.collapse_either_way(e, rules)) refused_collapses_.note(e.idx(), surface_.changes());
+        }
+    }
+
+    void split_long_edges() {
+        struct Entry {
+            double ratio;
+            Edge edge;
+            bool operator<(const Entry& other) const {
+                return std::pair(ratio, -edge.idx()) < std::pair(other.ratio, -other.edge.idx());
+            }
+        };
+        std::priority_queue<Entry> open;
+        const auto add = [&](Edge e) {
+            if (const double r = ratio(e); r > split_ratio) open.push({r, e});
+        };
+        for (const auto e : mesh().edges()) add(e);
+        std::vector<Edge> around;
+        while (!open.empty()) {
+            poll();
+            const auto [r, wanted] = open.top();
+            open.pop();
+            if (ratio(wanted) != r) continue;
+            const Edge e = longest_around(wanted);
+            if (mesh().is_fixed(e)) continue;
+            const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
+            const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
+            WantedLength size = mesh().data(mesh().size(a) < mesh().size(b) ? a : b).wanted;
+            size.length += options_.growth * mesh().calc_edge_length(e) / 2;
+            const std::int32_t fold = mesh().data(e).fold;
+            const Vertex v = surface_.split(e, 0.5);
+            surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(v));
+            mesh().for_each_copy(v, [&](Vertex copy) {
+                for (const auto h : mesh().voh_range(copy))
+                    if (!h.is_boundary()) around.push_back(h.next().edge());
+                legalise(around, 200);
+                for (const auto h : mesh().voh_range(copy)) {
+                    add(h.edge());
+                    if (!h.is_boundary()) add(h.next().edge());
+                }
+            });
+            if (e != wanted) add(wanted);
+        }
+    }
+
+    // The end of the way over ever longer edges of facets: halves of a longest edge have no needles (Rivara 1997).
+    Edge longest_around(Edge e) const {
+        for (bool goes_on = true; goes_on;) {
+            goes_on = false;
+            const Edge start = e;
+            mesh().for_each_copy(start, [&](Edge copy) {
+                for (const int side : {0, 1}) {
+                    const HalfEdge h = mesh().halfedge_handle(copy, side);
+                    if (goes_on || mesh().is_boundary(h)) continue;
+                    for (const Edge other : {mesh().edge_handle(mesh().next_halfedge_handle(h)),
+                                             mesh().edge_handle(mesh().prev_halfedge_handle(h))})
+                        if (mesh().calc_edge_length(other) > mesh().calc_edge_length(e) * (1 + 1e-9)) {
+                            e = other;
+                            goes_on = true;
+                        }
+                }
+            });
+        }
+        return e;
+    }
+
+    void flip_edges() {
+        for (int pass = 0; pass < flips; ++pass) {
+            std::size_t flipped = 0;
+            for (const auto e : mesh().edges()) {
+                poll();
+                if (refused_flips_.knows(e.idx(), mesh().last_change(e))) continue;
+                if (surface_.flip(e))
+                    ++flipped;
+                else
+                    refused_flips_.note(e.idx(), surface_.changes());
+            }
+            if (flipped * 500 < mesh().n_edges()) break;
+        }
+    }
+
+    // Moves vertices towards the centres of the facets around, weighted by area over squared wanted size.
+    void smooth() {
+        for (int pass = 0; pass < smoothings; ++pass)
+            for (const auto v : mesh().vertices()) {
+                poll();
+                if (!mesh().is_first_copy(v) || refused_moves_.knows(v.idx(), mesh().last_change(v))) continue;
+                Vec3 sum = Vec3::Zero();
+                double weights = 0;
+                mesh().for_each_copy(v, [&](Vertex copy) {
+                    for (const auto h : mesh().voh_range(copy)) {
+                        if (h.is_boundary()) continue;
+                        const Vec3 &b = mesh().point(h.to()), &c = mesh().point(h.next().to());
+                        const Vec3 centre = (mesh().point(v) + b + c) / 3;
+                        const double area = (b - mesh().point(v)).cross(c - mesh().point(v)).norm();
+                        const double size = (mesh().size(v) + mesh().size(h.to()) + mesh().size(h.next().to())) / 3;
+                        const double weight = area / (size * size);
+                        sum += weight * centre;
+                        weights += weight;
+                    }
+                });
+                if (weights > 0 && (sum / weights - mesh().point(v)).norm() > least_move * mesh().size(v))
+                    if (surface_.move(v, sum / weights)) continue;
+                refused_moves_.note(v.idx(), surface_.changes());
+            }
+    }
+
+    // Collapses the shortest edges of facets that are still needles.
+    void mend_needles() {
+        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_10};
+        for (const auto f : mesh().faces()) {
+            if (mesh().status(f).deleted() || mesh().sine(f) > sine_of_20) continue;
+            HalfEdge shortest = mesh().halfedge_handle(f);
+            for (const auto h : mesh().fh_range(f))
+                if (mesh().calc_edge_length(h) < mesh().calc_edge_length(shortest)) shortest = h;
+            surface_.collapse_either_way(mesh().edge_handle(shortest), rules);
+        }
+    }
+
+    EditedSurface& surface_;
+    const RemeshOptions& options_;
+    std::optional<FoldSizes> sizes_;
+    std::int64_t steps_ = 0;
+    Refusals refused_moves_, refused_flips_, refused_collapses_;
+};
+
+}  // namespace
+
+void shape_triangles(EditedSurface& surface, const RemeshOptions& options) { Shaping(surface, options).run(); }
+
+}  // namespace kerf

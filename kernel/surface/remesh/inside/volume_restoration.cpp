@@ -1,0 +1,149 @@
+// The facets of the result are compared with the input over them: rays along the normal from four points of a facet
+// give its mean height (`rise`), and a facet whose heights all vanish is planar (`plane`). Neighbours of one patch that
+// go on smoothly, both planar in one plane or both not, form a face, and balance_volumes()
+// (surface/complex/volume_balance.h) moves vertices off these faces. Facets of the input are approximations, too, and
+// lie partly above and partly below those of the result, so the factors of the moves may be large and negative
+// (`range_of_heights`). If that fails, all vertices rise by the same height, times a factor from -1 to 2, and planar
+// faces that end smoothly, as the strips of a cylinder do, count as curved.
+#include "surface/remesh/inside/volume_restoration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "base/geometry/box.h"
+#include "base/geometry/triangle.h"
+#include "base/geometry/union_find.h"
+#include "surface/complex/volume_balance.h"
+#include "surface/soup/edge_corners.h"
+
+namespace kerf {
+
+namespace {
+
+constexpr double smooth_cosine = std::numbers::sqrt3 / 2;  // of the normals of neighbours on one face: 30 degrees
+constexpr double coplanar_cosine = 1 - 1e-9;
+constexpr double facing_cosine_of_input = 0.3;  // of a facet's normal and that of the input over it
+// Factors of the heights of the input. Facets that follow facets are partly above and partly below them: the volume
+// missed in all may be far more, or less, than the mean of a few.
+constexpr ScaleRange range_of_heights = {-4, 6};
+constexpr double flat_share_of_diagonal = 1e-8;
+
+std::vector<FacetSides> sides_of_facets(const SurfaceArrays& surface, const std::vector<FacetSides>& sides) {
+    std::vector<FacetSides> of_facets;
+    if (sides.empty()) return of_facets;
+    for (const std::int32_t patch : surface.patch) of_facets.push_back(sides[static_cast<std::size_t>(patch)]);
+    return of_facets;
+}
+
+std::vector<double> volumes_of(const SurfaceArrays& surface, const std::vector<FacetSides>& sides) {
+    std::int32_t regions = 1;
+    for (const FacetSides& s : sides) regions = std::max({regions, s.front + 1, s.back + 1});
+    const std::vector<FacetSides> of_facets = sides_of_facets(surface, sides);
+    return region_volumes(surface.vertices, {surface.facets, {}, {}, {}, of_facets}, static_cast<std::size_t>(regions));
+}
+
+// The facets of a result with their faces, planes and heights as the input over them tells.
+class FacesOfInput {
+ public:
+    FacesOfInput(const SurfaceArrays& input, const TriangleTree& tree, double deviation, const SurfaceArrays& result)
+        : result_(result), tree_(tree), deviation_(deviation) {
+        for (const Triangle& t : input.facets) input_normal_.push_back(area_vector(input.vertices, t).normalized());
+        const double flat = flat_share_of_diagonal * box_around(input.vertices).diagonal().norm();
+        for (std::size_t f = 0; f < result.facets.size(); ++f) {
+            normal_.push_back(area_vector(result.vertices, result.facets[f]).normalized());
+            const Heights heights = heights_over(f);
+            plane_.push_back(heights.largest <= flat ? normal_.back() : Vec3::Zero());
+            rise_.push_back(heights.mean);
+        }
+        find_faces();
+    }
+
+    FacetsOfFaces facets(const std::vector<FacetSides>& sides) const {
+        return {result_.facets, face_, plane_, rise_, sides};
+    }
+
+    /// Flat faces that go on smoothly, as the strips of a cylinder do, need not stay flat; all that may move rises by
+    /// the same.
+    void let_rise_evenly(double height) {
+        for (std::size_t f = 0; f < face_.size(); ++f)
+            if (goes_on_[face_[f]] != 0) plane_[f].setZero();
+        std::fill(rise_.begin(), rise_.end(), height);
+    }
+
+ private:
+    struct Heights {
+        double mean = 0, largest = 0;
+    };
+    Heights heights_over(std::size_t f) const {
+        const Triangle& t = result_.facets[f];
+        const Vec3 &a = result_.vertices[t[0]], &b = result_.vertices[t[1]], &c = result_.vertices[t[2]];
+        const Vec3 centre = (a + b + c) / 3;
+        Heights heights;
+        for (const Vec3& p : {centre, Vec3((centre + a) / 2), Vec3((centre + b) / 2), Vec3((centre + c) / 2)}) {
+            const double height = height_at(p, normal_[f]);
+            heights.mean += height / 4;
+            heights.largest = std::max(heights.largest, std::abs(height));
+        }
+        return heights;
+    }
+    // Returns the height of the input over a point; 0 if none of it is near.
+    double height_at(const Vec3& p, const Vec3& normal) const {
+        const double reach = 2 * deviation_;
+        const auto faces = [&](std::int32_t g) { return input_normal_[g].dot(normal) > facing_cosine_of_input; };
+        const double up = tree_.first_hit(p, normal, 0, reach, faces);
+        const double down = tree_.first_hit(p, -normal, 0, std::min(up, reach), faces);
+        return down < up ? -down : std::isfinite(up) ? up : 0;
+    }
+    // Neighbours of one patch that go on smoothly, both flat or both not.
+    void find_faces() {
+        UnionFind joined(result_.facets.size());
+        std::vector<std::int32_t> that_go_on;
+        EdgeCorners(result_.facets).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
+            if (corners.size() != 2) return;
+            const std::int32_t f = corners[0].corner / 3, g = corners[1].corner / 3;
+            const double cosine = normal_[f].dot(normal_[g]);
+            if (result_.patch[f] != result_.patch[g] || cosine < smooth_cosine) return;
+            const bool is_flat = plane_[f] != Vec3::Zero(), other_is_flat = plane_[g] != Vec3::Zero();
+            if (is_flat == other_is_flat && (!is_flat || cosine >= coplanar_cosine))
+                joined.join(f, g);
+            else
+                that_go_on.insert(that_go_on.end(), {f, g});
+        });
+        for (std::int32_t f = 0; f < std::ssize(result_.facets); ++f) face_.push_back(joined.root(f));
+        goes_on_.resize(face_.size(), 0);
+        for (const std::int32_t f : that_go_on) goes_on_[face_[f]] = 1;
+    }
+
+    const SurfaceArrays& result_;
+    const TriangleTree& tree_;
+    double deviation_;
+    std::vector<Vec3> input_normal_, normal_, plane_;
+    std::vector<double> rise_;
+    std::vector<std::int32_t> face_;
+    std::vector<char> goes_on_;  // of a face: whether it ends smoothly somewhere
+};
+
+}  // namespace
+
+double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result,
+                         const std::vector<FacetSides>& sides) {
+    const std::vector<double> wanted = volumes_of(input, sides), now = volumes_of(result, sides);
+    double largest = 0;
+    for (std::size_t r = 0; r < wanted.size(); ++r)
+        largest = std::max(largest, std::abs(now[r] - wanted[r]) / std::abs(wanted[r]));
+    return largest;
+}
+
+bool restore_volumes(const SurfaceArrays& input, const TriangleTree& tree, const std::vector<FacetSides>& sides,
+                     double deviation, const std::vector<char>& is_fixed, SurfaceArrays& result) {
+    FacesOfInput faces(input, tree, deviation, result);
+    const std::vector<FacetSides> of_facets = sides_of_facets(result, sides);
+    const std::vector<double> volumes = volumes_of(input, sides);
+    if (balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, range_of_heights)) return true;
+    faces.let_rise_evenly(deviation);
+    return balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, {-1, 2});
+}
+
+}  // namespace kerf

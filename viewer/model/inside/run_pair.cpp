@@ -1,0 +1,98 @@
+#include "viewer/model/inside/run_pair.h"
+
+#include <algorithm>
+
+#include "viewer/model/inside/saved_copy.h"
+#include "viewer/model/inside/tree_source.h"
+
+namespace kerf::view {
+
+bool RunPair::can_swap() const {
+    return pair_.other && !follower_.is_following() && background_.repair.jobs == 0 && background_.redo.jobs == 0 &&
+           background_.open.jobs == 0 && now_.cuts_again.empty();
+}
+
+void RunPair::swap() {
+    if (!can_swap()) return;
+    fetched_.restart();
+    background_.forget_failures();
+    pair_.swap();
+    fetched_.prefetch_surfaces();
+}
+
+// A cut that was made again is in no folder.
+bool RunPair::can_save() const {
+    const Document& document = now_.document;
+    if (!now_.scratch || follower_.is_following() || background_.open.jobs > 0) return false;
+    if (document.folder != now_.scratch->file("run") || !document.saved_as.empty()) return false;
+    const std::vector<NodeId> parts = document.tree.parts_below(1);
+    return std::all_of(parts.begin(), parts.end(), [&](NodeId part) { return now_.folder_parts.contains(part); });
+}
+
+void RunPair::save(const std::string& path) {
+    if (!can_save()) return;
+    background_.forget_failures();
+    const auto copy = [this, folder = now_.document.folder, path, kept = now_.scratch]() -> Loader::Completion {
+        const std::string place = copy_run(folder, kept->file("run.trace"), path);
+        return [this, folder, place] {
+            if (now_.document.folder == folder) now_.document.saved_as = place;
+            if (pair_.other && pair_.other->document.folder == folder) pair_.other->document.saved_as = place;
+        };
+    };
+    background_.post(background_.open, copy);
+}
+
+void RunPair::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
+    background_.forget_failures();
+    if (!now_.replayer || !now_.document.tree.find(node)) {
+        background_.note_failure("A cut can be made again where a trace of the run is open.");
+        return;
+    }
+    now_.cuts_again.push_back({node, options, plane});
+    start_redo();
+}
+
+// Cuts are made one after the other, because each changes the trace.
+void RunPair::start_redo() {
+    if (background_.redo.jobs > 0 || now_.cuts_again.empty()) return;
+    const CutAgain cut = std::move(now_.cuts_again.front());
+    now_.cuts_again.pop_front();
+    const auto work = [this, replayer = now_.replayer, cut]() -> Loader::Completion {
+        return [this, node = cut.node, redone = view::redo_cut(*replayer, cut.node, cut.options, cut.plane)] {
+            take_redone(node, redone);
+        };
+    };
+    background_.post(background_.redo, work, [this](const Error& error) {
+        background_.note_failure(error);
+        start_redo();
+    });
+}
+
+void RunPair::take_redone(NodeId node, const RedoneCut& redone) {
+    Document& document = now_.document;
+    pair_.set_aside(document);
+    now_.store.share(pair_.other->store);
+    document.histograms = {};
+    document.cut_seconds = document.mesh_seconds = -1;
+    document.progress.message.clear();
+    document.saved_as.clear();
+    const auto is_gone = [&](NodeId id) { return id != node && lies_below(id, node); };
+    std::erase_if(document.tree.rows, [&](const TreeRow& row) { return is_gone(row.id); });
+    for (TreeRow row : redone.rows) {
+        if (row.id == node && document.tree.find(node)) row.load = document.tree.find(node)->load;
+        document.tree.at(row.id) = row;
+    }
+    count_leaves(document.tree);
+    std::erase_if(now_.folder_parts, [&](NodeId id) { return lies_below(id, node); });
+    now_.store.erase_if([&](const Store::Key& key) {
+        return key.kind == Store::Kind::worst_cells || key.kind == Store::Kind::on_surface ||
+               (key.node > 0 && lies_below(key.node, node));
+    });
+    fetched_.restart();
+    now_.replayer = redone.replayer;
+    document.trace = redone.replayer->trace();
+    fetched_.prefetch_surfaces();
+    start_redo();
+}
+
+}  // namespace kerf::view
