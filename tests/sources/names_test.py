@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-FOLDERS = ("kernel", "cli", "help", "viewer", "python")
+FOLDERS = ("kernel", "solve", "cli", "help", "viewer", "python")
 # They belong to libraries: what is declared in them is called as the library wants it.
 FOREIGN = ("std", "CLI")
 
