@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What the pages say without being run: links and pictures lead somewhere, options and commands in the text exist, the
-README is short and leads to every page, the pages are few and short, and computed columns are right.
+README is short and leads to every page, the pages are few and short, computed columns are right, and files, classes and
+functions that the READMEs of the house and its wings name are there.
 
 pages_test.py SOURCE KERF
 """
@@ -12,6 +13,9 @@ import sys
 
 WORDS_OF_README = 900
 PAGES, WORDS_OF_PAGES = 10, 9000  # of docs, blocks and tables included
+WORDS_OF_HOUSE, WORDS_OF_WING = 1500, 850
+SOURCES = ["kernel", "solve", "viewer", "help", "cli", "python"]
+OF_OTHERS = {"mpi.h", "tetgen.h", "xxhash.h"}  # headers of libraries
 
 OPTIONS_OF_OTHERS = {  # as the text has them
     "--bind-to": "mpirun",
@@ -25,8 +29,9 @@ OPTIONS_OF_OTHERS = {  # as the text has them
 class Pages:
     def __init__(self, source):
         self.source = source
-        paths = [*source.glob("*.md"), *source.glob("docs/**/*.md"), source / "kernel/README.md",
-                 source / "assets/README.md"]
+        self.wings = sorted([*source.glob("kernel/*/README.md"), source / "solve/README.md", source / "viewer/README.md"])
+        self.house = source / "kernel/README.md"
+        paths = [*source.glob("*.md"), *source.glob("docs/**/*.md"), source / "assets/README.md", self.house, *self.wings]
         self.texts = {path: path.read_text() for path in sorted(paths)}
 
     def prose(self, path):
@@ -153,11 +158,32 @@ def check_scripts(pages):
             yield done.stderr
 
 
+def check_house(pages):
+    """Short pages, and what they name is there."""
+    for path in [pages.house, *pages.wings]:
+        words, limit = len(pages.texts[path].split()), WORDS_OF_HOUSE if path == pages.house else WORDS_OF_WING
+        if words > limit:
+            yield f"{pages.name(path)} has {words} words; {limit} are the limit"
+    code = "\n".join(file.read_text() for folder in SOURCES for file in sorted((pages.source / folder).rglob("*.[ch]*")))
+    words_of_code = set(re.findall(r"\w+", code))
+    for path in [pages.house, *pages.wings]:
+        for span in code_spans(pages, path):
+            if "NAME" in span or span in OF_OTHERS:
+                continue
+            if re.fullmatch(r"[\w/]+\.(h|cpp|bib|txt)|[a-z]\w*(/[a-z]\w*)+", span):
+                if not any((folder / span).exists() for folder in (path.parent, pages.source / "kernel", pages.source)):
+                    yield f"{pages.name(path)}: there is no file `{span}`"
+            elif re.fullmatch(r"[\w:]+(\(\))?", span):
+                for name in re.findall(r"\w+", span):
+                    if name not in words_of_code and not (pages.source / "kernel" / name).exists():
+                        yield f"{pages.name(path)}: no source has the name `{span}`"
+
+
 def main():
     source, kerf = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     pages = Pages(source)
     wrong = [*check_links(pages), *check_front(pages), *check_words(pages, kerf), *check_efficiency(pages),
-             *check_versions(pages, kerf), *check_scripts(pages)]
+             *check_versions(pages, kerf), *check_scripts(pages), *check_house(pages)]
     if wrong:
         sys.exit("\n".join(wrong))
     print(f"{len(pages.texts)} pages")
