@@ -2,7 +2,9 @@
 // indexed once, by a counting sort over all sides; its surface is extracted on demand, with the facets turned that have
 // r in front, so that both sides of a wall have the same keys. A region is closed if at every edge it has as many
 // facets that run along the edge one way as the other; `excess` is the difference. The single region is a special case:
-// it is kept as a Surface, without pairs and names, and all other members are empty then (`names_.empty()`).
+// it is kept as a Surface, without pairs and names, and all other members are empty then (`names_.empty()`). Contacts
+// are edges of more than two outer facets, and vertices whose outer corners, joined over edges of two, are several
+// fans.
 #include "surface/complex/complex.h"
 
 #include <algorithm>
@@ -14,6 +16,7 @@
 #include "base/core/check.h"
 #include "base/core/error.h"
 #include "base/core/number_text.h"
+#include "base/geometry/union_find.h"
 #include "surface/complex/touching.h"
 #include "surface/soup/edge_corners.h"
 
@@ -80,7 +83,48 @@ void check_closed(const SurfaceArrays& facets, const std::vector<FacetSides>& si
     });
 }
 
+std::array<Key, 2> edge_of(Key a, Key b) { return {std::min(a, b), std::max(a, b)}; }
+
+template <class T>
+void sort_unique(std::vector<T>& items) {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+// The corner of a facet at its vertex where this corner, an edge, ends.
+std::int32_t corner_at_end(std::int32_t corner) { return next_corner(corner); }
+
 }  // namespace
+
+bool Contacts::has(Key vertex) const { return std::binary_search(vertices.begin(), vertices.end(), vertex); }
+bool Contacts::has(Key a, Key b) const { return std::binary_search(edges.begin(), edges.end(), edge_of(a, b)); }
+
+Contacts find_contacts(const std::vector<Triangle>& outer, std::span<const Key> key) {
+    Contacts contacts;
+    UnionFind fans(3 * outer.size());  // of corners at their vertices
+    EdgeCorners(outer).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
+        if (corners.size() > 2) {
+            const Key a = key[low], b = key[corners.front().high];
+            contacts.edges.push_back(edge_of(a, b));
+            contacts.vertices.insert(contacts.vertices.end(), {a, b});
+        } else if (corners.size() == 2) {
+            const std::int32_t c = corners[0].corner, d = corners[1].corner;
+            const bool same_start = start_vertex(outer, c) == start_vertex(outer, d);
+            fans.join(c, same_start ? d : corner_at_end(d));
+            fans.join(corner_at_end(c), same_start ? corner_at_end(d) : d);
+        }
+    });
+    std::vector<std::int32_t> fan_of_vertex(key.size(), -1);
+    for (std::int32_t corner = 0; corner < 3 * static_cast<std::int32_t>(outer.size()); ++corner) {
+        std::int32_t& fan = fan_of_vertex[start_vertex(outer, corner)];
+        const std::int32_t own = fans.root(corner);
+        if (fan < 0) fan = own;
+        if (fan != own) contacts.vertices.push_back(key[start_vertex(outer, corner)]);
+    }
+    sort_unique(contacts.vertices);
+    sort_unique(contacts.edges);
+    return contacts;
+}
 
 Complex::Complex(Surface surface) : only_(std::move(surface)) {}
 
@@ -165,8 +209,7 @@ SurfaceArrays Complex::arrays_of(RegionIndex region) const {
         own.patch.push_back(facets_.patch[*it]);
         used.insert(used.end(), t.begin(), t.end());
     }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    sort_unique(used);
     for (const std::int32_t v : used) {
         own.vertices.push_back(facets_.vertices[v]);
         own.vertex_key.push_back(facets_.vertex_key[v]);

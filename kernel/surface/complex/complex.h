@@ -1,16 +1,32 @@
 // Closed bodies that share walls: the input of the decomposition.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/core/ids.h"
-#include "surface/complex/inside/contacts.h"
+#include "base/core/types.h"
 #include "surface/complex/surface.h"
 #include "surface/soup/facet_sides.h"
 
 namespace kerf {
+
+/// Vertices and edges at which bodies may touch without a common facet: several wedges of the outside meet there.
+/// Ascending, each once.
+struct Contacts {
+    std::vector<Key> vertices;              ///< include the ends of `edges`
+    std::vector<std::array<Key, 2>> edges;  ///< the smaller key first
+
+    bool empty() const { return vertices.empty(); }
+    bool has(Key vertex) const;
+    bool has(Key a, Key b) const;
+};
+
+/// Finds the edges at which more than two facets of `outer` meet, and the vertices at which they form several fans.
+/// `outer` holds the facets that have the outside on one side, `key` the key of each vertex (#V). O(#V + #F).
+Contacts find_contacts(const std::vector<Triangle>& outer, std::span<const Key> key);
 
 /// Facets that bound one body or several, the regions, each facet once. A facet between two regions is a wall of both.
 /// Normals point from the back of a facet to its front: out of the region behind it. Keys of vertices and facets have
