@@ -1,4 +1,4 @@
-// A size field is the minimum of a constant and of sources (sized_shapes.h, sized_triangles.h, background_sizes.h),
+// A size field is the minimum of a constant and of sources (solids, sized_triangles.h, background_sizes.h),
 // each of which has its size where it lies and grows with the distance. The running minimum is handed from source to
 // source as a `bound`, so that trees are searched only for less than is known already. The constant is kept as the
 // volume that was given, with its edge beside it: where no source is smaller the volume comes back to the last bit.
