@@ -1,4 +1,4 @@
-// Rounds around the remeshing proper (triangle_shaping.h), until the whole passes inspection.h. A round whose result is
+// Rounds around the remeshing proper (triangle_shaping.h), until the whole passes inspect(). A round whose result is
 // refused at some facets is followed by one with a quarter of their tolerances; after `most_rounds` of these the
 // refused facets, with all around them, are kept as they are; when that does not help either, the surface is refused.
 // Operations get only `used_share` of the deviation, as the rest is for points between those that are compared. After a
@@ -14,12 +14,14 @@
 
 #include <fmt/format.h>
 
+#include "base/core/cancellation.h"
 #include "base/core/error.h"
 #include "base/geometry/triangle.h"
 #include "surface/complex/touching.h"
+#include "surface/diagnosis/intersections.h"
+#include "surface/diagnosis/nearness.h"
 #include "surface/remesh/inside/edited_surface.h"
 #include "surface/remesh/inside/fold_sizes.h"
-#include "surface/remesh/inside/inspection.h"
 #include "surface/remesh/inside/triangle_shaping.h"
 #include "surface/remesh/inside/volume_restoration.h"
 #include "surface/remesh/thickness.h"
@@ -40,6 +42,11 @@ constexpr int most_rounds_for_volume = 2;                // with smaller toleran
 constexpr double smaller_for_volume = 0.5;
 
 constexpr double most_facets_on_walls = 1.5e6;
+
+constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
+// The divisions allowed for one facet in the proof: it may be near all of the other surface, along whose facets it is
+// divided.
+constexpr int least_divisions = 100'000, divisions_per_facet = 16;
 
 std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
     std::vector<InputPlace> places;
@@ -89,6 +96,75 @@ Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const Toler
     const EditMesh& mesh = edited.mesh();
     const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer = finer_shares(mesh)};
     return {with_seams_joined(edited.arrays()), {}, report};
+}
+
+// Calls visit(point) for the points of a lattice in the facet that divides each of its edges in six.
+template <class Visit>
+void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit visit) {
+    constexpr int samples_per_edge = 6;
+    for (int i = 0; i <= samples_per_edge; ++i)
+        for (int j = 0; i + j <= samples_per_edge; ++j)
+            visit(Vec3((i * vertices[t[0]] + j * vertices[t[1]] + (samples_per_edge - i - j) * vertices[t[2]]) /
+                       samples_per_edge));
+}
+
+int divisions_for(std::size_t facets) {
+    return static_cast<int>(std::min<std::size_t>(least_divisions + divisions_per_facet * facets, 1 << 30));
+}
+
+// One of the surfaces, with the bounds within which the facets of the other are known to be near.
+struct Side {
+    Nearness nearness;
+    int most_divisions;
+    double bound;            // that does for all so far
+    std::int32_t last = -1;  // facet of this side that the last one is near
+
+    Side(const TriangleTree& tree, const std::vector<Triangle>& facets, double deviation)
+        : nearness(tree, facets), most_divisions(divisions_for(facets.size())), bound(first_bound * deviation) {}
+};
+
+bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, const RemeshOptions& options, Side& side) {
+    const auto holds = [&] {
+        return side.nearness.holds(
+            {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, side.bound, [&](std::int32_t) { return side.bound; },
+            side.most_divisions, side.last);
+    };
+    for (; !holds(); side.bound = std::min(options.deviation, step_of_bound * side.bound))
+        if (side.bound == options.deviation) return false;
+    return true;
+}
+
+// Compares a result with the input: finds facets that meet, and points too far from the other surface. Returns for
+// each facet of the input whether the result is refused there, and puts the distances into the report. `input_tree` is
+// of the facets of `input`. O(#F log #F).
+std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& input_tree, const RemeshOptions& options,
+                          const SurfaceArrays& result, RemeshReport& report) {
+    std::vector<char> refused(input.facets.size(), 0);
+    const auto refuse_around = [&](const Vec3& p) {
+        input_tree.any_within(p, options.deviation, [&](std::int32_t near, double) {
+            refused[near] = 1;
+            return false;
+        });
+    };
+    for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
+        for (const std::int32_t facet : {f, g}) for_each_sample(result.vertices, result.facets[facet], refuse_around);
+    const CancellationCheck poll(options.poll);
+    Side to_input(input_tree, input.facets, options.deviation);
+    for (std::size_t f = 0; f < result.facets.size(); ++f) {
+        poll.at(f);
+        const Triangle& t = result.facets[f];
+        if (!is_near(result.vertices, t, options, to_input))
+            for_each_sample(result.vertices, t, [&](const Vec3& p) { refused[input_tree.closest(p).facet] = 1; });
+    }
+    const TriangleTree tree(result.vertices, result.facets);
+    Side from_input(tree, result.facets, options.deviation);
+    for (std::size_t f = 0; f < input.facets.size(); ++f) {
+        poll.at(f);
+        if (!is_near(input.vertices, input.facets[f], options, from_input)) refused[f] = 1;
+    }
+    report.distance_to_input = to_input.nearness.directed_distance();
+    report.distance_from_input = from_input.nearness.directed_distance();
+    return refused;
 }
 
 void afford_walls(const SurfaceArrays& surface, const TriangleTree& tree, RemeshOptions& options) {
