@@ -60,7 +60,7 @@ std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<V
 
 // Returns the shares of the area in which some corner has a smaller size than the user asks for there; the corner with
 // the smallest ratio gives the reason.
-FinerShares finer_shares(const EditMesh& mesh) {
+FinerShares finer_shares(const SheetMesh& mesh) {
     std::array<double, 4> finer{};
     double all = 0;
     for (const auto f : mesh.faces()) {
@@ -93,7 +93,7 @@ Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const Toler
     const InputShape input(sheets, tree, tolerances, options.feature_angle_deg, options.creases, options.walls);
     EditedSurface edited(input, options.kept);
     shape_triangles(edited, options);
-    const EditMesh& mesh = edited.mesh();
+    const SheetMesh& mesh = edited.mesh();
     const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer = finer_shares(mesh)};
     return {with_seams_joined(edited.arrays()), {}, report};
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double good_move_sine = 0.57;  // of 35 degrees: triangles may get worse down to this
 
-double sine_of(const EditMesh::Corners& t) { return smallest_sine(t[0], t[1], t[2]); }
+double sine_of(const SheetMesh::Corners& t) { return smallest_sine(t[0], t[1], t[2]); }
 
 }  // namespace
 
@@ -153,7 +153,7 @@ bool EditedSurface::may_collapse(HalfEdge h, const CollapseRules& rules, NewFace
         star.corners.push_back({target, mesh_.point(b), mesh_.point(c)});
     }
     const double least = std::min(rules.good_sine, rules.worst_share * worst);
-    for (const EditMesh::Corners& t : star.corners)
+    for (const SheetMesh::Corners& t : star.corners)
         if (sine_of(t) < least) return false;
     return !joins_what_is_apart(h) && bound_.accepts_star(mesh_, v, mesh_.is_inside_region(v), star);
 }
@@ -249,7 +249,7 @@ EditedSurface::Vertex EditedSurface::split(Edge e, double t) {
 EditedSurface::Vertex EditedSurface::split_in_sheet(HalfEdge h, const Vec3& place) {
     struct Side {
         Vertex apex;
-        std::remove_cvref_t<decltype(std::declval<const EditMesh&>().data(Facet()))> data;
+        std::remove_cvref_t<decltype(std::declval<const SheetMesh&>().data(Facet()))> data;
     };
     const Edge e = mesh_.edge_handle(h);
     const auto ends = mesh_.ends(e);
@@ -307,7 +307,7 @@ bool EditedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, NewFac
                                 mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(out)))});
     }
     const double least = std::min(worst, good_move_sine);
-    for (const EditMesh::Corners& t : star.corners)
+    for (const SheetMesh::Corners& t : star.corners)
         if (sine_of(t) < least) return false;
     return bound_.accepts_star(mesh_, v, is_inside, star);
 }

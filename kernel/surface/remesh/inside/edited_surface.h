@@ -14,16 +14,16 @@ namespace kerf {
 /// worst triangle worse. An operation on a seam changes all its sheets, if each of them allows it.
 class EditedSurface {
  public:
-    using Vertex = EditMesh::VertexHandle;
-    using Edge = EditMesh::EdgeHandle;
-    using HalfEdge = EditMesh::HalfedgeHandle;
-    using Facet = EditMesh::FaceHandle;
+    using Vertex = SheetMesh::VertexHandle;
+    using Edge = SheetMesh::EdgeHandle;
+    using HalfEdge = SheetMesh::HalfedgeHandle;
+    using Facet = SheetMesh::FaceHandle;
 
     /// Keeps the reference to the input. `kept` (#F of the input) marks facets that no operation may change; empty:
     /// none.
     explicit EditedSurface(const InputShape& input, const std::vector<char>& kept = {});
 
-    const EditMesh& mesh() const { return mesh_; }
+    const SheetMesh& mesh() const { return mesh_; }
     const InputShape& input() const { return bound_.input(); }
     /// Sets the sizes of all copies of a vertex. `asked` is the size that the user wants, whatever the shape needs.
     void set_size(Vertex v, const WantedLength& wanted, double asked) {
@@ -81,7 +81,7 @@ class EditedSurface {
     bool take_flip(Edge e, bool is_exact_only);
 
     InputBound bound_;
-    EditMesh mesh_;
+    SheetMesh mesh_;
     std::int64_t changes_ = 0;
     // Scratch; stars_ has a star for each sheet.
     std::vector<std::int32_t> points_;

@@ -27,7 +27,7 @@ constexpr double well_shaped_sine = 0.5;  // of 30 degrees
 constexpr double straight_share = 0.2;    // of the tolerance: how far from a straight line its vertices may be
 
 // Returns the height of the facet of a half-edge over that.
-double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
+double height_over(const SheetMesh& mesh, EditedSurface::HalfEdge h) {
     const Vec3& a = mesh.point(mesh.from_vertex_handle(h));
     const Vec3 edge = mesh.point(mesh.to_vertex_handle(h)) - a;
     return edge.cross(mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h))) - a).norm() / edge.norm();
@@ -35,7 +35,7 @@ double height_over(const EditMesh& mesh, EditedSurface::HalfEdge h) {
 
 // Returns the longest length for edges across a fold: a chord of the circle through the facets beside it, of that
 // length, stays within the tolerance. Infinite where nothing is folded, 0 at features.
-double chord_over(const EditMesh& mesh, EditedSurface::Edge e) {
+double chord_over(const SheetMesh& mesh, EditedSurface::Edge e) {
     if (mesh.data(e).is_feature) return 0;
     const double angle = mesh.is_flat(e) ? 0 : angle_of_cosine(mesh.fold_cosine(e));
     if (angle == 0) return infinite;
@@ -47,7 +47,7 @@ double chord_over(const EditMesh& mesh, EditedSurface::Edge e) {
 }
 
 // The longest edge around a vertex if all facets there are as they should be, 0 otherwise.
-double well_shaped_length(const EditMesh& mesh, EditedSurface::Vertex v) {
+double well_shaped_length(const SheetMesh& mesh, EditedSurface::Vertex v) {
     double longest = 0;
     for (const auto out : mesh.voh_range(v)) {
         if (!out.is_boundary() && mesh.sine(out.face()) < well_shaped_sine) return 0;
@@ -56,13 +56,13 @@ double well_shaped_length(const EditMesh& mesh, EditedSurface::Vertex v) {
     return longest;
 }
 
-double mean_length(const EditMesh& mesh, EditedSurface::Vertex v) {
+double mean_length(const SheetMesh& mesh, EditedSurface::Vertex v) {
     double sum = 0;
     for (const auto e : mesh.ve_range(v)) sum += mesh.calc_edge_length(e);
     return sum / mesh.valence(v);
 }
 
-Vec3 vertex_normal(const EditMesh& mesh, EditedSurface::Vertex v) {
+Vec3 vertex_normal(const SheetMesh& mesh, EditedSurface::Vertex v) {
     Vec3 sum = Vec3::Zero();
     for (const auto h : mesh.voh_range(v))
         if (!h.is_boundary())
@@ -76,7 +76,7 @@ LengthRule rule_of(double chord, double other_chord) {
 }
 
 // Dijkstra's way from small to large.
-void limit_growth(const EditMesh& mesh, double growth, std::vector<WantedLength>& sizes) {
+void limit_growth(const SheetMesh& mesh, double growth, std::vector<WantedLength>& sizes) {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     for (const auto v : mesh.vertices()) open.push({sizes[v.idx()].length, v.idx()});
@@ -100,7 +100,7 @@ void limit_growth(const EditMesh& mesh, double growth, std::vector<WantedLength>
 
 FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : surface_(surface), options_(options) {
     find_folds(surface);
-    const EditMesh& mesh = surface.mesh();
+    const SheetMesh& mesh = surface.mesh();
     std::vector<WantedLength> sizes(mesh.n_vertices(), {options.longest, LengthRule::asked});
     for (const auto e : mesh.edges())
         if (const std::int32_t fold = mesh.data(e).fold; fold >= 0)
@@ -122,7 +122,7 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
 }
 
 double FoldSizes::asked(EditedSurface::Vertex v) const {
-    const EditMesh& mesh = surface_.mesh();
+    const SheetMesh& mesh = surface_.mesh();
     double least = options_.longest;
     if (!options_.wanted) return least;
     mesh.for_each_copy(v, [&](EditedSurface::Vertex copy) {
@@ -151,7 +151,7 @@ void FoldSizes::find_folds(EditedSurface& surface) {
 
 // Returns the length of an edge with those that go on from its ends as features in the same direction.
 double FoldSizes::straight_length(EditedSurface::Edge e) const {
-    const EditMesh& mesh = surface_.mesh();
+    const SheetMesh& mesh = surface_.mesh();
     double length = mesh.calc_edge_length(e);
     if (!mesh.data(e).is_feature) return length;
     for (const int side : {0, 1}) {
@@ -203,7 +203,7 @@ WantedLength FoldSizes::at(EditedSurface::Vertex v, double own_chord, const Want
 // its own is nearer than they are, by the tolerance.
 double FoldSizes::across_wall(EditedSurface::Vertex v, double limit) const {
     const InputShape& input = surface_.input();
-    const EditMesh& mesh = surface_.mesh();
+    const SheetMesh& mesh = surface_.mesh();
     const bool is_wall = mesh.data(*mesh.cvf_begin(v)).is_wall;
     const double nearest = is_wall ? 2 * mesh.data(v).tolerance : 1e-6 * options_.longest;
     const auto thickness = [&](const Vec3& inwards) {

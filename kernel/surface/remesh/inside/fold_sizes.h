@@ -26,9 +26,9 @@ struct FoldSizeOptions {
 /// Reads the surface once, when it is constructed, which should be after all that the bound allows has been left out.
 class FoldSizes {
  public:
-    /// Numbers the folds (EditTraits::fold) and sets the size of every vertex. A size is at most that which grows from
-    /// its neighbours; at least as long as the edges around, if all facets there are well shaped; and the mean of the
-    /// edges beside facets that are kept. Keeps the reference. O(#V log #V) if few folds are near each other.
+    /// Numbers the folds (SheetMeshTraits::fold) and sets the size of every vertex. A size is at most that which grows
+    /// from its neighbours; at least as long as the edges around, if all facets there are well shaped; and the mean of
+    /// the edges beside facets that are kept. Keeps the reference. O(#V log #V) if few folds are near each other.
     FoldSizes(EditedSurface& surface, const FoldSizeOptions& options);
 
     /// Returns the size at a new vertex on an edge of this fold (-1: of none), given the size that has grown to there.

@@ -21,7 +21,7 @@ constexpr double least_turn_cosine = 0.5;  // of the normal of a new facet again
 constexpr double facing_cosine = -0.1;     // of a facet's normal against that of the input that it may be near
 constexpr int most_divisions = 60;         // of a facet, to see that it is near the input
 
-double squared_distance(const Vec3& p, const EditMesh::Corners& t) {
+double squared_distance(const Vec3& p, const SheetMesh::Corners& t) {
     return (p - closest_point(p, t[0], t[1], t[2])).squaredNorm();
 }
 
@@ -33,15 +33,15 @@ InputBound::InputBound(const InputShape& input)
       planes_(input.regions().planes),
       next_point_(input.vertices().size(), unlisted) {}
 
-void InputBound::find_regions(EditMesh& mesh, double share) {
+void InputBound::find_regions(SheetMesh& mesh, double share) {
     const SurfaceArrays now = mesh.arrays();
     const auto is_border = [&](std::int32_t corner) {
         const Triangle& t = now.facets[corner / 3];
-        const EditMesh::VertexHandle v(t[corner % 3]), w(t[(corner + 1) % 3]);
+        const SheetMesh::VertexHandle v(t[corner % 3]), w(t[(corner + 1) % 3]);
         return mesh.data(mesh.edge_between(v, w)).is_feature;
     };
     const auto flatness = [&](std::int32_t f) {
-        const std::int32_t near = mesh.data(EditMesh::FaceHandle(f)).near;
+        const std::int32_t near = mesh.data(SheetMesh::FaceHandle(f)).near;
         return share * input_.largest_tolerance() * input_.share_by_thickness(near);
     };
     FlatRegions regions = find_flat_regions(now.vertices, now.facets,
@@ -50,7 +50,7 @@ void InputBound::find_regions(EditMesh& mesh, double share) {
     for (const auto f : mesh.faces()) mesh.data(f).region = regions.of[f.idx()];
 }
 
-bool InputBound::keeps_turns(const EditMesh& mesh, const NewFacets& star) const {
+bool InputBound::keeps_turns(const SheetMesh& mesh, const NewFacets& star) const {
     for (std::size_t i = 0; i < star.facets.size(); ++i) {
         const auto& data = mesh.data(star.facets[i]);
         const Vec3& wanted = data.region >= 0 ? planes_[data.region].normal : input_.normal(data.near);
@@ -60,13 +60,13 @@ bool InputBound::keeps_turns(const EditMesh& mesh, const NewFacets& star) const 
     return true;
 }
 
-bool InputBound::stays_in_region(std::int32_t region, const EditMesh::Corners& now) const {
+bool InputBound::stays_in_region(std::int32_t region, const SheetMesh::Corners& now) const {
     if (region < 0) return false;
     const FlatRegion& flat = planes_[region];
     return flat.contains(now[0]) && flat.contains(now[1]) && flat.contains(now[2]);
 }
 
-bool InputBound::is_near_input(EditMesh& mesh, EditMesh::FaceHandle f, const EditMesh::Corners& now) {
+bool InputBound::is_near_input(SheetMesh& mesh, SheetMesh::FaceHandle f, const SheetMesh::Corners& now) {
     const Vec3 normal = area_normal(now);
     const double least = facing_cosine * normal.norm();
     return near_input_.holds(
@@ -77,16 +77,17 @@ bool InputBound::is_near_input(EditMesh& mesh, EditMesh::FaceHandle f, const Edi
         most_divisions, mesh.data(f).near);
 }
 
-bool InputBound::holds_points(std::span<const std::int32_t> points, std::span<const EditMesh::Corners> facets) const {
+bool InputBound::holds_points(std::span<const std::int32_t> points, std::span<const SheetMesh::Corners> facets) const {
     return std::all_of(points.begin(), points.end(), [&](std::int32_t point) {
         const Vec3& p = input_.vertices()[point];
         const double tolerance = share_ * input_.vertex_tolerance(point);
-        return std::any_of(facets.begin(), facets.end(),
-                           [&](const EditMesh::Corners& t) { return squared_distance(p, t) <= tolerance * tolerance; });
+        return std::any_of(facets.begin(), facets.end(), [&](const SheetMesh::Corners& t) {
+            return squared_distance(p, t) <= tolerance * tolerance;
+        });
     });
 }
 
-bool InputBound::accepts_star(EditMesh& mesh, EditMesh::VertexHandle v, bool is_inside, NewFacets& star) {
+bool InputBound::accepts_star(SheetMesh& mesh, SheetMesh::VertexHandle v, bool is_inside, NewFacets& star) {
     if (!keeps_turns(mesh, star)) return false;
     star.stays.clear();
     for (std::size_t i = 0; i < star.facets.size(); ++i)
@@ -94,7 +95,7 @@ bool InputBound::accepts_star(EditMesh& mesh, EditMesh::VertexHandle v, bool is_
     const bool all_stay = std::all_of(star.stays.begin(), star.stays.end(), [](char stays) { return stays != 0; });
     if (is_inside && all_stay) return true;
     const double tolerance = share_ * mesh.data(v).tolerance;
-    const bool holds_vertex = std::any_of(star.corners.begin(), star.corners.end(), [&](const EditMesh::Corners& t) {
+    const bool holds_vertex = std::any_of(star.corners.begin(), star.corners.end(), [&](const SheetMesh::Corners& t) {
         return squared_distance(mesh.point(v), t) <= tolerance * tolerance;
     });
     if (!holds_vertex) return false;
@@ -107,13 +108,13 @@ bool InputBound::accepts_star(EditMesh& mesh, EditMesh::VertexHandle v, bool is_
     return true;
 }
 
-bool InputBound::accepts_flip(EditMesh& mesh, EditMesh::EdgeHandle e, const NewFacets& pair) {
+bool InputBound::accepts_flip(SheetMesh& mesh, SheetMesh::EdgeHandle e, const NewFacets& pair) {
     points_.clear();
-    for (const EditMesh::FaceHandle f : pair.facets) list_points(mesh.data(f).first_point, points_);
+    for (const SheetMesh::FaceHandle f : pair.facets) list_points(mesh.data(f).first_point, points_);
     if (!holds_points(points_, pair.corners)) return false;
     // The edge that goes must be near the new facets as well.
-    const EditMesh::VertexHandle a = mesh.from_vertex_handle(mesh.halfedge_handle(e, 0));
-    const EditMesh::VertexHandle b = mesh.to_vertex_handle(mesh.halfedge_handle(e, 0));
+    const SheetMesh::VertexHandle a = mesh.from_vertex_handle(mesh.halfedge_handle(e, 0));
+    const SheetMesh::VertexHandle b = mesh.to_vertex_handle(mesh.halfedge_handle(e, 0));
     const Vec3 middle = (mesh.point(a) + mesh.point(b)) / 2;
     const double tolerance = share_ * std::min(mesh.data(a).tolerance, mesh.data(b).tolerance);
     if (std::min(squared_distance(middle, pair.corners[0]), squared_distance(middle, pair.corners[1])) >
@@ -122,12 +123,12 @@ bool InputBound::accepts_flip(EditMesh& mesh, EditMesh::EdgeHandle e, const NewF
     return is_near_input(mesh, pair.facets[0], pair.corners[0]) && is_near_input(mesh, pair.facets[1], pair.corners[1]);
 }
 
-bool InputBound::lies_on_line(const EditMesh& mesh, EditMesh::VertexHandle v) {
+bool InputBound::lies_on_line(const SheetMesh& mesh, SheetMesh::VertexHandle v) {
     return std::count_if(mesh.cve_begin(v), mesh.cve_end(v),
-                         [&](EditMesh::EdgeHandle e) { return !mesh.is_flat(e); }) == 2;
+                         [&](SheetMesh::EdgeHandle e) { return !mesh.is_flat(e); }) == 2;
 }
 
-std::optional<Vec3> InputBound::place_near(const EditMesh& mesh, EditMesh::VertexHandle v, const Vec3& wanted,
+std::optional<Vec3> InputBound::place_near(const SheetMesh& mesh, SheetMesh::VertexHandle v, const Vec3& wanted,
                                            bool is_inside) const {
     if (is_inside) {
         const FlatRegion& flat = planes_[mesh.data(*mesh.cvf_begin(v)).region];
@@ -136,7 +137,7 @@ std::optional<Vec3> InputBound::place_near(const EditMesh& mesh, EditMesh::Verte
     std::array<Vec3, 2> ends;
     int borders = 0, features = 0;
     for (const auto out : mesh.voh_range(v)) {
-        const EditMesh::EdgeHandle e = mesh.edge_handle(out);
+        const SheetMesh::EdgeHandle e = mesh.edge_handle(out);
         features += mesh.data(e).is_feature ? 1 : 0;
         if (mesh.is_flat(e)) continue;
         if (borders < 2) ends[borders] = mesh.point(mesh.to_vertex_handle(out));
@@ -161,19 +162,20 @@ std::optional<Vec3> InputBound::place_near(const EditMesh& mesh, EditMesh::Verte
     return squared == 0 ? wanted : input_.tree().closest(wanted, (1 + 1e-6) * squared).point;
 }
 
-void InputBound::list_vertex(const EditMesh& mesh, EditMesh::VertexHandle v, std::vector<std::int32_t>& points) const {
+void InputBound::list_vertex(const SheetMesh& mesh, SheetMesh::VertexHandle v,
+                             std::vector<std::int32_t>& points) const {
     const std::int32_t number = mesh.data(v).input;
     if (number >= 0 && next_point_[number] == unlisted) points.push_back(number);
 }
 
-void InputBound::give_points(EditMesh& mesh, std::span<const std::int32_t> points,
-                             std::span<const EditMesh::FaceHandle> facets) {
-    for (const EditMesh::FaceHandle f : facets) mesh.data(f).first_point = -1;
+void InputBound::give_points(SheetMesh& mesh, std::span<const std::int32_t> points,
+                             std::span<const SheetMesh::FaceHandle> facets) {
+    for (const SheetMesh::FaceHandle f : facets) mesh.data(f).first_point = -1;
     for (const std::int32_t point : points) {
         const Vec3& p = input_.vertices()[point];
-        EditMesh::FaceHandle best = facets.front();
+        SheetMesh::FaceHandle best = facets.front();
         double least = std::numeric_limits<double>::infinity();
-        for (const EditMesh::FaceHandle f : facets)
+        for (const SheetMesh::FaceHandle f : facets)
             if (const double squared = squared_distance(p, mesh.corners(f)); squared < least) {
                 least = squared;
                 best = f;

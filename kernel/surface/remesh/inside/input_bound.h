@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "surface/diagnosis/nearness.h"
-#include "surface/remesh/inside/edit_mesh.h"
 #include "surface/remesh/inside/input_shape.h"
+#include "surface/remesh/inside/sheet_mesh.h"
 
 namespace kerf {
 
-/// Facets of an EditMesh, and the corners that they would get.
+/// Facets of an SheetMesh, and the corners that they would get.
 struct NewFacets {
-    std::vector<EditMesh::FaceHandle> facets;
-    std::vector<EditMesh::Corners> corners;
+    std::vector<SheetMesh::FaceHandle> facets;
+    std::vector<SheetMesh::Corners> corners;
     std::vector<char> stays;  ///< set by accepts_star(): whether each facet stays in its flat region
 
     void clear() {
@@ -37,42 +37,42 @@ class InputBound {
     void set_share(double share) { share_ = share; }
     /// Finds the flat regions anew, of facets that lie within `share` of the tolerance of a plane. Renumbers
     /// everything.
-    void find_regions(EditMesh& mesh, double share);
+    void find_regions(SheetMesh& mesh, double share);
 
     // --- rules; facets remember a facet of the input near which they were found ---
 
     /// Whether no facet turns over.
-    bool keeps_turns(const EditMesh& mesh, const NewFacets& star) const;
+    bool keeps_turns(const SheetMesh& mesh, const NewFacets& star) const;
     /// Whether the facets of `star` may take the place of those around v; `is_inside`: v lies inside a flat region.
-    bool accepts_star(EditMesh& mesh, EditMesh::VertexHandle v, bool is_inside, NewFacets& star);
+    bool accepts_star(SheetMesh& mesh, SheetMesh::VertexHandle v, bool is_inside, NewFacets& star);
     /// Whether these two facets, which keeps_turns() has accepted, may take the place of those at an edge that is not
     /// flat.
-    bool accepts_flip(EditMesh& mesh, EditMesh::EdgeHandle e, const NewFacets& pair);
+    bool accepts_flip(SheetMesh& mesh, SheetMesh::EdgeHandle e, const NewFacets& pair);
     /// Whether exactly two borders of flat regions meet at the vertex, so that it may move along them.
-    static bool lies_on_line(const EditMesh& mesh, EditMesh::VertexHandle v);
+    static bool lies_on_line(const SheetMesh& mesh, SheetMesh::VertexHandle v);
     /// Returns the place nearest to `wanted` to which a vertex may go: in its flat region, along the line that it lies
     /// on, or on the input.
-    std::optional<Vec3> place_near(const EditMesh& mesh, EditMesh::VertexHandle v, const Vec3& wanted,
+    std::optional<Vec3> place_near(const SheetMesh& mesh, SheetMesh::VertexHandle v, const Vec3& wanted,
                                    bool is_inside) const;
 
     // --- the vertices of the input that a facet stands for ---
 
-    /// Appends the points of a list that begins with EditTraits' first_point.
+    /// Appends the points of a list that begins with SheetMeshTraits' first_point.
     void list_points(std::int32_t first, std::vector<std::int32_t>& points) const {
         for (std::int32_t p = first; p >= 0; p = next_point_[p]) points.push_back(p);
     }
     /// Appends a vertex of the input that is about to leave its place, unless a list has it already.
-    void list_vertex(const EditMesh& mesh, EditMesh::VertexHandle v, std::vector<std::int32_t>& points) const;
+    void list_vertex(const SheetMesh& mesh, SheetMesh::VertexHandle v, std::vector<std::int32_t>& points) const;
     /// Gives each point to the closest of the facets, whose former lists are dropped.
-    void give_points(EditMesh& mesh, std::span<const std::int32_t> points,
-                     std::span<const EditMesh::FaceHandle> facets);
+    void give_points(SheetMesh& mesh, std::span<const std::int32_t> points,
+                     std::span<const SheetMesh::FaceHandle> facets);
 
  private:
     static constexpr std::int32_t unlisted = -2;
 
-    bool stays_in_region(std::int32_t region, const EditMesh::Corners& now) const;
-    bool is_near_input(EditMesh& mesh, EditMesh::FaceHandle f, const EditMesh::Corners& now);
-    bool holds_points(std::span<const std::int32_t> points, std::span<const EditMesh::Corners> facets) const;
+    bool stays_in_region(std::int32_t region, const SheetMesh::Corners& now) const;
+    bool is_near_input(SheetMesh& mesh, SheetMesh::FaceHandle f, const SheetMesh::Corners& now);
+    bool holds_points(std::span<const std::int32_t> points, std::span<const SheetMesh::Corners> facets) const;
 
     const InputShape& input_;
     Nearness near_input_;

@@ -41,10 +41,10 @@ constexpr int most_merging_passes = 4;
 // Triangles around may become as bad as 10 degrees.
 constexpr EditedSurface::CollapseRules merging_rules = {.good_sine = 0.1736, .merges_features = true};
 
-bool is_on_feature(const EditMesh& mesh, Vertex v) { return mesh.feature_count(v) >= 2; }
+bool is_on_feature(const SheetMesh& mesh, Vertex v) { return mesh.feature_count(v) >= 2; }
 
 // Edges between features, shortest first.
-std::vector<std::pair<double, Edge>> short_edges(const EditMesh& mesh) {
+std::vector<std::pair<double, Edge>> short_edges(const SheetMesh& mesh) {
     std::vector<std::pair<double, Edge>> edges;
     for (const auto e : mesh.edges()) {
         const auto [a, b] = mesh.ends(e);
@@ -59,7 +59,7 @@ std::vector<std::pair<double, Edge>> short_edges(const EditMesh& mesh) {
 
 // A corner on a feature that is near the feature on the other side of its facet goes there.
 bool merge_across(EditedSurface& surface, Facet f) {
-    const EditMesh& mesh = surface.mesh();
+    const SheetMesh& mesh = surface.mesh();
     for (const HalfEdge h : mesh.fh_range(f)) {
         const Edge e = mesh.edge_handle(h);
         if (!mesh.data(e).is_feature || mesh.is_fixed(e)) continue;
@@ -85,7 +85,7 @@ bool merge_across(EditedSurface& surface, Facet f) {
 // there. Between such features there would only be needles, or facets as small as their distance. `poll` is called for
 // every edge and facet. O(#F log #F).
 void merge_features(EditedSurface& surface, const std::function<void()>& poll) {
-    const EditMesh& mesh = surface.mesh();
+    const SheetMesh& mesh = surface.mesh();
     for (int pass = 0; pass < most_merging_passes; ++pass) {
         std::size_t merged = 0;
         for (const auto& [length, e] : short_edges(mesh)) {
@@ -153,7 +153,7 @@ class Shaping {
     }
 
  private:
-    const EditMesh& mesh() const { return surface_.mesh(); }
+    const SheetMesh& mesh() const { return surface_.mesh(); }
 
     // Cheap: called for every edge or vertex.
     void poll() {

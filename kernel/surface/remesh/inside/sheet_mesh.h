@@ -26,7 +26,7 @@ struct WantedLength {
     }
 };
 
-struct EditTraits : OpenMesh::DefaultTraits {
+struct SheetMeshTraits : OpenMesh::DefaultTraits {
     using Point = Vec3;
     using Normal = Vec3;
     VertexAttributes(OpenMesh::Attributes::Status);
@@ -62,7 +62,7 @@ struct EditTraits : OpenMesh::DefaultTraits {
 /// A surface in sheets. Where more than two facets meet in an edge of the surface, sheets end at a seam, and each of
 /// them has the edge. Each fan of facets around a vertex, from seam to seam, has a copy of the vertex. A change of one
 /// edge of a seam, or of one copy, must be made to all.
-class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
+class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
  public:
     using Corners = std::array<Vec3, 3>;
 
@@ -136,6 +136,6 @@ class EditMesh : public OpenMesh::TriMesh_ArrayKernelT<EditTraits> {
 };
 
 /// Returns the cross product of two edges: along the normal, twice the area of the triangle in length.
-Vec3 area_normal(const EditMesh::Corners& t);
+Vec3 area_normal(const SheetMesh::Corners& t);
 
 }  // namespace kerf

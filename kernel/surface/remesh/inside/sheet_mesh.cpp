@@ -3,7 +3,7 @@
 // have the number -1 and no list. arrays() collects garbage, which renumbers all vertices, edges and facets; the
 // numbers of places and seams stay, and their lists are filled anew. `changed` is the count of operations at the last
 // change around a vertex or in a facet, by which callers skip what was refused before.
-#include "surface/remesh/inside/edit_mesh.h"
+#include "surface/remesh/inside/sheet_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,19 +22,19 @@ double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c) {
     return product > 0 ? (b - a).cross(c - a).norm() / std::sqrt(product) : 0;
 }
 
-Vec3 area_normal(const EditMesh::Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+Vec3 area_normal(const SheetMesh::Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
-void EditMesh::make_copies(std::vector<VertexHandle> vertices) {
+void SheetMesh::make_copies(std::vector<VertexHandle> vertices) {
     for (const VertexHandle v : vertices) data(v).place = static_cast<std::int32_t>(places_.size());
     places_.push_back(std::move(vertices));
 }
 
-void EditMesh::make_seam(std::vector<EdgeHandle> edges) {
+void SheetMesh::make_seam(std::vector<EdgeHandle> edges) {
     for (const EdgeHandle e : edges) data(e).seam = static_cast<std::int32_t>(seams_.size());
     seams_.push_back(std::move(edges));
 }
 
-void EditMesh::list_copies(HalfedgeHandle h, std::vector<HalfedgeHandle>& list) const {
+void SheetMesh::list_copies(HalfedgeHandle h, std::vector<HalfedgeHandle>& list) const {
     list.clear();
     const std::int32_t start = data(from_vertex_handle(h)).place;
     for_each_copy(edge_handle(h), [&](EdgeHandle e) {
@@ -44,7 +44,7 @@ void EditMesh::list_copies(HalfedgeHandle h, std::vector<HalfedgeHandle>& list) 
     });
 }
 
-bool EditMesh::are_joined(VertexHandle v, VertexHandle w) const {
+bool SheetMesh::are_joined(VertexHandle v, VertexHandle w) const {
     bool is_found = false;
     for_each_copy(v, [&](VertexHandle a) {
         for_each_copy(w, [&](VertexHandle b) { is_found |= find_halfedge(a, b).is_valid(); });
@@ -52,28 +52,28 @@ bool EditMesh::are_joined(VertexHandle v, VertexHandle w) const {
     return is_found;
 }
 
-EditMesh::Corners EditMesh::corners(FaceHandle f) const {
+SheetMesh::Corners SheetMesh::corners(FaceHandle f) const {
     const HalfedgeHandle h = halfedge_handle(f), next = next_halfedge_handle(h);
     return {point(from_vertex_handle(h)), point(to_vertex_handle(h)), point(to_vertex_handle(next))};
 }
 
-double EditMesh::sine(FaceHandle f) const {
+double SheetMesh::sine(FaceHandle f) const {
     const auto [a, b, c] = corners(f);
     return smallest_sine(a, b, c);
 }
 
-int EditMesh::feature_count(VertexHandle v) const {
+int SheetMesh::feature_count(VertexHandle v) const {
     int count = 0;
     for (const auto e : ve_range(v)) count += data(e).is_feature ? 1 : 0;
     return count;
 }
 
-bool EditMesh::has_one_patch(VertexHandle v) const {
+bool SheetMesh::has_one_patch(VertexHandle v) const {
     const std::int32_t patch = data(*cvf_begin(v)).patch;
     return std::all_of(cvf_begin(v), cvf_end(v), [&](FaceHandle f) { return data(f).patch == patch; });
 }
 
-bool EditMesh::is_fixed(EdgeHandle e) const {
+bool SheetMesh::is_fixed(EdgeHandle e) const {
     bool is_found = false;
     for_each_copy(e, [&](EdgeHandle copy) {
         const auto [f, g] = facets_at(copy);
@@ -82,12 +82,12 @@ bool EditMesh::is_fixed(EdgeHandle e) const {
     return is_found;
 }
 
-bool EditMesh::is_flat(EdgeHandle e) const {
+bool SheetMesh::is_flat(EdgeHandle e) const {
     const auto [f, g] = facets_at(e);
     return data(f).region >= 0 && data(f).region == data(g).region && !data(e).is_feature;
 }
 
-bool EditMesh::is_inside_region(VertexHandle v) const {
+bool SheetMesh::is_inside_region(VertexHandle v) const {
     std::int32_t region = -1;
     for (const auto f : vf_range(v)) {
         if (data(f).region < 0 || (region >= 0 && data(f).region != region)) return false;
@@ -96,35 +96,35 @@ bool EditMesh::is_inside_region(VertexHandle v) const {
     return feature_count(v) == 0;
 }
 
-double EditMesh::fold_cosine(EdgeHandle e) const {
+double SheetMesh::fold_cosine(EdgeHandle e) const {
     const auto [f, g] = facets_at(e);
     const Vec3 a = area_normal(corners(f)), b = area_normal(corners(g));
     const double norms = a.norm() * b.norm();
     return norms > 0 ? a.dot(b) / norms : 1;
 }
 
-std::int64_t EditMesh::last_change(VertexHandle v) const {
+std::int64_t SheetMesh::last_change(VertexHandle v) const {
     std::int64_t last = 0;
     for_each_copy(v, [&](VertexHandle copy) { last = std::max(last, data(copy).changed); });
     return last;
 }
 
-std::int64_t EditMesh::last_change(EdgeHandle e) const {
+std::int64_t SheetMesh::last_change(EdgeHandle e) const {
     const auto [f, g] = facets_at(e);
     return std::max(data(f).changed, data(g).changed);
 }
 
-void EditMesh::note_change(FaceHandle f, std::int64_t operation) {
+void SheetMesh::note_change(FaceHandle f, std::int64_t operation) {
     data(f).changed = operation;
     for (const auto v : fv_range(f)) data(v).changed = operation;
 }
 
-std::int64_t EditMesh::feature_edges() const {
+std::int64_t SheetMesh::feature_edges() const {
     return std::count_if(edges_begin(), edges_end(),
                          [&](const auto& e) { return !status(e).deleted() && data(e).is_feature && is_first_copy(e); });
 }
 
-SurfaceArrays EditMesh::arrays() {
+SurfaceArrays SheetMesh::arrays() {
     garbage_collection();
     for (auto& place : places_) place.clear();
     for (auto& seam : seams_) seam.clear();
