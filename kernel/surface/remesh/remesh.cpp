@@ -20,7 +20,7 @@
 #include "surface/complex/touching.h"
 #include "surface/diagnosis/intersections.h"
 #include "surface/diagnosis/nearness.h"
-#include "surface/remesh/inside/edited_surface.h"
+#include "surface/remesh/inside/bounded_surface.h"
 #include "surface/remesh/inside/fold_sizes.h"
 #include "surface/remesh/inside/triangle_shaping.h"
 #include "surface/remesh/inside/volume_restoration.h"
@@ -91,11 +91,11 @@ SurfaceArrays with_seams_joined(SurfaceArrays sheets) {
 Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const Tolerances& tolerances,
                      const RemeshOptions& options) {
     const InputShape input(sheets, tree, tolerances, options.feature_angle_deg, options.creases, options.walls);
-    EditedSurface edited(input, options.kept);
-    shape_triangles(edited, options);
-    const SheetMesh& mesh = edited.mesh();
+    BoundedSurface shaped(input, options.kept);
+    shape_triangles(shaped, options);
+    const SheetMesh& mesh = shaped.mesh();
     const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer = finer_shares(mesh)};
-    return {with_seams_joined(edited.arrays()), {}, report};
+    return {with_seams_joined(shaped.arrays()), {}, report};
 }
 
 // Calls visit(point) for the points of a lattice in the facet that divides each of its edges in six.

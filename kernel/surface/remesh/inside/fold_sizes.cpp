@@ -27,7 +27,7 @@ constexpr double well_shaped_sine = 0.5;  // of 30 degrees
 constexpr double straight_share = 0.2;    // of the tolerance: how far from a straight line its vertices may be
 
 // Returns the height of the facet of a half-edge over that.
-double height_over(const SheetMesh& mesh, EditedSurface::HalfEdge h) {
+double height_over(const SheetMesh& mesh, BoundedSurface::HalfEdge h) {
     const Vec3& a = mesh.point(mesh.from_vertex_handle(h));
     const Vec3 edge = mesh.point(mesh.to_vertex_handle(h)) - a;
     return edge.cross(mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h))) - a).norm() / edge.norm();
@@ -35,7 +35,7 @@ double height_over(const SheetMesh& mesh, EditedSurface::HalfEdge h) {
 
 // Returns the longest length for edges across a fold: a chord of the circle through the facets beside it, of that
 // length, stays within the tolerance. Infinite where nothing is folded, 0 at features.
-double chord_over(const SheetMesh& mesh, EditedSurface::Edge e) {
+double chord_over(const SheetMesh& mesh, BoundedSurface::Edge e) {
     if (mesh.data(e).is_feature) return 0;
     const double angle = mesh.is_flat(e) ? 0 : angle_of_cosine(mesh.fold_cosine(e));
     if (angle == 0) return infinite;
@@ -47,7 +47,7 @@ double chord_over(const SheetMesh& mesh, EditedSurface::Edge e) {
 }
 
 // The longest edge around a vertex if all facets there are as they should be, 0 otherwise.
-double well_shaped_length(const SheetMesh& mesh, EditedSurface::Vertex v) {
+double well_shaped_length(const SheetMesh& mesh, BoundedSurface::Vertex v) {
     double longest = 0;
     for (const auto out : mesh.voh_range(v)) {
         if (!out.is_boundary() && mesh.sine(out.face()) < well_shaped_sine) return 0;
@@ -56,13 +56,13 @@ double well_shaped_length(const SheetMesh& mesh, EditedSurface::Vertex v) {
     return longest;
 }
 
-double mean_length(const SheetMesh& mesh, EditedSurface::Vertex v) {
+double mean_length(const SheetMesh& mesh, BoundedSurface::Vertex v) {
     double sum = 0;
     for (const auto e : mesh.ve_range(v)) sum += mesh.calc_edge_length(e);
     return sum / mesh.valence(v);
 }
 
-Vec3 vertex_normal(const SheetMesh& mesh, EditedSurface::Vertex v) {
+Vec3 vertex_normal(const SheetMesh& mesh, BoundedSurface::Vertex v) {
     Vec3 sum = Vec3::Zero();
     for (const auto h : mesh.voh_range(v))
         if (!h.is_boundary())
@@ -84,8 +84,8 @@ void limit_growth(const SheetMesh& mesh, double growth, std::vector<WantedLength
         const auto [size, number] = open.top();
         open.pop();
         if (size > sizes[number].length) continue;
-        const EditedSurface::Vertex v(number);
-        const auto limit = [&, size = size, number = number](EditedSurface::Vertex w) {
+        const BoundedSurface::Vertex v(number);
+        const auto limit = [&, size = size, number = number](BoundedSurface::Vertex w) {
             const double most = size + growth * (mesh.point(v) - mesh.point(w)).norm();
             if (most >= sizes[w.idx()].length) return;
             sizes[w.idx()] = {most, sizes[number].rule};
@@ -98,7 +98,7 @@ void limit_growth(const SheetMesh& mesh, double growth, std::vector<WantedLength
 
 }  // namespace
 
-FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : surface_(surface), options_(options) {
+FoldSizes::FoldSizes(BoundedSurface& surface, const FoldSizeOptions& options) : surface_(surface), options_(options) {
     find_folds(surface);
     const SheetMesh& mesh = surface.mesh();
     std::vector<WantedLength> sizes(mesh.n_vertices(), {options.longest, LengthRule::asked});
@@ -121,11 +121,11 @@ FoldSizes::FoldSizes(EditedSurface& surface, const FoldSizeOptions& options) : s
     for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(v));
 }
 
-double FoldSizes::asked(EditedSurface::Vertex v) const {
+double FoldSizes::asked(BoundedSurface::Vertex v) const {
     const SheetMesh& mesh = surface_.mesh();
     double least = options_.longest;
     if (!options_.wanted) return least;
-    mesh.for_each_copy(v, [&](EditedSurface::Vertex copy) {
+    mesh.for_each_copy(v, [&](BoundedSurface::Vertex copy) {
         std::int32_t last = -1;
         for (const auto f : mesh.vf_range(copy)) {
             const std::int32_t patch = mesh.data(f).patch;
@@ -135,7 +135,7 @@ double FoldSizes::asked(EditedSurface::Vertex v) const {
     return least;
 }
 
-void FoldSizes::find_folds(EditedSurface& surface) {
+void FoldSizes::find_folds(BoundedSurface& surface) {
     std::vector<Triangle> segments;
     for (const auto e : surface.mesh().edges()) {
         const double chord = chord_over(surface.mesh(), e);
@@ -150,7 +150,7 @@ void FoldSizes::find_folds(EditedSurface& surface) {
 }
 
 // Returns the length of an edge with those that go on from its ends as features in the same direction.
-double FoldSizes::straight_length(EditedSurface::Edge e) const {
+double FoldSizes::straight_length(BoundedSurface::Edge e) const {
     const SheetMesh& mesh = surface_.mesh();
     double length = mesh.calc_edge_length(e);
     if (!mesh.data(e).is_feature) return length;
@@ -158,7 +158,7 @@ double FoldSizes::straight_length(EditedSurface::Edge e) const {
         auto h = mesh.halfedge_handle(e, side);
         const Vec3 start = mesh.point(mesh.from_vertex_handle(h));
         while (length < options_.longest) {
-            const EditedSurface::Vertex end = mesh.to_vertex_handle(h);
+            const BoundedSurface::Vertex end = mesh.to_vertex_handle(h);
             if (mesh.feature_count(end) != 2) break;
             auto next = mesh.next_halfedge_handle(h);
             while (!mesh.data(mesh.edge_handle(next)).is_feature)
@@ -175,13 +175,13 @@ double FoldSizes::straight_length(EditedSurface::Edge e) const {
     return length;
 }
 
-WantedLength FoldSizes::of_new(EditedSurface::Vertex v, std::int32_t fold, WantedLength grown) const {
+WantedLength FoldSizes::of_new(BoundedSurface::Vertex v, std::int32_t fold, WantedLength grown) const {
     grown.shorten(options_.longest, LengthRule::asked);
     return at(v, fold >= 0 ? chord_[fold] : infinite, grown);
 }
 
 // Folds that come close ask for small triangles between them only if neither can be left out at that length.
-WantedLength FoldSizes::at(EditedSurface::Vertex v, double own_chord, const WantedLength& grown) const {
+WantedLength FoldSizes::at(BoundedSurface::Vertex v, double own_chord, const WantedLength& grown) const {
     const Vec3& p = surface_.mesh().point(v);
     WantedLength size = grown;
     if (folds_ && own_chord < grown.length)
@@ -201,7 +201,7 @@ WantedLength FoldSizes::at(EditedSurface::Vertex v, double own_chord, const Want
 
 // The way inwards to a sheet that faces the other way. From a wall it goes both ways, and to sheets that face any way:
 // its own is nearer than they are, by the tolerance.
-double FoldSizes::across_wall(EditedSurface::Vertex v, double limit) const {
+double FoldSizes::across_wall(BoundedSurface::Vertex v, double limit) const {
     const InputShape& input = surface_.input();
     const SheetMesh& mesh = surface_.mesh();
     const bool is_wall = mesh.data(*mesh.cvf_begin(v)).is_wall;

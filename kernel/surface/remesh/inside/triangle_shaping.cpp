@@ -22,10 +22,10 @@ namespace kerf {
 
 namespace {
 
-using Vertex = EditedSurface::Vertex;
-using Edge = EditedSurface::Edge;
-using HalfEdge = EditedSurface::HalfEdge;
-using Facet = EditedSurface::Facet;
+using Vertex = BoundedSurface::Vertex;
+using Edge = BoundedSurface::Edge;
+using HalfEdge = BoundedSurface::HalfEdge;
+using Facet = BoundedSurface::Facet;
 
 // Edges over their wanted length. A half of one that is split must not be one that is collapsed.
 constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
@@ -39,7 +39,7 @@ constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005;
 constexpr std::int64_t steps_between_polls = 256;
 constexpr int most_merging_passes = 4;
 // Triangles around may become as bad as 10 degrees.
-constexpr EditedSurface::CollapseRules merging_rules = {.good_sine = 0.1736, .merges_features = true};
+constexpr BoundedSurface::CollapseRules merging_rules = {.good_sine = 0.1736, .merges_features = true};
 
 bool is_on_feature(const SheetMesh& mesh, Vertex v) { return mesh.feature_count(v) >= 2; }
 
@@ -58,7 +58,7 @@ std::vector<std::pair<double, Edge>> short_edges(const SheetMesh& mesh) {
 }
 
 // A corner on a feature that is near the feature on the other side of its facet goes there.
-bool merge_across(EditedSurface& surface, Facet f) {
+bool merge_across(BoundedSurface& surface, Facet f) {
     const SheetMesh& mesh = surface.mesh();
     for (const HalfEdge h : mesh.fh_range(f)) {
         const Edge e = mesh.edge_handle(h);
@@ -84,7 +84,7 @@ bool merge_across(EditedSurface& surface, Facet f) {
 // one patch: a corner that is near another corner, or near a feature edge on the other side of its facet, is moved
 // there. Between such features there would only be needles, or facets as small as their distance. `poll` is called for
 // every edge and facet. O(#F log #F).
-void merge_features(EditedSurface& surface, const std::function<void()>& poll) {
+void merge_features(BoundedSurface& surface, const std::function<void()>& poll) {
     const SheetMesh& mesh = surface.mesh();
     for (int pass = 0; pass < most_merging_passes; ++pass) {
         std::size_t merged = 0;
@@ -119,7 +119,7 @@ class Refusals {
 
 class Shaping {
  public:
-    Shaping(EditedSurface& surface, const RemeshOptions& options) : surface_(surface), options_(options) {}
+    Shaping(BoundedSurface& surface, const RemeshOptions& options) : surface_(surface), options_(options) {}
 
     void run() {
         flip_flat_edges();
@@ -207,7 +207,7 @@ class Shaping {
 
     // Collapses all edges that the bound does not need.
     void simplify() {
-        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
+        const BoundedSurface::CollapseRules rules = {.good_sine = sine_of_20, .worst_share = 0.9};
         Refusals refused;
         for (int pass = 0; pass < most_simplifications; ++pass) {
             std::size_t collapsed = 0;
@@ -226,7 +226,7 @@ class Shaping {
     }
 
     void collapse_short_edges() {
-        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_20, .longest = split_ratio};
+        const BoundedSurface::CollapseRules rules = {.good_sine = sine_of_20, .longest = split_ratio};
         for (const auto& [length, e] : edges_by_length([&](Edge e, double) { return ratio(e) < collapse_ratio; })) {
             poll();
             if (!is_alive(e) || !(ratio(e) < collapse_ratio)) continue;
@@ -340,7 +340,7 @@ class Shaping {
 
     // Collapses the shortest edges of facets that are still needles.
     void mend_needles() {
-        const EditedSurface::CollapseRules rules = {.good_sine = sine_of_10};
+        const BoundedSurface::CollapseRules rules = {.good_sine = sine_of_10};
         for (const auto f : mesh().faces()) {
             if (mesh().status(f).deleted() || mesh().sine(f) > sine_of_20) continue;
             HalfEdge shortest = mesh().halfedge_handle(f);
@@ -350,7 +350,7 @@ class Shaping {
         }
     }
 
-    EditedSurface& surface_;
+    BoundedSurface& surface_;
     const RemeshOptions& options_;
     std::optional<FoldSizes> sizes_;
     std::int64_t steps_ = 0;
@@ -359,6 +359,6 @@ class Shaping {
 
 }  // namespace
 
-void shape_triangles(EditedSurface& surface, const RemeshOptions& options) { Shaping(surface, options).run(); }
+void shape_triangles(BoundedSurface& surface, const RemeshOptions& options) { Shaping(surface, options).run(); }
 
 }  // namespace kerf

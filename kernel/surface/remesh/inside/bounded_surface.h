@@ -9,10 +9,11 @@
 
 namespace kerf {
 
-/// The operations of the remesher. An operation changes nothing and returns false if it would change a facet that is
-/// kept, leave the bound of the input (InputBound), turn a facet over, lose a feature, change the topology or make the
-/// worst triangle worse. An operation on a seam changes all its sheets, if each of them allows it.
-class EditedSurface {
+/// A SheetMesh within the bound of the input, and the operations of the remesher on it. An operation changes nothing
+/// and returns false if it would change a facet that is kept, leave the bound (InputBound), turn a facet over, lose a
+/// feature, change the topology or make the worst triangle worse. An operation on a seam changes all its sheets, if
+/// each of them allows it.
+class BoundedSurface {
  public:
     using Vertex = SheetMesh::VertexHandle;
     using Edge = SheetMesh::EdgeHandle;
@@ -21,7 +22,7 @@ class EditedSurface {
 
     /// Keeps the reference to the input. `kept` (#F of the input) marks facets that no operation may change; empty:
     /// none.
-    explicit EditedSurface(const InputShape& input, const std::vector<char>& kept = {});
+    explicit BoundedSurface(const InputShape& input, const std::vector<char>& kept = {});
 
     const SheetMesh& mesh() const { return mesh_; }
     const InputShape& input() const { return bound_.input(); }

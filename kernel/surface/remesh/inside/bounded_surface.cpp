@@ -5,7 +5,7 @@
 // the mesh. Before a change, the points of all facets that change or vanish are collected in `points_`; afterwards each
 // is given to the closest new facet, so that no point is lost. A collapse may not join vertices that an edge in another
 // sheet joins already: OpenMesh's own test sees one sheet alone.
-#include "surface/remesh/inside/edited_surface.h"
+#include "surface/remesh/inside/bounded_surface.h"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ double sine_of(const SheetMesh::Corners& t) { return smallest_sine(t[0], t[1], t
 
 }  // namespace
 
-EditedSurface::EditedSurface(const InputShape& input, const std::vector<char>& kept) : bound_(input), stars_(1) {
+BoundedSurface::BoundedSurface(const InputShape& input, const std::vector<char>& kept) : bound_(input), stars_(1) {
     for (const Vec3& p : input.vertices()) {
         const Vertex v = mesh_.add_vertex(p);
         mesh_.data(v).tolerance = input.vertex_tolerance(v.idx());
@@ -46,7 +46,7 @@ EditedSurface::EditedSurface(const InputShape& input, const std::vector<char>& k
     if (input.vertices().size() > input.sheets().vertices_before) find_seams();
 }
 
-void EditedSurface::find_seams() {
+void BoundedSurface::find_seams() {
     const Sheets& sheets = input().sheets();
     EdgeCorners(sheets.facets_before()).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
         if (corners.size() == 2) return;
@@ -75,7 +75,7 @@ void EditedSurface::find_seams() {
 }
 
 // Whether one seam goes on as another one there, and every fan lies between the two.
-bool EditedSurface::is_on_line(std::span<const Vertex> copies) const {
+bool BoundedSurface::is_on_line(std::span<const Vertex> copies) const {
     std::vector<std::int32_t> seams;
     for (const Vertex v : copies) {
         std::size_t ends = 0;
@@ -91,7 +91,7 @@ bool EditedSurface::is_on_line(std::span<const Vertex> copies) const {
 }
 
 // Whether the end of the half-edge has an edge already, in some sheet, to a vertex that would get another one.
-bool EditedSurface::joins_what_is_apart(HalfEdge h) const {
+bool BoundedSurface::joins_what_is_apart(HalfEdge h) const {
     const Vertex v = mesh_.from_vertex_handle(h), w = mesh_.to_vertex_handle(h);
     const HalfEdge back = mesh_.opposite_halfedge_handle(h);
     const auto is_beside = [&](Vertex x) {
@@ -104,12 +104,12 @@ bool EditedSurface::joins_what_is_apart(HalfEdge h) const {
     return std::any_of(mesh_.cvv_begin(v), mesh_.cvv_end(v), has_another);
 }
 
-bool EditedSurface::is_of_tetrahedron(HalfEdge h) const {
+bool BoundedSurface::is_of_tetrahedron(HalfEdge h) const {
     const auto is_corner = [&](Vertex v) { return mesh_.valence(v) == 3 && !mesh_.is_boundary(v); };
     return is_corner(mesh_.from_vertex_handle(h)) && is_corner(mesh_.to_vertex_handle(h));
 }
 
-bool EditedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
+bool BoundedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
     const Vertex v = mesh_.from_vertex_handle(h);
     if (mesh_.data(v).is_fixed || mesh_.data(v).is_end) return false;
     if (mesh_.has_copies(v) && mesh_.data(mesh_.edge_handle(h)).seam < 0) return false;
@@ -125,7 +125,7 @@ bool EditedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
     return true;
 }
 
-bool EditedSurface::may_collapse(HalfEdge h, const CollapseRules& rules, NewFacets& star) {
+bool BoundedSurface::may_collapse(HalfEdge h, const CollapseRules& rules, NewFacets& star) {
     const Vertex v = mesh_.from_vertex_handle(h), w = mesh_.to_vertex_handle(h);
     const HalfEdge back = mesh_.opposite_halfedge_handle(h);
     const int features = mesh_.feature_count(v);
@@ -158,7 +158,7 @@ bool EditedSurface::may_collapse(HalfEdge h, const CollapseRules& rules, NewFace
     return !joins_what_is_apart(h) && bound_.accepts_star(mesh_, v, mesh_.is_inside_region(v), star);
 }
 
-void EditedSurface::commit_collapse(HalfEdge h, const NewFacets& star) {
+void BoundedSurface::commit_collapse(HalfEdge h, const NewFacets& star) {
     const Vertex v = mesh_.from_vertex_handle(h), w = mesh_.to_vertex_handle(h);
     points_.clear();
     std::vector<Vertex> features;  // of v, beside the half-edge
@@ -175,26 +175,26 @@ void EditedSurface::commit_collapse(HalfEdge h, const NewFacets& star) {
     commit_star(star);
 }
 
-bool EditedSurface::collapse_either_way(Edge e, const CollapseRules& rules) {
+bool BoundedSurface::collapse_either_way(Edge e, const CollapseRules& rules) {
     const HalfEdge h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
     const bool first = mesh_.valence(mesh_.from_vertex_handle(h)) <= mesh_.valence(mesh_.from_vertex_handle(back));
     return collapse(first ? h : back, rules) || collapse(first ? back : h, rules);
 }
 
 // Gives points_ to the facets of the star, which are in the mesh by now; points_ are those of the facets before.
-void EditedSurface::commit_star(const NewFacets& star) {
+void BoundedSurface::commit_star(const NewFacets& star) {
     for (std::size_t i = 0; i < star.facets.size(); ++i)
         if (star.stays[i] == 0) mesh_.data(star.facets[i]).region = -1;
     bound_.give_points(mesh_, points_, star.facets);
     note_change(star.facets);
 }
 
-void EditedSurface::note_change(std::span<const Facet> facets) {
+void BoundedSurface::note_change(std::span<const Facet> facets) {
     ++changes_;
     for (const Facet f : facets) mesh_.note_change(f, changes_);
 }
 
-bool EditedSurface::take_flip(Edge e, bool is_exact_only) {
+bool BoundedSurface::take_flip(Edge e, bool is_exact_only) {
     if (mesh_.data(e).is_feature || mesh_.is_fixed(e)) return false;
     const HalfEdge h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
     const Facet f = mesh_.face_handle(h), g = mesh_.face_handle(back);
@@ -223,7 +223,7 @@ bool EditedSurface::take_flip(Edge e, bool is_exact_only) {
     return true;
 }
 
-EditedSurface::Vertex EditedSurface::split(Edge e, double t) {
+BoundedSurface::Vertex BoundedSurface::split(Edge e, double t) {
     const auto [a, b] = mesh_.ends(e);
     const Vec3 place = (1 - t) * mesh_.point(a) + t * mesh_.point(b);
     const std::int32_t seam = mesh_.data(e).seam;
@@ -246,7 +246,7 @@ EditedSurface::Vertex EditedSurface::split(Edge e, double t) {
     return in_this_sheet;
 }
 
-EditedSurface::Vertex EditedSurface::split_in_sheet(HalfEdge h, const Vec3& place) {
+BoundedSurface::Vertex BoundedSurface::split_in_sheet(HalfEdge h, const Vec3& place) {
     struct Side {
         Vertex apex;
         std::remove_cvref_t<decltype(std::declval<const SheetMesh&>().data(Facet()))> data;
@@ -278,7 +278,7 @@ EditedSurface::Vertex EditedSurface::split_in_sheet(HalfEdge h, const Vec3& plac
     return v;
 }
 
-bool EditedSurface::move(Vertex v, const Vec3& wanted) {
+bool BoundedSurface::move(Vertex v, const Vec3& wanted) {
     if (mesh_.data(v).is_fixed || mesh_.data(v).is_end) return false;
     const int features = mesh_.feature_count(v);
     if (features != 0 && features != 2) return false;
@@ -294,7 +294,7 @@ bool EditedSurface::move(Vertex v, const Vec3& wanted) {
     return true;
 }
 
-bool EditedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, NewFacets& star) {
+bool BoundedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, NewFacets& star) {
     if (mesh_.has_copies(v) && !bound_.lies_on_line(mesh_, v)) return false;
     star.clear();
     double worst = 1;
@@ -312,7 +312,7 @@ bool EditedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, NewFac
     return bound_.accepts_star(mesh_, v, is_inside, star);
 }
 
-void EditedSurface::commit_move(Vertex v, const Vec3& place, bool is_inside, const NewFacets& star) {
+void BoundedSurface::commit_move(Vertex v, const Vec3& place, bool is_inside, const NewFacets& star) {
     points_.clear();
     for (const Facet f : star.facets) bound_.list_points(mesh_.data(f).first_point, points_);
     if (!is_inside) bound_.list_vertex(mesh_, v, points_);
