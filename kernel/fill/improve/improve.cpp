@@ -198,7 +198,7 @@ class Improver {
 
     std::int64_t evaluation_budget_;
     std::vector<char> is_settled_;  // #V; whether the cells around a vertex are those that no move has helped
-    EditedMesh mesh_;
+    ImprovedMesh mesh_;
     const ImproveOptions* options_;
     Improvement* result_;
     double bad_, bad_enough_for_a_vertex_, without_volume_, useless_;

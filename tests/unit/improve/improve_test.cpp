@@ -11,7 +11,7 @@
 
 #include "base/core/error.h"
 #include "fill/improve/inside/edge_removal.h"
-#include "fill/improve/inside/edited_mesh.h"
+#include "fill/improve/inside/improved_mesh.h"
 #include "fill/mesh/adjacency.h"
 #include "fill/mesh/verification.h"
 #include "fill/shell/shell.h"
@@ -118,21 +118,21 @@ void expect_better(const Improvement& improvement, const TetMesh& mesh, const Te
 }
 
 // The limit is that of the numbers of faces; here it is lower.
-TEST(EditedMesh, RefusesMoreCellsThanNumbersWithoutAChange) {
+TEST(ImprovedMesh, RefusesMoreCellsThanNumbersWithoutAChange) {
     TetMesh two;  // above and below a triangle; three lie around the edge between their apices
     two.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, 0.3, 1), Vec3(0.3, 0.3, -1)};
     two.tets = {{0, 1, 2, 3}, {0, 2, 1, 4}};
     two.boundary_vertex_count = 5;
     const std::array<Tetrahedron, 3> three = {{{4, 3, 0, 1}, {4, 3, 1, 2}, {4, 3, 2, 0}}};
     const auto replaced = [&](std::int32_t most) {
-        EditedMesh edited(
+        ImprovedMesh improved(
             two, 0, {}, [](const CellShape&) {}, most);
         try {
-            edited.replace(std::array{0, 1}, three);
+            improved.replace(std::array{0, 1}, three);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::memory);
         }
-        return edited.finish().tets;
+        return improved.finish().tets;
     };
     EXPECT_EQ(replaced(2), two.tets);
     EXPECT_EQ(replaced(3), (std::vector<Tetrahedron>{three[0], three[1], three[2]}));
@@ -417,7 +417,7 @@ std::array<Vec3, 4> random_cell(std::mt19937& random) {
     return p;
 }
 
-TEST(EditedMesh, AdmitsNoAngleBeyondThoseOfTheMesh) {
+TEST(ImprovedMesh, AdmitsNoAngleBeyondThoseOfTheMesh) {
     constexpr unsigned seed = 13;
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
@@ -425,13 +425,13 @@ TEST(EditedMesh, AdmitsNoAngleBeyondThoseOfTheMesh) {
     for (int i = 0; i < 2000; ++i) {
         const std::array<Vec3, 4> p = random_cell(random), q = random_cell(random);
         TetMesh mesh{{p.begin(), p.end()}, 4, {{0, 1, 2, 3}}, {}};
-        const EditedMesh edited(mesh, 0, {}, [](const CellShape&) {});
+        const ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
         const TetQuality old_cell = tet_quality(p[0], p[1], p[2], p[3]), cell = tet_quality(q[0], q[1], q[2], q[3]);
         const bool is_sharper =
             cell.min_dihedral_deg<old_cell.min_dihedral_deg, is_flatter = cell.max_dihedral_deg> old_cell
                 .max_dihedral_deg;
         refused_for_one += is_sharper != is_flatter;
-        EXPECT_EQ(edited.badness_of(q[0], q[1], q[2], q[3], 1) == infinity, is_sharper || is_flatter);
+        EXPECT_EQ(improved.badness_of(q[0], q[1], q[2], q[3], 1) == infinity, is_sharper || is_flatter);
     }
     EXPECT_GT(refused_for_one, 100);
 }
@@ -445,22 +445,22 @@ TetMesh four_cells(const Vec3& inside) {
     return mesh;
 }
 
-TEST(EditedMesh, MovesNoVertexToWhereACellIsNotPositive) {
+TEST(ImprovedMesh, MovesNoVertexToWhereACellIsNotPositive) {
     TetMesh mesh = four_cells(Vec3::Zero());
-    EditedMesh edited(mesh, 0, {}, [](const CellShape&) {});
+    ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
     std::vector<std::int32_t> star;
-    ASSERT_TRUE(edited.find_star(0, 0, star));
+    ASSERT_TRUE(improved.find_star(0, 0, star));
     ASSERT_EQ(star.size(), 4u);
-    const double badness = edited.badness(0);
+    const double badness = improved.badness(0);
     const Vec3 in_a_face(-0.5, -0.25, -0.25);
     constexpr double least = 0x1p-54;
     for (const Vec3& to : {Vec3(2, 2, 2), in_a_face, Vec3(in_a_face - Vec3(2 * least, 0, 0))}) {
-        EXPECT_FALSE(edited.move(4, to, star));
-        EXPECT_EQ(edited.point(4), Vec3(0, 0, 0));
-        EXPECT_EQ(edited.badness(0), badness);
+        EXPECT_FALSE(improved.move(4, to, star));
+        EXPECT_EQ(improved.point(4), Vec3(0, 0, 0));
+        EXPECT_EQ(improved.badness(0), badness);
     }
-    EXPECT_TRUE(edited.move(4, in_a_face + Vec3(least, 0, 0), star));  // flat, but for the last bit
-    EXPECT_GT(edited.badness(0), 1e20);
+    EXPECT_TRUE(improved.move(4, in_a_face + Vec3(least, 0, 0), star));  // flat, but for the last bit
+    EXPECT_GT(improved.badness(0), 1e20);
 }
 
 // --- one operation alone ---
@@ -487,7 +487,7 @@ std::vector<Vec3> random_ring(std::mt19937& random, int n) {
 }
 
 // The least largest badness of all triangulations of the ring's vertices from `from` to `to`, one by one.
-double best_of_all(const EditedMesh& mesh, std::int32_t from, std::int32_t to) {
+double best_of_all(const ImprovedMesh& mesh, std::int32_t from, std::int32_t to) {
     if (to - from < 2) return -infinity;
     double best = infinity;
     for (std::int32_t middle = from + 1; middle < to; ++middle) {
@@ -508,15 +508,15 @@ TEST(EdgeRemoval, FindsTheBestOfAllTriangulations) {
         for (int i = 0; i < 60; ++i) {
             TetMesh mesh = cells_around_edge(random_ring(random, n), Vec3(0.1, 0, -0.8), Vec3(0, 0.1, 0.8));
             const TetMesh input = mesh;
-            const EditedMesh edited(mesh, 0, {}, [](const CellShape&) {});
+            const ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
             EdgeRing ring;
-            ASSERT_TRUE(edited.find_ring(0, 0, 1, ring));
+            ASSERT_TRUE(improved.find_ring(0, 0, 1, ring));
             ASSERT_EQ(ring.size(), static_cast<std::size_t>(n));
             double limit = -infinity;
             for (const Tetrahedron& cell : input.tets) limit = std::max(limit, shape_of(input, cell).badness());
             EdgeRemoval removal;
-            const double best = best_of_all(edited, 2, n + 1);
-            ASSERT_EQ(removal.find(edited, ring, limit), best < limit);
+            const double best = best_of_all(improved, 2, n + 1);
+            ASSERT_EQ(removal.find(improved, ring, limit), best < limit);
             if (best >= limit) continue;
             ++found;
             EXPECT_EQ(removal.badness(), best);
@@ -531,11 +531,11 @@ TEST(EdgeRemoval, FindsTheBestOfAllTriangulations) {
 TEST(EdgeRemoval, RefusesEdgesOfTheBoundaryAndOfTooManyCells) {
     std::mt19937 random(1);
     TetMesh mesh = cells_around_edge(random_ring(random, 11), Vec3(0, 0, -1), Vec3(0, 0, 1));
-    const EditedMesh edited(mesh, 0, {}, [](const CellShape&) {});
+    const ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
     EdgeRing ring;
-    EXPECT_FALSE(edited.find_ring(0, 0, 1, ring));
+    EXPECT_FALSE(improved.find_ring(0, 0, 1, ring));
     for (int i = 0; i < 4; ++i)
-        for (int j = 2; j < 4; ++j) EXPECT_TRUE(i == j || !edited.find_ring(0, i, j, ring));
+        for (int j = 2; j < 4; ++j) EXPECT_TRUE(i == j || !improved.find_ring(0, i, j, ring));
 }
 
 // Four vertices almost in a plane, with cells above and below.
@@ -611,13 +611,13 @@ TEST(Smoothing, MovesOnlyWhatMayMove) {
     std::vector<std::int32_t> star;
     for (const std::int32_t boundary_vertices : {4, 5}) {
         mesh.boundary_vertex_count = boundary_vertices;
-        EditedMesh edited(mesh, 0, {}, [](const CellShape&) {});
-        EXPECT_EQ(edited.find_star(0, 0, star), boundary_vertices == 4);
-        EXPECT_FALSE(edited.find_star(0, 1, star));
+        ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
+        EXPECT_EQ(improved.find_star(0, 0, star), boundary_vertices == 4);
+        EXPECT_FALSE(improved.find_star(0, 1, star));
     }
     mesh.boundary_vertex_count = 0;  // those of the boundary are known by its faces
-    EXPECT_FALSE(EditedMesh(mesh, 0, {}, [](const CellShape&) {}).find_star(0, 1, star));
-    EXPECT_FALSE(EditedMesh(mesh, 1, {}, [](const CellShape&) {}).find_star(1, 1, star));
+    EXPECT_FALSE(ImprovedMesh(mesh, 0, {}, [](const CellShape&) {}).find_star(0, 1, star));
+    EXPECT_FALSE(ImprovedMesh(mesh, 1, {}, [](const CellShape&) {}).find_star(1, 1, star));
 }
 
 }  // namespace

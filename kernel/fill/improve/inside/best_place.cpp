@@ -30,7 +30,7 @@ class Directions {
 
 // Returns the worst badness, or some number that is not below the limit if the worst is not. A face that has failed
 // moves to the front, to be asked early the next time.
-double BestPlace::worst_at(const EditedMesh& mesh, const Vec3& p, double limit, double excess) {
+double BestPlace::worst_at(const ImprovedMesh& mesh, const Vec3& p, double limit, double excess) {
     double worst = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         worst = std::max(worst, mesh.badness_of(p, faces_[i].a, faces_[i].b, faces_[i].c, excess));
@@ -41,7 +41,7 @@ double BestPlace::worst_at(const EditedMesh& mesh, const Vec3& p, double limit, 
     return worst;
 }
 
-BestPlace::Place BestPlace::search(const EditedMesh& mesh, Place best, double excess, std::int32_t seed) {
+BestPlace::Place BestPlace::search(const ImprovedMesh& mesh, Place best, double excess, std::int32_t seed) {
     Vec3 towards_centre = Vec3::Zero();
     double distance_sq = std::numeric_limits<double>::infinity();
     for (const Face& face : faces_) {

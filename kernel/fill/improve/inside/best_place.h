@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fill/improve/inside/edited_mesh.h"
+#include "fill/improve/inside/improved_mesh.h"
 
 namespace kerf {
 
@@ -27,10 +27,10 @@ class BestPlace {
     };
     /// Searches from `start` and returns the best place that was found; a place counts if its badness is below
     /// `start.badness`. Cells may exceed their bound of volume by `excess`.
-    Place search(const EditedMesh& mesh, Place start, double excess, std::int32_t seed);
+    Place search(const ImprovedMesh& mesh, Place start, double excess, std::int32_t seed);
 
  private:
-    double worst_at(const EditedMesh& mesh, const Vec3& p, double limit, double excess);
+    double worst_at(const ImprovedMesh& mesh, const Vec3& p, double limit, double excess);
 
     std::vector<Face> faces_;
 };

@@ -2,9 +2,9 @@
 
 namespace kerf {
 
-bool EdgeRemoval::find(const EditedMesh& mesh, const EdgeRing& ring, double limit) {
+bool EdgeRemoval::find(const ImprovedMesh& mesh, const EdgeRing& ring, double limit) {
     const double excess = mesh.most_excess(ring.cells);
-    std::array<Vec3, EditedMesh::most_cells_of_a_ring> points;
+    std::array<Vec3, ImprovedMesh::most_cells_of_a_ring> points;
     for (std::size_t i = 0; i < ring.size(); ++i) points[i] = mesh.point(ring.ring[i]);
     const Vec3 &a = mesh.point(ring.a), &b = mesh.point(ring.b);
     const auto badness_of = [&](std::size_t i, std::size_t j, std::size_t k, double best) {

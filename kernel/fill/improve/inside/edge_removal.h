@@ -1,7 +1,7 @@
 // The best tetrahedra in the place of those around an edge, without the edge.
 #pragma once
 
-#include "fill/improve/inside/edited_mesh.h"
+#include "fill/improve/inside/improved_mesh.h"
 #include "fill/improve/polygon_triangulation.h"
 
 namespace kerf {
@@ -12,13 +12,13 @@ namespace kerf {
 class EdgeRemoval {
  public:
     /// Finds the cells; false if there are none. O(n^3).
-    bool find(const EditedMesh& mesh, const EdgeRing& ring, double limit);
+    bool find(const ImprovedMesh& mesh, const EdgeRing& ring, double limit);
     /// The largest badness of the cells that were found, and these.
     double badness() const { return polygon_.badness(); }
     const std::vector<Tetrahedron>& cells() const { return cells_; }
 
  private:
-    PolygonTriangulation<EditedMesh::most_cells_of_a_ring> polygon_;
+    PolygonTriangulation<ImprovedMesh::most_cells_of_a_ring> polygon_;
     std::vector<Tetrahedron> cells_;
 };
 

@@ -21,19 +21,19 @@ bool VertexInsertion::contains(std::int32_t cell) const {
     return std::find(cavity_.begin(), cavity_.end(), cell) != cavity_.end();
 }
 
-double VertexInsertion::badness_at(const EditedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const {
+double VertexInsertion::badness_at(const ImprovedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const {
     const Triangle face = mesh.face(cell, i);
     return mesh.badness_of(at, mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2]), excess_);
 }
 
-void VertexInsertion::find_sides(const EditedMesh& mesh) {
+void VertexInsertion::find_sides(const ImprovedMesh& mesh) {
     sides_.clear();
     for (const std::int32_t cell : cavity_)
         for (int i = 0; i < 4; ++i)
             if (!contains(mesh.neighbour(cell, i))) sides_.push_back({cell, i, 0});
 }
 
-bool VertexInsertion::has_inner_vertex(const EditedMesh& mesh) const {
+bool VertexInsertion::has_inner_vertex(const ImprovedMesh& mesh) const {
     for (const std::int32_t cell : cavity_)
         for (const std::int32_t vertex : mesh.corners(cell))
             if (std::none_of(sides_.begin(), sides_.end(), [&](const Side& side) {
@@ -45,7 +45,7 @@ bool VertexInsertion::has_inner_vertex(const EditedMesh& mesh) const {
 }
 
 // Adds the cell behind the worst side for which the sides behind that are better; false if there is none.
-bool VertexInsertion::grow(const EditedMesh& mesh, const Vec3& at) {
+bool VertexInsertion::grow(const ImprovedMesh& mesh, const Vec3& at) {
     if (cavity_.size() == most_cavity_cells) return false;
     for (Side& side : sides_) side.badness = badness_at(mesh, at, side.cell, side.i);
     std::stable_sort(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.badness > q.badness; });
@@ -66,14 +66,14 @@ bool VertexInsertion::grow(const EditedMesh& mesh, const Vec3& at) {
     return false;
 }
 
-double VertexInsertion::worst_at(const EditedMesh& mesh, const Vec3& at) const {
+double VertexInsertion::worst_at(const ImprovedMesh& mesh, const Vec3& at) const {
     double worst = -std::numeric_limits<double>::infinity();
     for (const Side& side : sides_) worst = std::max(worst, badness_at(mesh, at, side.cell, side.i));
     return worst;
 }
 
 // Moves the place and grows the cavity in turn, and keeps the best of both.
-void VertexInsertion::grow_and_move(const EditedMesh& mesh, const Vec3& start) {
+void VertexInsertion::grow_and_move(const ImprovedMesh& mesh, const Vec3& start) {
     cavity_ = ring_.cells;
     excess_ = mesh.most_excess(cavity_);
     find_sides(mesh);
@@ -98,7 +98,7 @@ void VertexInsertion::grow_and_move(const EditedMesh& mesh, const Vec3& start) {
 }
 
 // Returns a direction of length 1, or zero where no face of the cell is at the boundary.
-Vec3 VertexInsertion::away_from_boundary(const EditedMesh& mesh, std::int32_t cell) {
+Vec3 VertexInsertion::away_from_boundary(const ImprovedMesh& mesh, std::int32_t cell) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < 4; ++i) {
         if (mesh.neighbour(cell, i) >= 0) continue;
@@ -108,7 +108,7 @@ Vec3 VertexInsertion::away_from_boundary(const EditedMesh& mesh, std::int32_t ce
     return sum.stableNormalized();
 }
 
-void VertexInsertion::try_all_edges(const EditedMesh& mesh, std::int32_t cell, const Vec3& away) {
+void VertexInsertion::try_all_edges(const ImprovedMesh& mesh, std::int32_t cell, const Vec3& away) {
     for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j) {
             if (!mesh.find_ring(cell, i, j, ring_)) continue;
@@ -117,7 +117,7 @@ void VertexInsertion::try_all_edges(const EditedMesh& mesh, std::int32_t cell, c
         }
 }
 
-std::span<const std::int32_t> VertexInsertion::insert(EditedMesh& mesh, std::int32_t cell, double limit,
+std::span<const std::int32_t> VertexInsertion::insert(ImprovedMesh& mesh, std::int32_t cell, double limit,
                                                       std::span<const double> depths) {
     best_ = {Vec3::Zero(), limit};
     best_cavity_.clear();

@@ -18,7 +18,7 @@ class VertexInsertion {
     /// ones; none, and nothing has changed, if there is no vertex whose worst cell is better than `limit`. `depths`:
     /// depths below the facets of the cell at which the vertex may begin, too, in lengths of an edge, tried in this
     /// order until one succeeds; needed where the cells around are as flat as the cell is.
-    std::span<const std::int32_t> insert(EditedMesh& mesh, std::int32_t cell, double limit,
+    std::span<const std::int32_t> insert(ImprovedMesh& mesh, std::int32_t cell, double limit,
                                          std::span<const double> depths);
     const std::vector<Tetrahedron>& cells() const { return cells_; }
 
@@ -29,15 +29,15 @@ class VertexInsertion {
         double badness;  // badness of the cell between the side and the place
     };
 
-    static Vec3 away_from_boundary(const EditedMesh& mesh, std::int32_t cell);
-    void try_all_edges(const EditedMesh& mesh, std::int32_t cell, const Vec3& away);
-    void grow_and_move(const EditedMesh& mesh, const Vec3& start);
-    void find_sides(const EditedMesh& mesh);
-    bool grow(const EditedMesh& mesh, const Vec3& at);
-    bool has_inner_vertex(const EditedMesh& mesh) const;
+    static Vec3 away_from_boundary(const ImprovedMesh& mesh, std::int32_t cell);
+    void try_all_edges(const ImprovedMesh& mesh, std::int32_t cell, const Vec3& away);
+    void grow_and_move(const ImprovedMesh& mesh, const Vec3& start);
+    void find_sides(const ImprovedMesh& mesh);
+    bool grow(const ImprovedMesh& mesh, const Vec3& at);
+    bool has_inner_vertex(const ImprovedMesh& mesh) const;
     bool contains(std::int32_t cell) const;
-    double badness_at(const EditedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const;
-    double worst_at(const EditedMesh& mesh, const Vec3& at) const;
+    double badness_at(const ImprovedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const;
+    double worst_at(const ImprovedMesh& mesh, const Vec3& at) const;
 
     EdgeRing ring_;
     std::vector<std::int32_t> cavity_, best_cavity_;

@@ -13,7 +13,7 @@ namespace kerf {
 
 /// The cells of a mesh, their badness, and the conditions for new cells, see badness_of() and is_positive(). Numbers of
 /// cells do not change until finish(). 40 bytes a cell and 29 a vertex.
-class EditedMesh {
+class ImprovedMesh {
  public:
     static constexpr std::int32_t most_cells = EditableTets::most_cells;
     static constexpr std::size_t most_cells_of_a_ring = 10;
@@ -21,8 +21,8 @@ class EditedMesh {
     /// Takes a mesh. Finds neighbours where it has none, and computes the shapes of all cells, which `visit` is told.
     /// The first `frozen_cells` cells never change. Throws Error(memory) if there are more than `most`, which is at
     /// most most_cells.
-    EditedMesh(TetMesh mesh, std::int64_t frozen_cells, SizeField max_size,
-               const std::function<void(const CellShape&)>& visit, std::int32_t most = most_cells);
+    ImprovedMesh(TetMesh mesh, std::int64_t frozen_cells, SizeField max_size,
+                 const std::function<void(const CellShape&)>& visit, std::int32_t most = most_cells);
     /// Returns the mesh as it is now, without gaps among the cells, and with neighbours if it had some. Afterwards
     /// there are no cells.
     TetMesh finish();

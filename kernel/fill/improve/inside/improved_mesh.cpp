@@ -3,14 +3,14 @@
 // first compared with the least bound of all, so that the size field is asked only for cells that could exceed theirs.
 // Angles are compared in doubles as signed squares of cotangents (fill/improve/cell_shape.h), signs of volumes exactly.
 // Fixed are the vertices of the boundary, of faces with a cell on one side only, and of frozen cells.
-#include "fill/improve/inside/edited_mesh.h"
+#include "fill/improve/inside/improved_mesh.h"
 
 #include "base/geometry/predicates.h"
 
 namespace kerf {
 
-EditedMesh::EditedMesh(TetMesh mesh, std::int64_t frozen_cells, SizeField max_size,
-                       const std::function<void(const CellShape&)>& visit, std::int32_t most)
+ImprovedMesh::ImprovedMesh(TetMesh mesh, std::int64_t frozen_cells, SizeField max_size,
+                           const std::function<void(const CellShape&)>& visit, std::int32_t most)
     : max_size_(std::move(max_size)),
       frozen_cells_(frozen_cells),
       boundary_vertex_count_(mesh.boundary_vertex_count),
@@ -21,7 +21,7 @@ EditedMesh::EditedMesh(TetMesh mesh, std::int64_t frozen_cells, SizeField max_si
     find_limits(visit);
 }
 
-TetMesh EditedMesh::finish() {
+TetMesh ImprovedMesh::finish() {
     std::vector<double>().swap(badness_);
     TetMesh mesh = tets_.take_mesh(had_neighbours_);
     mesh.boundary_vertex_count = boundary_vertex_count_;
@@ -29,7 +29,7 @@ TetMesh EditedMesh::finish() {
 }
 
 // Finds the shapes of all cells, the worst angles, and the vertices that must not move.
-void EditedMesh::find_limits(const std::function<void(const CellShape&)>& visit) {
+void ImprovedMesh::find_limits(const std::function<void(const CellShape&)>& visit) {
     is_fixed_.assign(tets_.points().size(), 0);
     std::fill_n(is_fixed_.begin(), boundary_vertex_count_, 1);
     badness_.resize(cell_count());
@@ -48,23 +48,23 @@ void EditedMesh::find_limits(const std::function<void(const CellShape&)>& visit)
     }
 }
 
-bool EditedMesh::find_ring(std::int32_t cell, int i, int j, EdgeRing& ring) const {
+bool ImprovedMesh::find_ring(std::int32_t cell, int i, int j, EdgeRing& ring) const {
     return kerf::find_ring(tets_, cell, i, j, ring, most_cells_of_a_ring) && ring.size() >= 3 &&
            std::none_of(ring.cells.begin(), ring.cells.end(), [&](std::int32_t at) { return is_frozen(at); });
 }
 
-bool EditedMesh::find_star(std::int32_t cell, int i, std::vector<std::int32_t>& star) {
+bool ImprovedMesh::find_star(std::int32_t cell, int i, std::vector<std::int32_t>& star) {
     const std::int32_t vertex = corners(cell)[i];
     if (is_fixed_[vertex]) return false;
     tets_.find_star(cell, vertex, star);
     return true;
 }
 
-double EditedMesh::excess_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double six_volumes) const {
+double ImprovedMesh::excess_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double six_volumes) const {
     return six_volumes / (6 * max_size_.max_volume_at((a + b + c + d) / 4));
 }
 
-double EditedMesh::most_excess(std::span<const std::int32_t> cells) const {
+double ImprovedMesh::most_excess(std::span<const std::int32_t> cells) const {
     double excess = 1;
     if (max_size_.is_empty()) return excess;
     for (const std::int32_t cell : cells) {
@@ -76,7 +76,7 @@ double EditedMesh::most_excess(std::span<const std::int32_t> cells) const {
     return excess;
 }
 
-double EditedMesh::badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double excess) const {
+double ImprovedMesh::badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double excess) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     ++evaluations_;
     const CellShape shape_of_cell = cell_shape(a, b, c, d);
@@ -86,19 +86,19 @@ double EditedMesh::badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const
     return shape_of_cell.badness();
 }
 
-bool EditedMesh::is_positive(const Tetrahedron& corners) const {
+bool ImprovedMesh::is_positive(const Tetrahedron& corners) const {
     return orientation(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3])) > 0;
 }
 
-std::span<const std::int32_t> EditedMesh::replace(std::span<const std::int32_t> cells,
-                                                  std::span<const Tetrahedron> by) {
+std::span<const std::int32_t> ImprovedMesh::replace(std::span<const std::int32_t> cells,
+                                                    std::span<const Tetrahedron> by) {
     const std::span<const std::int32_t> made = tets_.replace(cells, by);
     badness_.resize(cell_count());
     for (const std::int32_t cell : made) badness_[cell] = shape(corners(cell)).badness();
     return made;
 }
 
-bool EditedMesh::move(std::int32_t vertex, const Vec3& to, std::span<const std::int32_t> star) {
+bool ImprovedMesh::move(std::int32_t vertex, const Vec3& to, std::span<const std::int32_t> star) {
     const Vec3 from = point(vertex);
     tets_.move_vertex(vertex, to);
     for (const std::int32_t cell : star)
@@ -110,12 +110,12 @@ bool EditedMesh::move(std::int32_t vertex, const Vec3& to, std::span<const std::
     return true;
 }
 
-std::int32_t EditedMesh::add_vertex(const Vec3& p) {
+std::int32_t ImprovedMesh::add_vertex(const Vec3& p) {
     is_fixed_.push_back(0);
     return tets_.add_vertex(p);
 }
 
-void EditedMesh::remove_last_vertex() {
+void ImprovedMesh::remove_last_vertex() {
     is_fixed_.pop_back();
     tets_.remove_unused_vertices(is_fixed_.size());
 }
