@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "support/planar_triangulation.h"
+#include "support/random_triangulation.h"
 
 namespace kerf::test {
 
@@ -27,7 +27,7 @@ class PointSource {
         radius_ = random.between(0.1, 0.5) * box_.sizes().minCoeff();
     }
 
-    Vec2 point(int k, const PlanarTriangulation& triangulation) {
+    Vec2 point(int k, const RandomTriangulation& triangulation) {
         switch (style_.pattern) {
             case Pattern::random:
                 return anywhere();
@@ -53,7 +53,7 @@ class PointSource {
         const double x = random_.share();
         return in_box(x, random_.share());
     }
-    Vec2 near_edge(const PlanarTriangulation& triangulation) {
+    Vec2 near_edge(const RandomTriangulation& triangulation) {
         const Triangle& t = triangulation.triangles()[random_.bits() % triangulation.triangles().size()];
         const auto p = [&](int i) -> const Vec2& { return triangulation.points()[t[i]]; };
         const double far = 2 * style_.least_height * random_.magnitude(1, 100), along = random_.between(0.2, 0.8);
@@ -168,7 +168,7 @@ class PrismBuilder {
     // `corners`: of the loop, counter-clockwise.
     void add_face(const Loop& loop, const std::vector<Vec2>& corners, const FaceStyle& style, bool is_turned,
                   const Lift& lift) {
-        PlanarTriangulation triangulation(corners, style.least_height, random_);
+        RandomTriangulation triangulation(corners, style.least_height, random_);
         if (triangulation.triangles().empty()) return;  // open: no valid surface
         PointSource source(corners, style, random_);
         const int points = style_.twist == 0 ? style.points : 0;

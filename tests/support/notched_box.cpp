@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "support/planar_triangulation.h"
+#include "support/random_triangulation.h"
 
 namespace kerf::test {
 
@@ -68,7 +68,7 @@ class NotchedBox {
     void add_wall(const std::vector<std::int32_t>& loop, int axis, bool is_turned) {
         std::vector<Vec2> corners;
         for (const std::int32_t v : loop) corners.emplace_back(soup_.vertices[v][axis], soup_.vertices[v][2]);
-        const PlanarTriangulation wall(corners, 1e-3, random_);
+        const RandomTriangulation wall(corners, 1e-3, random_);
         for (const auto& [a, b, c] : wall.triangles())
             soup_.facets.push_back(is_turned ? Triangle{loop[a], loop[c], loop[b]}
                                              : Triangle{loop[a], loop[b], loop[c]});

@@ -10,12 +10,12 @@
 namespace kerf::test {
 
 /// A simple polygon cut into triangles, which are counter-clockwise. Exact predicates; every operation is O(n).
-class PlanarTriangulation {
+class RandomTriangulation {
  public:
     /// Triangles lower than `least_height` times their longest edge are not made, but where there is no other way.
     /// `corners`: counter-clockwise, some may lie on the line between their neighbours. Which ears are cut off first is
     /// random. Without triangles if the polygon is not simple. O(n^3) at worst.
-    PlanarTriangulation(std::vector<Vec2> corners, double least_height, SeededNumbers& random);
+    RandomTriangulation(std::vector<Vec2> corners, double least_height, SeededNumbers& random);
 
     const std::vector<Vec2>& points() const { return points_; }
     const std::vector<Triangle>& triangles() const { return triangles_; }

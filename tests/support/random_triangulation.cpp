@@ -1,4 +1,4 @@
-#include "support/planar_triangulation.h"
+#include "support/random_triangulation.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ bool is_in_triangle(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) 
 
 }  // namespace
 
-PlanarTriangulation::PlanarTriangulation(std::vector<Vec2> corners, double least_height, SeededNumbers& random)
+RandomTriangulation::RandomTriangulation(std::vector<Vec2> corners, double least_height, SeededNumbers& random)
     : points_(std::move(corners)), least_height_(least_height) {
     std::vector<std::int32_t> polygon(points_.size());
     for (std::size_t i = 0; i < polygon.size(); ++i) polygon[i] = static_cast<std::int32_t>(i);
@@ -47,11 +47,11 @@ PlanarTriangulation::PlanarTriangulation(std::vector<Vec2> corners, double least
     }
 }
 
-bool PlanarTriangulation::is_high(std::int32_t a, std::int32_t b, std::int32_t c) const {
+bool RandomTriangulation::is_high(std::int32_t a, std::int32_t b, std::int32_t c) const {
     return turn(points_[a], points_[b], points_[c]) > 0 && height(points_[a], points_[b], points_[c]) >= least_height_;
 }
 
-bool PlanarTriangulation::is_ear(const std::vector<std::int32_t>& polygon, std::size_t i, double least_height) const {
+bool RandomTriangulation::is_ear(const std::vector<std::int32_t>& polygon, std::size_t i, double least_height) const {
     const std::size_t n = polygon.size();
     const Vec2 &a = points_[polygon[(i + n - 1) % n]], &b = points_[polygon[i]], &c = points_[polygon[(i + 1) % n]];
     if (turn(a, b, c) <= 0 || height(a, b, c) < least_height) return false;
@@ -60,14 +60,14 @@ bool PlanarTriangulation::is_ear(const std::vector<std::int32_t>& polygon, std::
     return true;
 }
 
-std::optional<std::size_t> PlanarTriangulation::triangle_at(std::int32_t from, std::int32_t to) const {
+std::optional<std::size_t> RandomTriangulation::triangle_at(std::int32_t from, std::int32_t to) const {
     for (std::size_t t = 0; t < triangles_.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i)
             if (triangles_[t][i] == from && triangles_[t][(i + 1) % 3] == to) return t;
     return std::nullopt;
 }
 
-bool PlanarTriangulation::insert(const Vec2& p) {
+bool RandomTriangulation::insert(const Vec2& p) {
     const auto contains = [&](const Triangle& t) {
         return is_in_triangle(p, points_[t[0]], points_[t[1]], points_[t[2]]);
     };
@@ -106,7 +106,7 @@ bool PlanarTriangulation::insert(const Vec2& p) {
     return true;
 }
 
-bool PlanarTriangulation::flip_edge(std::size_t triangle, int i) {
+bool RandomTriangulation::flip_edge(std::size_t triangle, int i) {
     const Triangle& t = triangles_[triangle];
     const std::int32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
     const auto across = triangle_at(b, a);
@@ -119,14 +119,14 @@ bool PlanarTriangulation::flip_edge(std::size_t triangle, int i) {
     return true;
 }
 
-void PlanarTriangulation::flip(int tries, SeededNumbers& random) {
+void RandomTriangulation::flip(int tries, SeededNumbers& random) {
     for (int k = 0; k < tries && !triangles_.empty(); ++k) {
         const std::size_t triangle = random.bits() % triangles_.size();
         flip_edge(triangle, random.integer(0, 2));
     }
 }
 
-void PlanarTriangulation::grow_star(std::int32_t point) {
+void RandomTriangulation::grow_star(std::int32_t point) {
     bool is_changed = true;
     for (int round = 0; round < 50 && is_changed; ++round) {
         is_changed = false;
