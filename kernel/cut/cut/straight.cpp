@@ -17,7 +17,7 @@
 #include "base/core/check.h"
 #include "base/core/threads.h"
 #include "cut/cut/inside/contour.h"
-#include "cut/cut/triangulation.h"
+#include "cut/cut/planar_triangulation.h"
 #include "surface/complex/touching.h"
 #include "surface/diagnosis/intersections.h"
 

@@ -1,9 +1,9 @@
 // The caps of straight cuts are divided into regions, one for each pair of parts in one plane, and each region is
-// triangulated in its plane (cut/cut/triangulation.h). Notation: a border edge is an edge between a region and another
-// one, or the surface. It is hard if a face that is no cap holds it, else soft: then it lies exactly on the line in
-// which two coordinate planes meet. A vertex on such a line at which nothing else meets is passed over, so that a run
-// of soft edges becomes a segment between two kept vertices, which is divided anew; both regions at it use the same new
-// vertices.
+// triangulated in its plane (cut/cut/planar_triangulation.h). Notation: a border edge is an edge between a region and
+// another one, or the surface. It is hard if a face that is no cap holds it, else soft: then it lies exactly on the
+// line in which two coordinate planes meet. A vertex on such a line at which nothing else meets is passed over, so that
+// a run of soft edges becomes a segment between two kept vertices, which is divided anew; both regions at it use the
+// same new vertices.
 #include "cut/decompose/cap_triangulation.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "base/core/check.h"
-#include "cut/cut/triangulation.h"
+#include "cut/cut/planar_triangulation.h"
 
 namespace kerf {
 

@@ -11,8 +11,8 @@
 #include "base/core/check.h"
 #include "cut/cut/inside/contour.h"
 #include "cut/cut/inside/interface.h"
+#include "cut/cut/planar_triangulation.h"
 #include "cut/cut/split.h"
-#include "cut/cut/triangulation.h"
 #include "cut/decompose/tree_node.h"
 #include "files/io/stl_writer.h"
 #include "fill/mesh/adjacency.h"
@@ -112,7 +112,7 @@ std::vector<Misuse> misuses() {
          [=] {
              build_interface(surface, band, labels, {{0, 7, 1}}, no_hits, {});
          }},
-        {"triangulation.cpp:[0-9]+: .*has_closed_loops",
+        {"planar_triangulation.cpp:[0-9]+: .*has_closed_loops",
          [] {
              PlanarRegion region;
              region.contour = {{0, 0}, {1, 0}, {0, 1}};

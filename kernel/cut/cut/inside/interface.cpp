@@ -21,7 +21,7 @@
 #include "base/geometry/triangle.h"
 #include "cut/cut/inside/contour_layout.h"
 #include "cut/cut/inside/lift.h"
-#include "cut/cut/triangulation.h"
+#include "cut/cut/planar_triangulation.h"
 
 namespace kerf {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cut/cut/triangulation.h"
+#include "cut/cut/planar_triangulation.h"
 
 namespace kerf {
 

@@ -1,7 +1,7 @@
 // First each edge of the surface is divided, once for all of its facets: the number of wanted lengths along it is the
 // integral of 1 / size, by steps that are halved until the size hardly varies within one, and its pieces are cut at
 // equal shares of that integral. Of several fields the finest of the facets at the edge counts. Then each facet is
-// triangulated in its plane with these points as its outline, as interfaces are (cut/cut/triangulation.h).
+// triangulated in its plane with these points as its outline, as interfaces are (cut/cut/planar_triangulation.h).
 //
 // Because a facet depends on its outline and the field alone, nothing has to be agreed with its neighbours. Where
 // rounding leaves the outline no inside, the facet is divided without regard to coordinates, by halving the side with
@@ -18,7 +18,7 @@
 #include "base/core/error.h"
 #include "base/core/number_text.h"
 #include "base/geometry/triangle.h"
-#include "cut/cut/triangulation.h"
+#include "cut/cut/planar_triangulation.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {

@@ -48,9 +48,9 @@ struct DividedSurface {
 /// 1.5 times that on edges of the surface, twice inside of facets. The shape is the same. The edges and corners of the
 /// facets stay, vertices keep their numbers, and pieces have the patch of their facet. The number of pieces of an edge
 /// is the rounded number of lengths that fit in, and pieces are shorter where shorter ones are wanted; inside, points
-/// are added as in interfaces (cut/cut/triangulation.h). A facet depends on its corners and the field alone. Any number
-/// of facets may meet in an edge. Throws Error(memory) for more facets than a surface may have, Error(cancelled). O(n
-/// log n), n: facets of the result.
+/// are added as in interfaces (cut/cut/planar_triangulation.h). A facet depends on its corners and the field alone. Any
+/// number of facets may meet in an edge. Throws Error(memory) for more facets than a surface may have,
+/// Error(cancelled). O(n log n), n: facets of the result.
 DividedSurface divide_facets(const SurfaceArrays& surface, const FacetSizes& wanted,
                              const CancellationCheck& check_cancelled = {});
 

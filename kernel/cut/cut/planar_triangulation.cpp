@@ -3,7 +3,7 @@
 // by its constraint. Sizes grow from the contour inwards, so triangles beside contour edges that are much shorter than
 // the bound do not become flat. Interior points are smoothed at the end, each move only if the worst triangle around
 // the point does not suffer.
-#include "cut/cut/triangulation.h"
+#include "cut/cut/planar_triangulation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The triangulation of a section in its plane.
+// The triangulation of a region in a plane, for interfaces and for facets that are divided.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "cut/cut/triangulation.h"
+#include "cut/cut/planar_triangulation.h"
 
 #include <algorithm>
 #include <map>
@@ -71,7 +71,7 @@ void expect_conforming(const PlanarRegion& region, const PlanarTriangulation& t)
     EXPECT_EQ(outer, wanted);
 }
 
-TEST(Triangulation, OfADisc) {
+TEST(PlanarTriangulation, OfADisc) {
     for (const int n : {3, 4, 7, 40, 500}) {
         SCOPED_TRACE(n);
         const PlanarRegion region = disc(n, 1);
@@ -79,7 +79,7 @@ TEST(Triangulation, OfADisc) {
     }
 }
 
-TEST(Triangulation, OfNestedLoops) {
+TEST(PlanarTriangulation, OfNestedLoops) {
     PlanarRegion region = disc(60, 4);
     add_loop(region, reversed(circle(40, 3)));
     add_loop(region, circle(30, 2));
@@ -89,7 +89,7 @@ TEST(Triangulation, OfNestedLoops) {
     expect_conforming(region, triangulate(region));
 }
 
-TEST(Triangulation, OfRandomStars) {
+TEST(PlanarTriangulation, OfRandomStars) {
     constexpr unsigned seed = 3;
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> radius(0.4, 1);
@@ -101,7 +101,7 @@ TEST(Triangulation, OfRandomStars) {
     }
 }
 
-TEST(Triangulation, OfContoursOnALattice) {
+TEST(PlanarTriangulation, OfContoursOnALattice) {
     // Collinear and cocircular points: a comb with five teeth of lattice cells.
     std::vector<Vec2> comb;
     for (int x = 0; x <= 9; ++x) comb.emplace_back(x, 0);
@@ -111,7 +111,7 @@ TEST(Triangulation, OfContoursOnALattice) {
     expect_conforming(region, triangulate(region));
 }
 
-TEST(Triangulation, AnglesAreGoodInsideOfEvenContours) {
+TEST(PlanarTriangulation, AnglesAreGoodInsideOfEvenContours) {
     const PlanarRegion region = disc(100, 1);
     const PlanarTriangulation t = triangulate(region);
     double smallest = 180;
@@ -123,7 +123,7 @@ TEST(Triangulation, AnglesAreGoodInsideOfEvenContours) {
     EXPECT_GT(smallest, 25);
 }
 
-TEST(Triangulation, SizesGrowInwardsUpToTheBound) {
+TEST(PlanarTriangulation, SizesGrowInwardsUpToTheBound) {
     PlanarRegion region = disc(400, 1);
     const std::size_t graded = triangulate(region).triangles.size();
     constexpr double bound = 0.02;
@@ -138,7 +138,7 @@ TEST(Triangulation, SizesGrowInwardsUpToTheBound) {
     EXPECT_LT(longest, 2 * bound);
 }
 
-TEST(Triangulation, WantedPointsBecomeVerticesWhereTheyFit) {
+TEST(PlanarTriangulation, WantedPointsBecomeVerticesWhereTheyFit) {
     PlanarRegion region = disc(30, 1);
     region.wanted = {{Vec2(0.1, 0.2), 0.2}, {Vec2(-0.4, 0.3), 0.2}, {Vec2(5, 5), 0.2}};
     const PlanarTriangulation t = triangulate(region);
@@ -151,7 +151,7 @@ TEST(Triangulation, WantedPointsBecomeVerticesWhereTheyFit) {
     }
 }
 
-TEST(Triangulation, CrossingContoursAreRefusedWithTheirVertices) {
+TEST(PlanarTriangulation, CrossingContoursAreRefusedWithTheirVertices) {
     PlanarRegion bow;
     add_loop(bow, {Vec2(0, 0), Vec2(2, 2), Vec2(2, 0), Vec2(0, 2)});
     const PlanarTriangulation t = triangulate(bow);
@@ -165,7 +165,7 @@ TEST(Triangulation, CrossingContoursAreRefusedWithTheirVertices) {
     EXPECT_EQ(triangulate(two).failed, (std::vector<std::int32_t>{0, 1, 4, 5, 6}));
 }
 
-TEST(Triangulation, TouchingContoursAreRefused) {
+TEST(PlanarTriangulation, TouchingContoursAreRefused) {
     PlanarRegion corner_on_edge;
     add_loop(corner_on_edge, {Vec2(0, 0), Vec2(2, 0), Vec2(2, 2), Vec2(0, 2)});
     add_loop(corner_on_edge, {Vec2(1, 2), Vec2(2, 4), Vec2(0, 4)});
@@ -177,7 +177,7 @@ TEST(Triangulation, TouchingContoursAreRefused) {
     EXPECT_NE(triangulate(same_point).refusal, Refusal::none);
 }
 
-TEST(Triangulation, WrongNestingIsRefusedWithTheWrongLoop) {
+TEST(PlanarTriangulation, WrongNestingIsRefusedWithTheWrongLoop) {
     PlanarRegion outside_in;
     add_loop(outside_in, reversed(circle(8, 1)));
     EXPECT_EQ(triangulate(outside_in).refusal, Refusal::nesting);
@@ -190,14 +190,14 @@ TEST(Triangulation, WrongNestingIsRefusedWithTheWrongLoop) {
     EXPECT_GE(*std::min_element(t.failed.begin(), t.failed.end()), 20);
 }
 
-TEST(Triangulation, IsDeterministic) {
+TEST(PlanarTriangulation, IsDeterministic) {
     const PlanarRegion region = disc(321, 1);
     const PlanarTriangulation a = triangulate(region), b = triangulate(region);
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_TRUE(a.points == b.points);
 }
 
-TEST(Triangulation, EndsAtItsLimitAndWhenItIsAskedTo) {
+TEST(PlanarTriangulation, EndsAtItsLimitAndWhenItIsAskedTo) {
     PlanarRegion region = disc(400, 1);
     region.max_edge = [](const Vec2&) { return 0.01; };
     const auto points = static_cast<std::int64_t>(triangulate(region).points.size());
