@@ -7,7 +7,7 @@
 
 #include "base/core/threads.h"
 #include "base/parallel/shares.h"
-#include "run/prepare/leaves_of_ranks.h"
+#include "run/prepare/leaf_owners.h"
 
 namespace kerf {
 
@@ -18,7 +18,7 @@ namespace kerf {
 /// Collective. Each thing is looked at by one rank, so that memory and messages of a rank follow the incidences that it
 /// tells and gets.
 template <class Incidence, class Number, class IsOfSame>
-std::vector<Incidence> incidences_of_rank(Communicator& ranks, const LeavesOfRanks& leaves, std::vector<Incidence> told,
+std::vector<Incidence> incidences_of_rank(Communicator& ranks, const LeafOwners& leaves, std::vector<Incidence> told,
                                           const Number& number, const IsOfSame& is_of_same) {
     const auto in_order = [](std::vector<Incidence>& incidences) {
         sort_on_threads(incidences);

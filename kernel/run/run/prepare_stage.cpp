@@ -19,7 +19,7 @@
 #include "fill/volume/tet_forecast.h"
 #include "run/prepare/input_cover.h"
 #include "run/prepare/interface_match.h"
-#include "run/prepare/leaves_of_ranks.h"
+#include "run/prepare/leaf_owners.h"
 #include "run/prepare/numbering.h"
 #include "run/prepare/shared_incidences.h"
 #include "surface/complex/mass_properties.h"
@@ -74,7 +74,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
 }
 
 // Finds the vertices that the parts of this rank share with others, on any rank.
-SharedVertices find_shared_vertices(Communicator& ranks, const LeavesOfRanks& leaves, const VertexNumbering& numbering,
+SharedVertices find_shared_vertices(Communicator& ranks, const LeafOwners& leaves, const VertexNumbering& numbering,
                                     const Decomposition& own, std::span<const FacetSides> sides) {
     std::vector<SharedVertices::Incidence> held;
     std::vector<char> is_held;
@@ -95,7 +95,7 @@ SharedVertices find_shared_vertices(Communicator& ranks, const LeavesOfRanks& le
             leaves.ids()};
 }
 
-void find_shared_edges(Communicator& ranks, const LeavesOfRanks& leaves, std::vector<OwnPart>& own) {
+void find_shared_edges(Communicator& ranks, const LeafOwners& leaves, std::vector<OwnPart>& own) {
     using Incidence = SharedEdges::Incidence;
     std::vector<Incidence> told;
     for (const OwnPart& part : own) {
@@ -149,7 +149,7 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
     prepared.missing_input_facets = count_missing_input_facets(ranks, input.facets, own, sides);
     const VertexNumbering numbering(input.vertices, nodes);
     prepared.surface_vertices = numbering.surface_vertices();
-    const LeavesOfRanks leaves(ranks, own.leaves);
+    const LeafOwners leaves(ranks, own.leaves);
     // A part that touches itself has one vertex at a place from here on.
     if (!sides.empty())
         for (Leaf& leaf : own.leaves) leaf.surface = joined_by_key(std::move(leaf.surface));

@@ -11,10 +11,10 @@
 namespace kerf {
 
 /// The leaves of all ranks, in the order of the tree, and the ranks that hold them. 16 bytes a leaf.
-class LeavesOfRanks {
+class LeafOwners {
  public:
     /// Collective. `own`: the leaves of this rank; those of all ranks follow each other in the tree.
-    LeavesOfRanks(Communicator& ranks, const std::vector<Leaf>& own);
+    LeafOwners(Communicator& ranks, const std::vector<Leaf>& own);
 
     const std::vector<NodeId>& ids() const { return ids_; }
     PartIndex index_of(NodeId leaf) const { return index_.of(leaf); }

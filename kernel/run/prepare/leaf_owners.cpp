@@ -1,8 +1,8 @@
-#include "run/prepare/leaves_of_ranks.h"
+#include "run/prepare/leaf_owners.h"
 
 namespace kerf {
 
-LeavesOfRanks::LeavesOfRanks(Communicator& ranks, const std::vector<Leaf>& own) {
+LeafOwners::LeafOwners(Communicator& ranks, const std::vector<Leaf>& own) {
     std::vector<NodeId> own_ids;
     for (const Leaf& leaf : own) own_ids.push_back(leaf.id);
     std::int32_t rank = 0;
