@@ -176,7 +176,7 @@ void MpiRanks::end_together(const StageStatus& why) {
             check_mpi(MPI_Recv(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
     check_mpi(MPI_Waitall(size_, leaving_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
     try {
-        take_messages();
+        drain_messages();
     } catch (const std::bad_alloc&) {
         MPI_Abort(comm_, last_words_.code);
     }
@@ -394,10 +394,10 @@ std::optional<Bytes> MpiRanks::poll() {
 void MpiRanks::drop_messages() {
     if (is_over_) return;
     begin_collective(0);
-    take_messages();
+    drain_messages();
 }
 
-void MpiRanks::take_messages() {
+void MpiRanks::drain_messages() {
     int expected = 0;
     check_mpi(MPI_Reduce_scatter_block(sent_to_.data(), &expected, 1, MPI_INT, MPI_SUM, comm_),
               "MPI_Reduce_scatter_block");

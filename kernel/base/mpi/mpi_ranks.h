@@ -121,7 +121,7 @@ class MpiRanks : public Communicator {
     void end_together(const StageStatus& why);
     [[noreturn]] void throw_last_words() const;
     void end_if_one_has_left();
-    void take_messages();
+    void drain_messages();
     bool is_done(MPI_Request& request) const;
     class Transfer;
     void send(Transfer& transfer, int rank, int tag);

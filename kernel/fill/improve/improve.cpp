@@ -92,8 +92,8 @@ class Improver {
         if (is_bad(cell)) queue_.push({mesh_.badness(cell), cell});
     }
 
-    // Takes up cells that have changed.
-    void take_up(std::span<const std::int32_t> cells) {
+    // Queues cells that have changed; their vertices may move again.
+    void requeue(std::span<const std::int32_t> cells) {
         for (const std::int32_t cell : cells) {
             for (const std::int32_t v : mesh_.corners(cell)) is_settled_[v] = 0;
             push(cell);
@@ -137,7 +137,7 @@ class Improver {
                 best_cells_ = edge_.cells();
             }
         if (best == std::numeric_limits<double>::infinity()) return false;
-        take_up(mesh_.replace(best_ring_, best_cells_));
+        requeue(mesh_.replace(best_ring_, best_cells_));
         ++result_->removed_edges;
         return true;
     }
@@ -147,7 +147,7 @@ class Improver {
             const std::int32_t vertex = mesh_.corners(cell)[i];
             if (is_settled_[vertex] || !mesh_.find_star(cell, i, star_)) continue;
             if (move_to_best_place(vertex)) {
-                take_up(star_);
+                requeue(star_);
                 ++result_->moved_vertices;
                 return true;
             }
@@ -191,7 +191,7 @@ class Improver {
         evaluations_for_vertices_ += mesh_.evaluations();
         if (cavity.empty()) return false;
         is_settled_.push_back(0);
-        take_up(mesh_.replace(cavity, insertion_.cells()));
+        requeue(mesh_.replace(cavity, insertion_.cells()));
         ++result_->new_vertices;
         return true;
     }

@@ -34,7 +34,7 @@ std::vector<std::vector<std::int32_t>> facets_of_bodies(const GivenBodies& bodie
 }
 
 // Gives the soup of a body the patches of its own, by ascending numbers: there may be as many bodies as patches.
-void take_own_patches(const Soup& all, Soup& own) {
+void copy_own_patches(const Soup& all, Soup& own) {
     std::vector<std::int32_t> used = own.patch;
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -43,7 +43,7 @@ void take_own_patches(const Soup& all, Soup& own) {
         patch = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), patch) - used.begin());
 }
 
-void take_own_unfit_polygons(const Soup& all, Soup& own) {
+void copy_own_unfit_polygons(const Soup& all, Soup& own) {
     if (all.unfit_polygons.empty()) return;
     for (const std::int32_t polygon : own.polygon)
         if (std::binary_search(all.unfit_polygons.begin(), all.unfit_polygons.end(), polygon))
@@ -62,8 +62,8 @@ OwnSoup soup_of_body(const Soup& all, std::vector<std::int32_t> facets) {
         if (!all.polygon.empty()) own.soup.polygon.push_back(all.polygon[f]);
         own.vertex_number.insert(own.vertex_number.end(), all.facets[f].begin(), all.facets[f].end());
     }
-    take_own_patches(all, own.soup);
-    take_own_unfit_polygons(all, own.soup);
+    copy_own_patches(all, own.soup);
+    copy_own_unfit_polygons(all, own.soup);
     std::vector<std::int32_t>& used = own.vertex_number;
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());

@@ -76,16 +76,16 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
         return height[v] = plane.distance(surface.point(static_cast<std::int32_t>(v)));
     });
     if (model_.needs_volume() && !model_.depends_on_place())
-        take_items(surface, plane, height);
+        find_items(surface, plane, height);
     else if (model_.balance == Balance::nodes)
         centroids_ = std::move(height);
     else
-        take_centroids(surface, height);
+        find_centroids(surface, height);
     total_ =
         items_.empty() ? load_of(count_up_to(centroids_, highest_), 0, highest_) : load_below(items_, {}, highest_);
 }
 
-void LoadProfile::take_items(const Surface& surface, const Plane& plane, const std::vector<double>& height) {
+void LoadProfile::find_items(const Surface& surface, const Plane& plane, const std::vector<double>& height) {
     items_.resize(surface.facet_count());
     for_ranges_on_threads(items_.size(), items_of_thread, [&](const IndexRange& range) {
         for (std::size_t f = range.first; f < range.last; ++f) {
@@ -103,7 +103,7 @@ void LoadProfile::take_items(const Surface& surface, const Plane& plane, const s
     });
 }
 
-void LoadProfile::take_centroids(const Surface& surface, const std::vector<double>& height) {
+void LoadProfile::find_centroids(const Surface& surface, const std::vector<double>& height) {
     centroids_.resize(surface.facet_count());
     for_ranges_on_threads(centroids_.size(), items_of_thread, [&](const IndexRange& range) {
         for (std::size_t f = range.first; f < range.last; ++f) {

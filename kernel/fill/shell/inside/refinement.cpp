@@ -43,7 +43,7 @@ class CellsByRadius {
         largest_ = std::max(largest_, step);
     }
 
-    std::optional<BadCell> take_largest() {
+    std::optional<BadCell> pop_largest() {
         while (largest_ > 0 && steps_[largest_].empty()) --largest_;
         if (steps_[largest_].empty()) return std::nullopt;
         const BadCell bad = steps_[largest_].back();
@@ -78,7 +78,7 @@ class Refinement {
     std::int64_t run() {
         for (std::int32_t cell = 0; cell < t_.cell_count(); ++cell) push(cell);
         std::int64_t points = 0;
-        while (const std::optional<BadCell> bad = bad_.take_largest())
+        while (const std::optional<BadCell> bad = bad_.pop_largest())
             if (has_cell(*bad)) points += insert_for(bad->cell);
         return points;
     }

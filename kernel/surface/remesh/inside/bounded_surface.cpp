@@ -194,7 +194,7 @@ void BoundedSurface::note_change(std::span<const Facet> facets) {
     for (const Facet f : facets) mesh_.note_change(f, changes_);
 }
 
-bool BoundedSurface::take_flip(Edge e, bool is_exact_only) {
+bool BoundedSurface::flip_if_better(Edge e, bool is_exact_only) {
     if (mesh_.data(e).is_feature || mesh_.is_fixed(e)) return false;
     const HalfEdge h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
     const Facet f = mesh_.face_handle(h), g = mesh_.face_handle(back);

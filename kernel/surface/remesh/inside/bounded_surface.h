@@ -53,9 +53,9 @@ class BoundedSurface {
     /// Collapses the edge, if possible away from the end with fewer edges, else the other way.
     bool collapse_either_way(Edge e, const CollapseRules& rules);
     /// Flips the edge if the smallest angle of its two facets grows.
-    bool flip(Edge e) { return take_flip(e, false); }
+    bool flip(Edge e) { return flip_if_better(e, false); }
     /// Flips the edge like flip(), but only within a flat region, where the bound needs no proof. Cheap.
-    bool make_delaunay(Edge e) { return take_flip(e, true); }
+    bool make_delaunay(Edge e) { return flip_if_better(e, true); }
     /// Puts a vertex on the edge at from + t (to - from), 0 < t < 1, along half-edge 0, and returns its copy in the
     /// sheet of this edge. Possible for every edge that is not fixed.
     Vertex split(Edge e, double t);
@@ -79,7 +79,7 @@ class BoundedSurface {
     Vertex split_in_sheet(HalfEdge h, const Vec3& place);
     void commit_star(const NewFacets& star);
     void note_change(std::span<const Facet> facets);
-    bool take_flip(Edge e, bool is_exact_only);
+    bool flip_if_better(Edge e, bool is_exact_only);
 
     InputBound bound_;
     SheetMesh mesh_;
