@@ -140,23 +140,23 @@ ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices
                                  const IsCancelled& is_cancelled) {
     const InputOptions wanted = input_options(options);
     ProgressListener listener(untold, is_cancelled);
-    const std::function<void()> poll = poll_of(&listener);
+    const std::function<void()> check_cancelled = cancellation_check(&listener);
     const auto soup_of_all = [&] { return to_soup(vertices, facets, sides, region_names, patches, patch_names); };
     return surface_of(
         [&] {
             Soup soup = soup_of_all();
             return make_input(std::move(soup.vertices), std::move(soup.facets), std::move(soup.sides),
                               std::move(soup.region_names), std::move(soup.patch), std::move(soup.patch_names), wanted,
-                              poll);
+                              check_cancelled);
         },
-        [&] { return diagnose_arrays(soup_of_all(), wanted, 1, poll); });
+        [&] { return diagnose_arrays(soup_of_all(), wanted, 1, check_cancelled); });
 }
 
 ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options, const IsCancelled& is_cancelled) {
     const InputOptions wanted = input_options(options);
     ProgressListener listener(untold, is_cancelled);
     return surface_of([&] { return read_input(path, wanted, &listener); },
-                      [&] { return diagnose_file(path, wanted, 1, poll_of(&listener)); });
+                      [&] { return diagnose_file(path, wanted, 1, cancellation_check(&listener)); });
 }
 
 void surface_to_file(const ClosedSurface& surface, const std::string& path) {
@@ -169,7 +169,7 @@ void surface_to_file(const ClosedSurface& surface, const std::string& path) {
 SurfaceCheck check_file(const std::string& path, const NamedOptions& options, double needle_angle,
                         const IsCancelled& is_cancelled) {
     ProgressListener listener(untold, is_cancelled);
-    return surface_check(diagnose_file(path, input_options(options), needle_angle, poll_of(&listener)));
+    return surface_check(diagnose_file(path, input_options(options), needle_angle, cancellation_check(&listener)));
 }
 
 SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
@@ -180,7 +180,7 @@ SurfaceCheck check_arrays(std::span<const std::array<double, 3>> vertices,
     ProgressListener listener(untold, is_cancelled);
     return surface_check(
         diagnose_arrays(to_soup(vertices, facets, sides, std::move(region_names), patches, std::move(patch_names)),
-                        input_options(options), needle_angle, poll_of(&listener)));
+                        input_options(options), needle_angle, cancellation_check(&listener)));
 }
 
 }  // namespace kerf

@@ -258,11 +258,11 @@ void check_given(Soup& soup) {
     check_rows(soup);
 }
 
-Input input_of_arrays(Soup soup, const InputOptions& options, const std::function<void()>& poll) {
+Input input_of_arrays(Soup soup, const InputOptions& options, const std::function<void()>& check_cancelled) {
     check_given(soup);
     const std::string hash = hash_of(soup);
     scale(soup, options.scale);
-    Input input = to_input(check_soup(std::move(soup), options, 1, poll), name_of_arrays, options, "");
+    Input input = to_input(check_soup(std::move(soup), options, 1, check_cancelled), name_of_arrays, options, "");
     input.file_hash = hash;
     input.is_ready = true;
     return input;
@@ -271,7 +271,7 @@ Input input_of_arrays(Soup soup, const InputOptions& options, const std::functio
 }  // namespace
 
 CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg,
-                        const std::function<void()>& poll) {
+                        const std::function<void()>& check_cancelled) {
     CheckedSoup checked{std::move(files.soup), {}, {}, 0, {}};
     Soup& soup = checked.soup;
     InputRepairs& repairs = checked.repairs;
@@ -285,10 +285,10 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     }
     RepairPlan plan = repair_plan_of(options);
     plan.are_walls |= !files.walls.empty() || !soup.seeds.empty();
-    checked.ladder = repair(soup, plan, poll);
+    checked.ladder = repair(soup, plan, check_cancelled);
     repairs.unused_vertices = drop_unused_vertices(soup);
     if (options.wraps()) {
-        checked.wrapped = wrap(soup, options.wrapping, poll);
+        checked.wrapped = wrap(soup, options.wrapping, check_cancelled);
         files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
     }
     take_points(soup, options);
@@ -299,20 +299,20 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
 }
 
 CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg,
-                        const std::function<void()>& poll) {
-    return check_files(read_input_files(path, options), options, needle_angle_deg, poll);
+                        const std::function<void()>& check_cancelled) {
+    return check_files(read_input_files(path, options), options, needle_angle_deg, check_cancelled);
 }
 
 CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg,
-                       const std::function<void()>& poll) {
-    return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg, poll);
+                       const std::function<void()>& check_cancelled) {
+    return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg, check_cancelled);
 }
 
 CheckedSoup check_arrays(Soup soup, const InputOptions& options, double needle_angle_deg,
-                         const std::function<void()>& poll) {
+                         const std::function<void()>& check_cancelled) {
     check_given(soup);
     scale(soup, options.scale);
-    return check_soup(std::move(soup), options, needle_angle_deg, poll);
+    return check_soup(std::move(soup), options, needle_angle_deg, check_cancelled);
 }
 
 Complex make_complex(Soup soup) {
@@ -350,7 +350,7 @@ Input read_input(const std::string& path, const InputOptions& options, StageList
     const std::size_t more = options.more_files.size();
     const std::string all = more == 0 ? path : fmt::format("{} and {} more file{}", path, more, more == 1 ? "" : "s");
     if (!repair_plan_of(options).empty()) tell_progress(listener, "repair", 0, 0);
-    Input input = to_input(check_files(std::move(files), options, 1, poll_of(listener)), all, options,
+    Input input = to_input(check_files(std::move(files), options, 1, cancellation_check(listener)), all, options,
                            " Run kerf check on it for all defects.");
     input.path = path;
     input.file_hash = hash;
@@ -358,18 +358,20 @@ Input read_input(const std::string& path, const InputOptions& options, StageList
 }
 
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch,
-                 std::vector<std::string> patch_names, const InputOptions& options, const std::function<void()>& poll) {
+                 std::vector<std::string> patch_names, const InputOptions& options,
+                 const std::function<void()>& check_cancelled) {
     return input_of_arrays({std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)}, options,
-                           poll);
+                           check_cancelled);
 }
 
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
                  std::vector<std::string> region_names, std::vector<std::int32_t> patch,
-                 std::vector<std::string> patch_names, const InputOptions& options, const std::function<void()>& poll) {
+                 std::vector<std::string> patch_names, const InputOptions& options,
+                 const std::function<void()>& check_cancelled) {
     Soup soup{std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)};
     soup.sides = std::move(sides);
     soup.region_names = std::move(region_names);
-    return input_of_arrays(std::move(soup), options, poll);
+    return input_of_arrays(std::move(soup), options, check_cancelled);
 }
 
 std::vector<double> region_volumes(const Input& input) {

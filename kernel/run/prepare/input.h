@@ -129,20 +129,20 @@ struct Input {
 };
 
 /// Reads files (several files and CAD files, too: run/prepare/input_files.h), repairs and diagnoses them. Throws Error
-/// only for a file that cannot be read. `poll`: see check_files().
+/// only for a file that cannot be read. `check_cancelled`: see check_files().
 CheckedSoup check_input(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1,
-                        const std::function<void()>& poll = {});
+                        const std::function<void()>& check_cancelled = {});
 
 /// Checks a soup that a reader returned. Where facets do not say which regions they bound, these are found
 /// (surface/regions/region_finder.h): by points, or because several bodies touch. Throws Error(input) for points that
 /// are misplaced, and Error(usage) for points where there are regions already.
 CheckedSoup check_soup(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1,
-                       const std::function<void()>& poll = {});
+                       const std::function<void()>& check_cancelled = {});
 
-/// Checks files that have been read: each is a body of its own, and several bodies are regions. `poll`: called by
-/// repair() and wrap().
+/// Checks files that have been read: each is a body of its own, and several bodies are regions. `check_cancelled`:
+/// called by repair() and wrap().
 CheckedSoup check_files(InputFiles files, const InputOptions& options = {}, double needle_angle_deg = 1,
-                        const std::function<void()>& poll = {});
+                        const std::function<void()>& check_cancelled = {});
 
 /// Drops the superfluous facets of a soup without errors, and orients it.
 OrientationReport apply_repairs(CheckedSoup& checked);
@@ -173,7 +173,7 @@ inline constexpr const char* name_of_arrays = "surface in memory";
 /// Checks arrays as make_input() takes them. `soup`: nothing but its vertices, facets, patches, names and sides. Throws
 /// as make_input(), but not for a surface that cannot be meshed.
 CheckedSoup check_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1,
-                         const std::function<void()>& poll = {});
+                         const std::function<void()>& check_cancelled = {});
 
 /// Makes the same input of arrays that read_input() makes of a file. `patch`: a number from 0 for each facet, or empty:
 /// one patch. `patch_names`: a name for each number, or empty: "patch_0", "patch_1", ... Vertices of equal coordinates
@@ -181,18 +181,18 @@ CheckedSoup check_arrays(Soup soup, const InputOptions& options = {}, double nee
 ///
 /// All is checked, in every build. Throws Error(usage) for sizes that do not fit, WrongRow for a coordinate that is not
 /// finite, a corner that is no vertex, a facet with a repeated corner, and a patch without a name, and Error(input) for
-/// all that read_input() refuses: the message names the first row, Error::elements() all of them. `poll`: see
-/// check_files(). O(#F log #F).
+/// all that read_input() refuses: the message names the first row, Error::elements() all of them. `check_cancelled`:
+/// see check_files(). O(#F log #F).
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch = {},
                  std::vector<std::string> patch_names = {}, const InputOptions& options = {},
-                 const std::function<void()>& poll = {});
+                 const std::function<void()>& check_cancelled = {});
 
 /// Makes an input of several regions. `sides`: the regions on the sides of each facet, by numbers of `region_names`;
 /// each facet is given once. Throws as the other make_input(), and Error(input) for arrays that a Complex refuses.
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
                  std::vector<std::string> region_names, std::vector<std::int32_t> patch = {},
                  std::vector<std::string> patch_names = {}, const InputOptions& options = {},
-                 const std::function<void()>& poll = {});
+                 const std::function<void()>& check_cancelled = {});
 
 /// Reads a file: check_input() and apply_repairs(), then builds the surface. Throws UnfitSurface, naming the file, the
 /// first offenders and the way out, if the surface has errors; Error::elements() has all. Throws Error(usage) if the

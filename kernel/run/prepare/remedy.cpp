@@ -80,7 +80,7 @@ struct Trial {
 Trial try_way(const InputFiles& files, const InputOptions& way, StageListener* listener) {
     Trial trial{false, {.options = way, .was_tried = true}};
     try {
-        const CheckedSoup repaired = check_files(files, way, 0, poll_of(listener));
+        const CheckedSoup repaired = check_files(files, way, 0, cancellation_check(listener));
         const bool is_region_missing =  // where facets part no bodies, all is united
             repair_plan_of(way).bodies == BodyRepair::regions && repaired.soup.region_names.size() < 2;
         trial.fits = repaired.diagnosis.clean() && !is_region_missing;

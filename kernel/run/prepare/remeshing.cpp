@@ -294,8 +294,8 @@ Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, c
     if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, bad, wanted));
     if (task.periodicity) input.notes.push_back(note_of_periodicity(*task.periodicity));
     check_memory(forecast_facets(task.facets.surface, wanted), options, wanted.longest);
-    wanted.poll = step_counter(listener);
-    if (wanted.poll) wanted.poll();
+    wanted.check_cancelled = step_counter(listener);
+    if (wanted.check_cancelled) wanted.check_cancelled();
     Remeshed result = remesh(task.facets.surface, wanted);
 
     input.remeshed = {.facets_before = input.facets,

@@ -71,8 +71,8 @@ RepairedFile repair_file(const std::string& input, const InputOptions& options, 
     if (!files.is_welded) weld_exactly(before);
     const bool is_alone = options.more_files.empty() && files.walls.empty() && options.scale == 1;
     tell_progress(listener, "repair", 0, 0);
-    RepairedFile repaired{input, output, check_files(std::move(files), options, 1, poll_of(listener)), {}, {}, {}, {},
-                          {},    {}};
+    RepairedFile repaired{
+        input, output, check_files(std::move(files), options, 1, cancellation_check(listener)), {}, {}, {}, {}, {}, {}};
     CheckedSoup& checked = repaired.checked;
     repaired.can_be_meshed = checked.diagnosis.clean();
     if (repaired.can_be_meshed)
@@ -80,7 +80,7 @@ RepairedFile repair_file(const std::string& input, const InputOptions& options, 
     else
         repaired.remedy = find_remedy(input, options, checked, listener);
     repaired.is_unchanged = is_unchanged(checked, repaired.turned);
-    repaired.measures = measure_repair(before, checked.soup, poll_of(listener));
+    repaired.measures = measure_repair(before, checked.soup, cancellation_check(listener));
     repaired.is_copy = repaired.is_unchanged && is_alone && fs::path(input).extension() == fs::path(output).extension();
     if (repaired.is_copy) {
         write_output_file(output, read_file(input));

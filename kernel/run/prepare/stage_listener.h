@@ -29,7 +29,7 @@ inline void tell_progress(StageListener* listener, const char* stage, std::size_
 }
 
 /// Returns a function that calls end_if_cancelled(), to be called again and again by long work.
-inline std::function<void()> poll_of(const CutListener* listener) {
+inline std::function<void()> cancellation_check(const CutListener* listener) {
     return [listener] { end_if_cancelled(listener); };
 }
 

@@ -175,15 +175,16 @@ int FileDiagnosis::exit_code() const {
 }
 
 FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options, double needle_angle_deg,
-                            const std::function<void()>& poll) {
+                            const std::function<void()>& check_cancelled) {
     require_good(options, needle_angle_deg);
-    return diagnosed(path, [&] { return check_input(path, options, needle_angle_deg, poll); });
+    return diagnosed(path, [&] { return check_input(path, options, needle_angle_deg, check_cancelled); });
 }
 
 FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double needle_angle_deg,
-                              const std::function<void()>& poll) {
+                              const std::function<void()>& check_cancelled) {
     require_good(options, needle_angle_deg);
-    return diagnosed(name_of_arrays, [&] { return check_arrays(std::move(soup), options, needle_angle_deg, poll); });
+    return diagnosed(name_of_arrays,
+                     [&] { return check_arrays(std::move(soup), options, needle_angle_deg, check_cancelled); });
 }
 
 // Groups are ordered by kind, and the errors of a kind come before what is repaired.

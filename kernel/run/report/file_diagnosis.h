@@ -36,14 +36,14 @@ struct FileDiagnosis {
 
 /// Reads and diagnoses a file. A reader stops at the first thing that it does not understand, or of which it cannot
 /// make a surface: the file is refused then. Throws Error for a file that cannot be opened, and Error(usage) for
-/// options out of range. `poll`: see check_files(); it must not throw Error(input).
+/// options out of range. `check_cancelled`: see check_files(); it must not throw Error(input).
 FileDiagnosis diagnose_file(const std::string& path, const InputOptions& options = {}, double needle_angle_deg = 1,
-                            const std::function<void()>& poll = {});
+                            const std::function<void()>& check_cancelled = {});
 
 /// Diagnoses a surface of arrays, see check_arrays(). Throws like diagnose_file(), and Error(usage) for sizes that do
 /// not fit.
 FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options = {}, double needle_angle_deg = 1,
-                              const std::function<void()>& poll = {});
+                              const std::function<void()>& check_cancelled = {});
 
 /// Returns one sentence on a defect: its kind, its place, and the way to mend it.
 std::string defect_text(const Defect& defect, const Soup& soup);

@@ -148,10 +148,10 @@ std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& input_
     };
     for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
         for (const std::int32_t facet : {f, g}) for_each_sample(result.vertices, result.facets[facet], refuse_around);
-    const CancellationCheck poll(options.poll);
+    const CancellationCheck check_cancelled(options.check_cancelled);
     Side to_input(input_tree, input.facets, options.deviation);
     for (std::size_t f = 0; f < result.facets.size(); ++f) {
-        poll.at(f);
+        check_cancelled.at(f);
         const Triangle& t = result.facets[f];
         if (!is_near(result.vertices, t, options, to_input))
             for_each_sample(result.vertices, t, [&](const Vec3& p) { refused[input_tree.closest(p).facet] = 1; });
@@ -159,7 +159,7 @@ std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& input_
     const TriangleTree tree(result.vertices, result.facets);
     Side from_input(tree, result.facets, options.deviation);
     for (std::size_t f = 0; f < input.facets.size(); ++f) {
-        poll.at(f);
+        check_cancelled.at(f);
         if (!is_near(input.vertices, input.facets[f], options, from_input)) refused[f] = 1;
     }
     report.distance_to_input = to_input.nearness.directed_distance();
@@ -294,7 +294,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
     const Sheets sheets = take_apart(surface);
     Tolerances tolerances =
         find_tolerances(surface, tree, {used_share * options.deviation, used_share * options.share_of_thickness},
-                        options.walls, CancellationCheck(options.poll));
+                        options.walls, CancellationCheck(options.check_cancelled));
     RemeshOptions own = options;
     afford_walls(surface, tree, own);
     int rounds_for_volume = 0;

@@ -23,9 +23,9 @@ struct RemeshOptions {
     double shortest_on_walls = 0;              ///< lower bound of the sizes that walls ask for; 0: three quarters of
                                                ///< the deviation
     std::function<double(const Vec3&, std::int32_t)> wanted =
-        {};                              ///< edge length at a point of a patch, if given, in addition to `longest`
-    std::function<void()> poll = {};     ///< called every few milliseconds, if given; ends the work by throwing
-    std::vector<char> walls = {};        ///< #F; facets of the surface with a body on both sides; empty: none
+        {};  ///< edge length at a point of a patch, if given, in addition to `longest`
+    std::function<void()> check_cancelled = {};  ///< called every few milliseconds, if given; ends the work by throwing
+    std::vector<char> walls = {};                ///< #F; facets of the surface with a body on both sides; empty: none
     std::vector<FacetSides> sides = {};  ///< of each patch: the regions beside it; empty: one region, behind all facets
 };
 

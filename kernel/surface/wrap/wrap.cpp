@@ -47,10 +47,10 @@ double area_to_wrap(const Soup& soup) {
 
 // Facets from which a ray across them, on one of the sides, meets nothing.
 std::vector<char> facets_seen(const TriangleSet& surface, const TriangleTree& tree, double diagonal,
-                              const CancellationCheck& poll) {
+                              const CancellationCheck& check_cancelled) {
     std::vector<char> is_seen(surface.facets.size(), 0);
     for (std::size_t f = 0; f < is_seen.size(); ++f) {
-        poll.at(f);
+        check_cancelled.at(f);
         const auto& [a, b, c] = surface.facets[f];
         const Vec3 from = (surface.vertices[a] + surface.vertices[b] + surface.vertices[c]) / 3;
         const Vec3 across = doubled_area_vector(surface.vertices, surface.facets[f]).normalized();
@@ -130,7 +130,7 @@ double estimated_wrap_distance(const Soup& soup, const WrapOptions& options) {
     return lengths.gap / 2 + lengths.offset;
 }
 
-WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void()>& poll) {
+WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void()>& check_cancelled) {
     const std::vector<char> is_none = facets_without_area(soup);
     const auto facets_before = static_cast<std::int64_t>(soup.facets.size());
     drop_facets(soup, is_none);
@@ -144,17 +144,17 @@ WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void
 
     const TriangleSet before = {std::move(soup.vertices), std::move(soup.facets)};
     const TriangleTree tree(before.vertices, before.facets);
-    TriangleSet wrapped =
-        pulled_back(alpha_wrap(before, report.gap / 2, report.offset, poll), tree, report.offset, poll);
+    TriangleSet wrapped = pulled_back(alpha_wrap(before, report.gap / 2, report.offset, check_cancelled), tree,
+                                      report.offset, check_cancelled);
     report.facets = static_cast<std::int64_t>(wrapped.facets.size());
 
-    report.distance_to_input =
-        proven_distance(wrapped.vertices, wrapped.facets, {}, tree, before.facets, no_length_of_wrap * diagonal, poll);
-    const std::vector<char> seen = facets_seen(before, tree, diagonal, CancellationCheck(poll));
+    report.distance_to_input = proven_distance(wrapped.vertices, wrapped.facets, {}, tree, before.facets,
+                                               no_length_of_wrap * diagonal, check_cancelled);
+    const std::vector<char> seen = facets_seen(before, tree, diagonal, CancellationCheck(check_cancelled));
     report.seen = std::count(seen.begin(), seen.end(), char{1});
     report.distance_from_input =
         proven_distance(before.vertices, before.facets, seen, TriangleTree(wrapped.vertices, wrapped.facets),
-                        wrapped.facets, no_length_of_wrap * diagonal, poll);
+                        wrapped.facets, no_length_of_wrap * diagonal, check_cancelled);
     std::vector<std::int32_t> patch = patches_of_wrap(wrapped, tree, soup.patch);
     put_wrap_into(soup, std::move(wrapped), std::move(patch));
     return report;

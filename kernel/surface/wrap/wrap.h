@@ -36,11 +36,11 @@ struct WrapReport {
 /// model's edges and the numbers of the file are gone.
 ///
 /// Openings narrower than the gap are closed, and so are grooves: details inside of them are lost. Through wider ones
-/// the inside is reached: walls become thin shells there. Vertex numbers must be in range. `poll` is called every few
-/// milliseconds, and ends the work by throwing. Throws Error(usage) for lengths out of range, Error(input) if no facet
-/// has area. Deterministic. Some 3000 facets of the result a second; memory some 1 kB for each facet of input and
-/// result.
-WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void()>& poll = {});
+/// the inside is reached: walls become thin shells there. Vertex numbers must be in range. `check_cancelled` is called
+/// every few milliseconds, and ends the work by throwing. Throws Error(usage) for lengths out of range, Error(input) if
+/// no facet has area. Deterministic. Some 3000 facets of the result a second; memory some 1 kB for each facet of input
+/// and result.
+WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void()>& check_cancelled = {});
 
 /// Returns the lengths that are used on a surface; all else is 0. Throws Error(usage), naming the option, for lengths
 /// out of range, and for a gap so small that there would be millions of facets. O(#F).

@@ -328,7 +328,7 @@ TEST(Remesh, IsTheSameEveryTime) {
 TEST(Remesh, CanBeEndedFromOutside) {
     const SurfaceArrays surface = test::to_arrays(test::prism(24, 1, 3));
     RemeshOptions options = within(surface, 1e-4);
-    options.poll = [] { throw Error(ErrorCode::cancelled, "enough"); };
+    options.check_cancelled = [] { throw Error(ErrorCode::cancelled, "enough"); };
     EXPECT_THROW(remesh(surface, options), Error);
 }
 

@@ -1,6 +1,7 @@
 #include "viewer/model/inside/checked_surface.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -63,17 +64,15 @@ bool same_input(InputOptions a, InputOptions b) {
 }
 
 CheckedSurface check_surface(const InputFiles& files, const InputOptions& options, const std::string& path,
-                             const CheckedSoup* unrepaired, const std::function<void()>& poll) {
+                             const CheckedSoup* unrepaired, const std::function<void()>& check_cancelled) {
     constexpr double needle_angle_deg = 1;
-    CheckedSurface state{options,
-                         std::make_shared<const CheckedSoup>(check_files(files, options, needle_angle_deg, poll)),
-                         nullptr,
-                         {},
-                         ""};
+    auto checked_soup =
+        std::make_shared<const CheckedSoup>(check_files(files, options, needle_angle_deg, check_cancelled));
+    CheckedSurface state{options, std::move(checked_soup), nullptr, {}, ""};
     const CheckedSoup& checked = *state.checked;
     if (unrepaired && !is_same_surface(checked.soup, unrepaired->soup))
         state.surface = std::make_shared<const NodeSurface>(node_surface_of(checked.soup));
-    if (poll) poll();
+    if (check_cancelled) check_cancelled();
     if (!checked.diagnosis.clean()) return state;
     state.oriented = orient_copy(checked);
     state.note = note_of_slivers(checked, path);

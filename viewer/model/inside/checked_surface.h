@@ -40,9 +40,9 @@ InputOptions without_repairs(InputOptions options);
 bool same_input(InputOptions a, InputOptions b);
 
 /// Checks files as the options mend them. `unrepaired` is the result for without_repairs(options), or null where the
-/// options have no repairs. Throws Error, and lets exceptions of `poll` pass (check_files()).
+/// options have no repairs. Throws Error, and lets exceptions of `check_cancelled` pass (check_files()).
 CheckedSurface check_surface(const InputFiles& files, const InputOptions& options, const std::string& path,
-                             const CheckedSoup* unrepaired, const std::function<void()>& poll);
+                             const CheckedSoup* unrepaired, const std::function<void()>& check_cancelled);
 
 /// States of one surface, in the order in which they were asked for; the first one is the surface as the file has it.
 class RepairHistory {

@@ -26,13 +26,14 @@ Loader::Work Repairs::checking(const InputOptions& options, std::shared_ptr<cons
     const bool knows_plain = !history_.empty() && same_input(plain, history_.unrepaired().options);
     return [this, files = files_, path = document_.options.input, options, plain, scope = std::move(scope),
             unrepaired = knows_plain ? history_.unrepaired().checked : nullptr]() -> Loader::Completion {
-        const auto poll = [&] {
+        const auto check_cancelled = [&] {
             if (scope->has_ended()) throw Error(ErrorCode::cancelled, "The repair was cancelled.");
         };
         std::vector<CheckedSurface> states;
         std::shared_ptr<const CheckedSoup> first = unrepaired;
-        if (!first) first = states.emplace_back(check_surface(*files, plain, path, nullptr, poll)).checked;
-        if (!same_input(plain, options)) states.push_back(check_surface(*files, options, path, first.get(), poll));
+        if (!first) first = states.emplace_back(check_surface(*files, plain, path, nullptr, check_cancelled)).checked;
+        if (!same_input(plain, options))
+            states.push_back(check_surface(*files, options, path, first.get(), check_cancelled));
         return [this, states = std::move(states)] { take_checked(states); };
     };
 }

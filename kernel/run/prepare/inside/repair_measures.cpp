@@ -146,7 +146,7 @@ SoupMeasures measure_soup(const Soup& soup) {
     return measures;
 }
 
-RepairMeasures measure_repair(const Soup& before, const Soup& after, const std::function<void()>& poll) {
+RepairMeasures measure_repair(const Soup& before, const Soup& after, const std::function<void()>& check_cancelled) {
     RepairMeasures measures;
     measures.before = measure_soup(before);
     measures.after = measure_soup(after);
@@ -161,7 +161,7 @@ RepairMeasures measure_repair(const Soup& before, const Soup& after, const std::
     const double diagonal = box_around_finite(before.vertices).diagonal().norm();
     GrowingBound changed(tree, facets, diagonal), added(tree, facets, diagonal);
     const FacetsByPlace known(before);
-    const CancellationCheck check(poll);
+    const CancellationCheck check(check_cancelled);
     for (std::size_t f = 0; f < after.facets.size(); ++f) {
         check.at(f);
         const Triangle& t = after.facets[f];

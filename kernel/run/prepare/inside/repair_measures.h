@@ -30,7 +30,7 @@ struct RepairMeasures {
 SoupMeasures measure_soup(const Soup& soup);
 
 /// Measures a repair. `before`: welded exactly; its facets without finite coordinates do not count. `after`: facets
-/// numbered as repair() does. `poll`: called again and again, ends the work by throwing. O(#F log #F).
-RepairMeasures measure_repair(const Soup& before, const Soup& after, const std::function<void()>& poll = {});
+/// numbered as repair() does. `check_cancelled`: called again and again, ends the work by throwing. O(#F log #F).
+RepairMeasures measure_repair(const Soup& before, const Soup& after, const std::function<void()>& check_cancelled = {});
 
 }  // namespace kerf

@@ -108,7 +108,7 @@ FoldSizes::FoldSizes(BoundedSurface& surface, const FoldSizeOptions& options) : 
                 sizes[v.idx()].shorten(std::max({chord_[fold], straight_length(e), options.shortest}),
                                        rule_of(chord_[fold], 0));
     for (const auto v : mesh.vertices()) {
-        options.poll.at(static_cast<std::size_t>(v.idx()));
+        options.check_cancelled.at(static_cast<std::size_t>(v.idx()));
         double own_chord = infinite;
         for (const auto e : mesh.ve_range(v))
             if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);

@@ -19,7 +19,7 @@ struct FoldSizeOptions {
     double edges_per_thickness = 0;                           ///< across a wall; 0: walls ask for nothing
     std::function<double(const Vec3&, std::int32_t)> wanted;  ///< size that the user wants at a point of a patch, if
                                                               ///< given
-    CancellationCheck poll = {};                              ///< called while sizes are found
+    CancellationCheck check_cancelled = {};                   ///< called while sizes are found
 };
 
 /// The sizes that well-shaped triangles need: by the distance to the nearest fold, between folds, and across walls.

@@ -127,11 +127,11 @@ void Tolerances::multiply(double factor) {
 }
 
 Tolerances find_tolerances(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
-                           const std::vector<char>& walls, const CancellationCheck& poll) {
+                           const std::vector<char>& walls, const CancellationCheck& check_cancelled) {
     const ToleranceFinder finder(surface, tree, rules, walls);
     Tolerances found;
     for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.facets.size()); ++f) {
-        poll.at(static_cast<std::size_t>(f));
+        check_cancelled.at(static_cast<std::size_t>(f));
         found.by_thickness.push_back(finder.by_thickness(f));
         found.of_facet.push_back(std::min(finder.by_gap(f), found.by_thickness.back()));
     }

@@ -78,6 +78,6 @@ struct ToleranceRules {
 /// share of the thickness of the body behind it, so that slender bodies do not lose much. `tree` is of the facets of
 /// `surface`, `walls` as for InputShape. O(#F log #F).
 Tolerances find_tolerances(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
-                           const std::vector<char>& walls = {}, const CancellationCheck& poll = {});
+                           const std::vector<char>& walls = {}, const CancellationCheck& check_cancelled = {});
 
 }  // namespace kerf

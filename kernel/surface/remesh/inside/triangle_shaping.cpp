@@ -36,7 +36,7 @@ constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings 
 constexpr double share_of_merging = 0.8, share_of_simplification = 0.4, share_of_flatness = 0.2;
 // Lower bounds of the sizes that folds ask for.
 constexpr double shortest_over_deviation = 1.5, shortest_over_longest = 0.005;
-constexpr std::int64_t steps_between_polls = 256;
+constexpr std::int64_t steps_between_checks = 256;
 constexpr int most_merging_passes = 4;
 // Triangles around may become as bad as 10 degrees.
 constexpr BoundedSurface::CollapseRules merging_rules = {.good_sine = 0.1736, .merges_features = true};
@@ -82,19 +82,19 @@ bool merge_across(BoundedSurface& surface, Facet f) {
 
 // Makes one feature of two that are nearer to each other than the tolerance, where the surface between them belongs to
 // one patch: a corner that is near another corner, or near a feature edge on the other side of its facet, is moved
-// there. Between such features there would only be needles, or facets as small as their distance. `poll` is called for
-// every edge and facet. O(#F log #F).
-void merge_features(BoundedSurface& surface, const std::function<void()>& poll) {
+// there. Between such features there would only be needles, or facets as small as their distance. `check_cancelled` is
+// called for every edge and facet. O(#F log #F).
+void merge_features(BoundedSurface& surface, const std::function<void()>& check_cancelled) {
     const SheetMesh& mesh = surface.mesh();
     for (int pass = 0; pass < most_merging_passes; ++pass) {
         std::size_t merged = 0;
         for (const auto& [length, e] : short_edges(mesh)) {
-            poll();
+            check_cancelled();
             if (!mesh.status(e).deleted() && surface.collapse_either_way(e, merging_rules)) ++merged;
         }
         const std::vector<Facet> facets(mesh.faces_begin(), mesh.faces_end());  // more come
         for (const Facet f : facets) {
-            poll();
+            check_cancelled();
             if (!mesh.status(f).deleted() && merge_across(surface, f)) ++merged;
         }
         if (merged == 0) break;
@@ -124,7 +124,7 @@ class Shaping {
     void run() {
         flip_flat_edges();
         surface_.set_share(share_of_merging);
-        merge_features(surface_, [this] { poll(); });
+        merge_features(surface_, [this] { check_cancelled(); });
         surface_.set_share(share_of_simplification);
         simplify();
         surface_.set_share(1);
@@ -138,7 +138,7 @@ class Shaping {
                                                  .growth = options_.growth,
                                                  .edges_per_thickness = options_.edges_per_thickness,
                                                  .wanted = options_.wanted,
-                                                 .poll = CancellationCheck(options_.poll)});
+                                                 .check_cancelled = CancellationCheck(options_.check_cancelled)});
         for (int pass = 0; pass < passes; ++pass) {
             split_long_edges();
             smooth();
@@ -156,8 +156,8 @@ class Shaping {
     const SheetMesh& mesh() const { return surface_.mesh(); }
 
     // Cheap: called for every edge or vertex.
-    void poll() {
-        if (options_.poll && ++steps_ % steps_between_polls == 0) options_.poll();
+    void check_cancelled() {
+        if (options_.check_cancelled && ++steps_ % steps_between_checks == 0) options_.check_cancelled();
     }
 
     double target(Edge e) const {
@@ -213,7 +213,7 @@ class Shaping {
             std::size_t collapsed = 0;
             for (const auto& [length, e] :
                  edges_by_length([&](Edge, double length) { return length < 0.8 * options_.longest; })) {
-                poll();
+                check_cancelled();
                 if (!is_alive(e) || refused.knows(e.idx(), last_change_around(e))) continue;
                 if (surface_.collapse_either_way(e, rules))
                     ++collapsed;
@@ -228,7 +228,7 @@ class Shaping {
     void collapse_short_edges() {
         const BoundedSurface::CollapseRules rules = {.good_sine = sine_of_20, .longest = split_ratio};
         for (const auto& [length, e] : edges_by_length([&](Edge e, double) { return ratio(e) < collapse_ratio; })) {
-            poll();
+            check_cancelled();
             if (!is_alive(e) || !(ratio(e) < collapse_ratio)) continue;
             if (refused_collapses_.knows(e.idx(), last_change_around(e))) continue;
             if (!surface_.collapse_either_way(e, rules)) refused_collapses_.note(e.idx(), surface_.changes());
@@ -250,7 +250,7 @@ class Shaping {
         for (const auto e : mesh().edges()) add(e);
         std::vector<Edge> around;
         while (!open.empty()) {
-            poll();
+            check_cancelled();
             const auto [r, wanted] = open.top();
             open.pop();
             if (ratio(wanted) != r) continue;
@@ -301,7 +301,7 @@ class Shaping {
         for (int pass = 0; pass < flips; ++pass) {
             std::size_t flipped = 0;
             for (const auto e : mesh().edges()) {
-                poll();
+                check_cancelled();
                 if (refused_flips_.knows(e.idx(), mesh().last_change(e))) continue;
                 if (surface_.flip(e))
                     ++flipped;
@@ -316,7 +316,7 @@ class Shaping {
     void smooth() {
         for (int pass = 0; pass < smoothings; ++pass)
             for (const auto v : mesh().vertices()) {
-                poll();
+                check_cancelled();
                 if (!mesh().is_first_copy(v) || refused_moves_.knows(v.idx(), mesh().last_change(v))) continue;
                 Vec3 sum = Vec3::Zero();
                 double weights = 0;

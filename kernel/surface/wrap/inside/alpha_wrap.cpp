@@ -20,22 +20,23 @@ using WrapBuilder = CGAL::Alpha_wraps_3::internal::Alpha_wrap_3<WrapOracle>;
 /// Asks whether the work is still wanted.
 class WrapVisitor : public CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
  public:
-    explicit WrapVisitor(const std::function<void()>& poll) : poll_(poll) {}
+    explicit WrapVisitor(const std::function<void()>& check_cancelled) : check_cancelled_(check_cancelled) {}
 
     template <class Wrapper, class Gate>
     void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
         constexpr std::size_t some = 64;  // gates take long
-        poll_.at(some * step_++);
+        check_cancelled_.at(some * step_++);
     }
 
  private:
-    CancellationCheck poll_;
+    CancellationCheck check_cancelled_;
     std::size_t step_ = 0;
 };
 
 }  // namespace
 
-TriangleSet alpha_wrap(const TriangleSet& input, double radius, double offset, const std::function<void()>& poll) {
+TriangleSet alpha_wrap(const TriangleSet& input, double radius, double offset,
+                       const std::function<void()>& check_cancelled) {
     std::vector<WrapKernel::Point_3> points;
     points.reserve(input.vertices.size());
     for (const Vec3& p : input.vertices) points.emplace_back(p.x(), p.y(), p.z());
@@ -45,7 +46,7 @@ TriangleSet alpha_wrap(const TriangleSet& input, double radius, double offset, c
     oracle.add_triangle_soup(points, facets, CGAL::parameters::default_values());
     WrapBuilder builder(oracle);
     WrapMesh mesh;
-    WrapVisitor visitor(poll);
+    WrapVisitor visitor(check_cancelled);
     builder(radius, offset, mesh, CGAL::parameters::visitor(std::ref(visitor)));
 
     TriangleSet wrap;

@@ -19,8 +19,9 @@ struct TriangleSet {
 /// than `offset`, and every vertex is `offset` away from them (Portaneri et al. 2022, portaneri2022; CGAL's
 /// Alpha_wrap_3). Facets may cross, overlap and be open; space that the ball does not reach through an opening is
 /// filled. The result may have several shells, all of them outer ones. Requires positive lengths, and at least one
-/// facet, all finite and none degenerate. `poll` is called every few milliseconds, and ends the work by throwing.
-/// Deterministic. Some 4000 facets of the result a second.
-TriangleSet alpha_wrap(const TriangleSet& input, double radius, double offset, const std::function<void()>& poll);
+/// facet, all finite and none degenerate. `check_cancelled` is called every few milliseconds, and ends the work by
+/// throwing. Deterministic. Some 4000 facets of the result a second.
+TriangleSet alpha_wrap(const TriangleSet& input, double radius, double offset,
+                       const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

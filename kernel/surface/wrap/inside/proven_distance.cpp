@@ -10,10 +10,10 @@ namespace kerf {
 
 double proven_distance(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                        const std::vector<char>& chosen, const TriangleTree& tree, const std::vector<Triangle>& others,
-                       double tolerance, const std::function<void()>& poll) {
+                       double tolerance, const std::function<void()>& check_cancelled) {
     constexpr double slack = 1.02, step_of_limit = 1.1;
     constexpr int most_divisions = 20'000;
-    const CancellationCheck check(poll);
+    const CancellationCheck check(check_cancelled);
     const auto is_chosen = [&](std::size_t f) { return chosen.empty() || chosen[f] != 0; };
 
     std::vector<char> is_measured(vertices.size(), 0);

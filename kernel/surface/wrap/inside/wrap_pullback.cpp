@@ -28,10 +28,11 @@ namespace {
 /// A wrap on its way to the input.
 class WrapPullback {
  public:
-    WrapPullback(TriangleSet wrap, const TriangleTree& input, double offset, const std::function<void()>& poll)
+    WrapPullback(TriangleSet wrap, const TriangleTree& input, double offset,
+                 const std::function<void()>& check_cancelled)
         : input_(input),
           offset_(offset),
-          poll_(poll),
+          check_cancelled_(check_cancelled),
           wrap_(wrap.vertices, wrap.facets),
           wrap_normal_(wrap.facets.size()),
           start_(std::move(wrap.vertices)),
@@ -74,7 +75,7 @@ class WrapPullback {
     void find_targets() {
         for (std::size_t f = 0; f < facets_.size(); ++f) wrap_normal_[f] = doubled_area_vector(start_, facets_[f]);
         for (std::size_t v = 0; v < start_.size(); ++v) {
-            poll_.at(v);
+            check_cancelled_.at(v);
             const Vec3 to = input_.closest(start_[v]).point;
             normal_.push_back((start_[v] - to).normalized());
             add_target(start_[v], to);
@@ -151,7 +152,7 @@ class WrapPullback {
         const EdgeCorners edges(facets_);
         std::size_t step = 0;
         edges.for_each_edge([&](std::int32_t a, auto corners) {
-            poll_.at(step++);
+            check_cancelled_.at(step++);
             const std::int32_t b = corners.front().high;
             Vec3 to;
             if (!find_division(a, b, to)) return;
@@ -288,7 +289,7 @@ class WrapPullback {
         held_.assign(start_.size(), 0);
         std::vector<char> chosen(facets_.size(), 1);  // facets that have moved since they were compared with others
         for (int round = 0;; ++round) {
-            poll_();
+            check_cancelled_();
             const std::vector<Vec3> now = positions();
             std::vector<char> is_bad(facets_.size(), 0);
             for (std::size_t f = 0; f < facets_.size(); ++f) is_bad[f] = is_spoilt(now, facets_[f]);
@@ -318,7 +319,7 @@ class WrapPullback {
     // Where two facets meet, the vertices of both are held back, although those of one would do. So they are let go
     // again, all at once or no two on one facet, and stay where that does no harm.
     void release_some(std::uint64_t round) {
-        poll_();
+        check_cancelled_();
         std::vector<char> is_released(held_.size());
         for (std::size_t v = 0; v < held_.size(); ++v) is_released[v] = held_[v] > 0;
         if (round % 2 == 1) keep_independent(is_released, round);
@@ -366,7 +367,7 @@ class WrapPullback {
 
     const TriangleTree& input_;
     const double offset_;
-    const CancellationCheck poll_;
+    const CancellationCheck check_cancelled_;
     const TriangleTree wrap_;           // as it came
     std::vector<Vec3> wrap_normal_;     // of its facets, of any length
     std::vector<Vec3> start_, target_;  // of the wrap, of the input
@@ -378,8 +379,9 @@ class WrapPullback {
 
 }  // namespace
 
-TriangleSet pulled_back(TriangleSet wrap, const TriangleTree& input, double offset, const std::function<void()>& poll) {
-    TriangleSet pulled = WrapPullback(wrap, input, offset, poll).result();
+TriangleSet pulled_back(TriangleSet wrap, const TriangleTree& input, double offset,
+                        const std::function<void()>& check_cancelled) {
+    TriangleSet pulled = WrapPullback(wrap, input, offset, check_cancelled).result();
     return find_self_intersections(pulled.vertices, pulled.facets, 1).empty() ? std::move(pulled) : std::move(wrap);
 }
 

@@ -17,6 +17,7 @@ namespace kerf {
 ///
 /// `wrap`, `offset`: of alpha_wrap(). `input`: the tree of its facets. The result is closed, manifold and without
 /// intersections. Deterministic. O(#F log #F).
-TriangleSet pulled_back(TriangleSet wrap, const TriangleTree& input, double offset, const std::function<void()>& poll);
+TriangleSet pulled_back(TriangleSet wrap, const TriangleTree& input, double offset,
+                        const std::function<void()>& check_cancelled);
 
 }  // namespace kerf
