@@ -38,11 +38,12 @@ bool are_copies(const Triangle& s, const Triangle& t) { return std::is_permutati
 
 class Arranger {
  public:
-    Arranger(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const std::function<void()>& poll)
+    Arranger(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+             const std::function<void()>& check_cancelled)
         : given_vertices_(vertices.size()),
           given_facets_(facets.size()),
           divided_{DistinctPoints(vertices)},
-          poll_(poll) {
+          check_cancelled_(check_cancelled) {
         for (const Vec3& p : vertices) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
         for (std::size_t f = 0; f < facets.size(); ++f) {
             Triangle t = facets[f];
@@ -75,11 +76,12 @@ class Arranger {
         std::vector<FacetPair> pairs;
         for (auto fewest = std::numeric_limits<std::size_t>::max(); result_.rounds < most_arrangement_rounds;
              ++result_.rounds) {
-            const double move = join_near_features(divided_, pieces_of(is_wall), tolerance, given_vertices_, poll_);
+            const double move =
+                join_near_features(divided_, pieces_of(is_wall), tolerance, given_vertices_, check_cancelled_);
             result_.largest_move = std::max(result_.largest_move, move);
             const std::vector<char> walls = pieces_of(is_wall);
             std::vector<char> reached = walls;
-            pairs = plane_overlaps(divided_, reached, *given_tolerance_, poll_);
+            pairs = plane_overlaps(divided_, reached, *given_tolerance_, check_cancelled_);
             std::erase_if(pairs, [&](const FacetPair& pair) { return !walls[pair[0]] || !walls[pair[1]]; });
             const auto copies = std::count_if(pairs.begin(), pairs.end(), [&](const auto& p) { return are_copies(p); });
             const std::size_t unlike = pairs.size() - static_cast<std::size_t>(copies);
@@ -99,7 +101,7 @@ class Arranger {
     }
     std::vector<FacetPair> find_pairs() {
         std::vector<FacetPair> pairs =
-            crossing_pairs(divided_.points.all(), divided_.facets, divided_.changed, most_pairs(), poll_);
+            crossing_pairs(divided_.points.all(), divided_.facets, divided_.changed, most_pairs(), check_cancelled_);
         std::fill(divided_.changed.begin(), divided_.changed.end(), 0);
         return pairs;
     }
@@ -130,7 +132,7 @@ class Arranger {
 
     const std::size_t given_vertices_, given_facets_;
     DividedFacets divided_;
-    const std::function<void()>& poll_;
+    const std::function<void()>& check_cancelled_;
     double extent_ = 0;                           // the largest coordinate
     std::optional<double> given_tolerance_ = {};  // instead of that for roundings
     struct Best {
@@ -161,12 +163,12 @@ std::vector<FacetPair> Arranger::join_near(const std::vector<FacetPair>& pairs) 
     for (const FacetPair& pair : pairs)
         if (!are_copies(pair))
             for (const std::int32_t f : pair) is_near[f] = 1;
-    plane_overlaps(divided_, is_near, tolerance(), poll_);
-    result_.largest_move = std::max(
-        result_.largest_move, join_near_features(divided_, std::move(is_near), tolerance(), given_vertices_, poll_));
+    plane_overlaps(divided_, is_near, tolerance(), check_cancelled_);
+    result_.largest_move = std::max(result_.largest_move, join_near_features(divided_, std::move(is_near), tolerance(),
+                                                                             given_vertices_, check_cancelled_));
     std::vector<char> changed = divided_.changed;
     std::vector<FacetPair> joined = find_pairs();
-    const std::vector<FacetPair> overlaps = plane_overlaps(divided_, changed, tolerance(), poll_);
+    const std::vector<FacetPair> overlaps = plane_overlaps(divided_, changed, tolerance(), check_cancelled_);
     joined.insert(joined.end(), overlaps.begin(), overlaps.end());
     std::sort(joined.begin(), joined.end());
     joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
@@ -204,7 +206,7 @@ void Arranger::divide(const std::vector<FacetPair>& pairs) {
     std::vector<PointOnEdge> on_edges;
     std::vector<CrossedFacet> members;
     for (std::size_t g = 0; g < groups.count(); ++g) {
-        poll_();
+        check_cancelled_();
         members.clear();
         for (std::size_t i = groups.first[g]; i < groups.first[g + 1]; ++i) {
             const auto [first, last] =
@@ -238,16 +240,17 @@ Arrangement Arranger::finish(const std::vector<FacetPair>& pairs) {
 }  // namespace
 
 Arrangement arrange(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                    const std::function<void()>& poll) {
+                    const std::function<void()>& check_cancelled) {
     return Arranger(
-               vertices, facets, poll ? poll : [] {})
+               vertices, facets, check_cancelled ? check_cancelled : [] {})
         .run();
 }
 
 Arrangement arrange_walls(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                          const std::vector<char>& is_wall, double tolerance, const std::function<void()>& poll) {
+                          const std::vector<char>& is_wall, double tolerance,
+                          const std::function<void()>& check_cancelled) {
     return Arranger(
-               vertices, facets, poll ? poll : [] {})
+               vertices, facets, check_cancelled ? check_cancelled : [] {})
         .run_walls(is_wall, tolerance);
 }
 

@@ -46,10 +46,10 @@ struct Arrangement {
 /// most 10: it stays below 1e-10 of that coordinate. Pairs that still cross then, or whose number grows too large, are
 /// listed as `unresolved`.
 ///
-/// Requires finite coordinates and numbers in range. `poll`: called now and then, may throw. Deterministic. 1 M facets
-/// with 10,000 crossings: 4 s and 200 bytes a facet.
+/// Requires finite coordinates and numbers in range. `check_cancelled`: called now and then, may throw. Deterministic.
+/// 1 M facets with 10,000 crossings: 4 s and 200 bytes a facet.
 Arrangement arrange(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                    const std::function<void()>& poll = {});
+                    const std::function<void()>& check_cancelled = {});
 
 /// Makes walls one that nearly coincide. The facets `is_wall` (#F) that lie on one another within `tolerance` are
 /// divided alike, as arrange() divides those of one plane. Vertices of walls within the tolerance of each other, and
@@ -59,6 +59,7 @@ Arrangement arrange(const std::vector<Vec3>& vertices, const std::vector<Triangl
 /// a surface that was closed stays closed. `unresolved` lists walls that are still unlike. Requires and costs as
 /// arrange().
 Arrangement arrange_walls(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                          const std::vector<char>& is_wall, double tolerance, const std::function<void()>& poll = {});
+                          const std::vector<char>& is_wall, double tolerance,
+                          const std::function<void()>& check_cancelled = {});
 
 }  // namespace kerf

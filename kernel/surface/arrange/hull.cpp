@@ -7,15 +7,15 @@
 namespace kerf {
 
 std::vector<HullFate> find_hull(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                                const std::function<void()>& poll) {
+                                const std::function<void()>& check_cancelled) {
     const SingleFacets single = single_facets(facets);
     std::vector<std::int32_t> times(single.facets.size(), 0);
     for (std::size_t f = 0; f < facets.size(); ++f)
         if (const std::int32_t u = single.single_of[f]; u >= 0) times[u] += single.is_turned[f] ? -1 : 1;
-    poll();
+    check_cancelled();
     const WindingNumber winding(vertices, single.facets, times);
-    poll();
-    const std::vector<char> is_inside = find_inside_sides(vertices, single.facets, times, winding, poll);
+    check_cancelled();
+    const std::vector<char> is_inside = find_inside_sides(vertices, single.facets, times, winding, check_cancelled);
 
     std::vector<HullFate> fate(facets.size(), HullFate::outside);
     std::vector<std::int32_t> stays(single.facets.size(), -1);  // of each single facet the one that stays

@@ -26,9 +26,10 @@ enum class HullFate : std::uint8_t {
 /// close, winding numbers are whole, and the result closes, too; where they do not, as few edges as possible are open.
 ///
 /// `facets`: in range and meeting only in the vertices and edges that they share, up to a few that do not; facets with
-/// a repeated vertex are outside. `poll`: called now and then, may throw. O(#F log #F), 3 s for a million facets.
-/// Deterministic.
+/// a repeated vertex are outside. `check_cancelled`: called now and then, may throw. O(#F log #F), 3 s for a million
+/// facets. Deterministic.
 std::vector<HullFate> find_hull(
-    const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const std::function<void()>& poll = [] {});
+    const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+    const std::function<void()>& check_cancelled = [] {});
 
 }  // namespace kerf

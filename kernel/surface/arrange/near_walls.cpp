@@ -35,11 +35,11 @@ class NearWallFinder {
         found_.apart.assign(facets.size(), 0);
     }
 
-    NearWalls run(const std::function<void()>& poll) {
-        constexpr std::size_t walls_between_polls = 4096;
+    NearWalls run(const std::function<void()>& check_cancelled) {
+        constexpr std::size_t walls_between_checks = 4096;
         std::vector<char> is_near(facets_.size(), 0), thin(facets_.size(), 0);
         for (std::size_t i = 0; i < facets_.size(); ++i) {
-            if (i % walls_between_polls == 0) poll();
+            if (i % walls_between_checks == 0) check_cancelled();
             const auto f = static_cast<std::int32_t>(i);
             for_each_near(f, tolerance_, [&](std::int32_t g) { is_near[f] |= body_[g] != body_[f]; });
             if (!is_near[f] || !is_thin(f)) continue;
@@ -116,8 +116,8 @@ class NearWallFinder {
 
 NearWalls find_near_walls(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                           const std::vector<std::int32_t>& body, double tolerance, double nothing,
-                          const std::function<void()>& poll) {
-    return NearWallFinder(vertices, facets, body, tolerance, nothing).run(poll);
+                          const std::function<void()>& check_cancelled) {
+    return NearWallFinder(vertices, facets, body, tolerance, nothing).run(check_cancelled);
 }
 
 }  // namespace kerf

@@ -19,9 +19,9 @@ struct NearWalls {
 /// Finds the facets of each body that share area with one of another body and are within `tolerance` of its plane, and
 /// whether they differ from it by more than `nothing`: in height, or because corners and edges are near but not the
 /// same. Facets are thin that are within 4 times the tolerance of another facet of their body which shares no vertex
-/// with them. Facets without area are never walls. `body`: #F. `poll` may throw. Expected O(#F log #F).
+/// with them. Facets without area are never walls. `body`: #F. `check_cancelled` may throw. Expected O(#F log #F).
 NearWalls find_near_walls(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                           const std::vector<std::int32_t>& body, double tolerance, double nothing,
-                          const std::function<void()>& poll);
+                          const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

@@ -25,8 +25,11 @@ namespace {
 class ShellTurner {
  public:
     ShellTurner(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                const std::function<void()>& poll)
-        : vertices_(vertices), consistent_(make_consistent(facets)), facets_of_(consistent_.shell_count), poll_(poll) {
+                const std::function<void()>& check_cancelled)
+        : vertices_(vertices),
+          consistent_(make_consistent(facets)),
+          facets_of_(consistent_.shell_count),
+          check_cancelled_(check_cancelled) {
         for (std::size_t f = 0; f < facets.size(); ++f)
             facets_of_[consistent_.shell[f]].push_back(static_cast<std::int32_t>(f));
     }
@@ -40,7 +43,7 @@ class ShellTurner {
         for (std::int32_t shell = 0; shell < consistent_.shell_count; ++shell)
             if (!is_open[shell]) is_out[shell] = is_outward(vertices_, facets_of(shell));
         if (std::find(is_out.begin(), is_out.end(), char{0}) == is_out.end()) return to_turn;
-        poll_();
+        check_cancelled_();
         const WindingNumber winding(vertices_, consistent_.facets);
         for (std::int32_t shell = 0; shell < consistent_.shell_count; ++shell) {
             if (is_open[shell] || !is_wrong(shell, is_out[shell] != 0, winding)) continue;
@@ -78,7 +81,7 @@ class ShellTurner {
 
     bool is_wrong(std::int32_t shell, bool is_out, const WindingNumber& winding) {
         constexpr std::size_t most_samples = 64;
-        poll_();
+        check_cancelled_();
         const std::vector<std::int32_t>& own = facets_of_[shell];
         const double of_shell = is_out ? 0.5 : -0.5;  // winding number of the shell on itself
         const std::size_t step = (own.size() + most_samples - 1) / most_samples;
@@ -95,13 +98,13 @@ class ShellTurner {
     const std::vector<Vec3>& vertices_;
     ConsistentFacets consistent_;
     std::vector<std::vector<std::int32_t>> facets_of_;  // of shells
-    const std::function<void()>& poll_;
+    const std::function<void()>& check_cancelled_;
 };
 
 }  // namespace
 
 std::vector<char> find_turned_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                                     const std::function<void()>& poll) {
+                                     const std::function<void()>& check_cancelled) {
     std::vector<Triangle> proper;
     std::vector<std::size_t> number;
     for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -109,7 +112,7 @@ std::vector<char> find_turned_facets(const std::vector<Vec3>& vertices, const st
         proper.push_back(facets[f]);
         number.push_back(f);
     }
-    const std::vector<char> of_proper = ShellTurner(vertices, proper, poll).run();
+    const std::vector<char> of_proper = ShellTurner(vertices, proper, check_cancelled).run();
     std::vector<char> to_turn(facets.size(), 0);
     for (std::size_t i = 0; i < number.size(); ++i) to_turn[number[i]] = of_proper[i];
     return to_turn;

@@ -17,8 +17,9 @@ namespace kerf {
 /// shells are made to agree in themselves and stay otherwise; so do one-sided ones, of which no choice is right.
 ///
 /// `facets`: in range; those with a repeated vertex stay. They may cross: then the larger part of a shell decides. O(#F
-/// log #F), deterministic. `poll` may throw.
+/// log #F), deterministic. `check_cancelled` may throw.
 std::vector<char> find_turned_facets(
-    const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const std::function<void()>& poll = [] {});
+    const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+    const std::function<void()>& check_cancelled = [] {});
 
 }  // namespace kerf

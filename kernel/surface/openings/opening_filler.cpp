@@ -81,7 +81,7 @@ class OpeningFiller {
         for (std::size_t i = 0; i < filled_.size(); ++i) {
             FilledOpening& filled = filled_[i];
             while (is_open_[i] && !filled.patch) {
-                request_.poll();
+                request_.check_cancelled();
                 ShapedPatch made = make_patch(all_, filled.opening, filled.shape, request_.growth);
                 if (made.is_usable && has_triangles(made.mesh))
                     filled.patch = std::move(made.mesh);

@@ -24,7 +24,7 @@ struct FilledOpening {
 struct FillingRequest {
     double growth = 0;       ///< see PatchMesh::refine()
     bool may_cross = false;  ///< prefers a patch that crosses facets away from its rims to none
-    std::function<void()> poll = [] {};
+    std::function<void()> check_cancelled = [] {};
 };
 
 /// Makes a patch for each opening, in their order, of the first shape that meets the surface and other patches only at

@@ -59,7 +59,7 @@ double mean_gap(const std::vector<Vec3>& rim, const std::vector<Vec3>& other) {
 }
 
 std::vector<RimPair> find_pairs(const OpenRims& all, const std::vector<RimOpening>& openings,
-                                const std::function<void()>& poll) {
+                                const std::function<void()>& check_cancelled) {
     const std::vector<std::size_t> tried = longest(openings);
     std::vector<std::vector<Vec3>> points;
     std::vector<Box> boxes;
@@ -71,7 +71,7 @@ std::vector<RimPair> find_pairs(const OpenRims& all, const std::vector<RimOpenin
     }
     std::vector<RimPair> pairs;
     for (std::size_t i = 0; i < tried.size(); ++i) {
-        poll();
+        check_cancelled();
         for (std::size_t j = i + 1; j < tried.size(); ++j) {
             const RimOpening &one = openings[tried[i]], &two = openings[tried[j]];
             const double lids = areas[i] + areas[j], length = std::max(one.length(), two.length());
@@ -92,9 +92,9 @@ std::vector<RimPair> find_pairs(const OpenRims& all, const std::vector<RimOpenin
 }  // namespace
 
 std::vector<RimOpening> join_facing(const OpenRims& all, std::vector<RimOpening> openings,
-                                    const std::function<void()>& poll) {
+                                    const std::function<void()>& check_cancelled) {
     std::vector<char> is_joined(openings.size(), 0), is_second(openings.size(), 0);
-    for (RimPair& pair : find_pairs(all, openings, poll)) {
+    for (RimPair& pair : find_pairs(all, openings, check_cancelled)) {
         if (is_joined[pair.one] || is_joined[pair.two]) continue;
         is_joined[pair.one] = is_joined[pair.two] = is_second[pair.two] = 1;
         openings[pair.one] = std::move(pair.band);

@@ -13,8 +13,8 @@ namespace kerf {
 /// end of a pipe with a wall, a piece of a pipe that is missing, an island in a hole; but not the two mouths of a short
 /// pipe, nor two holes beside or above each other. The smallest band in relation to its lids comes first. Other
 /// openings stay as they are, in their order. Of more than 2000 openings only the longest are considered. O(n^2) boxes,
-/// and for those that are near enough a few distances. `poll`: called now and then.
+/// and for those that are near enough a few distances. `check_cancelled`: called now and then.
 std::vector<RimOpening> join_facing(const OpenRims& all, std::vector<RimOpening> openings,
-                                    const std::function<void()>& poll);
+                                    const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

@@ -66,8 +66,9 @@ void caps_step(Soup& soup, const StepRequest& request, StepReport& report) {
     const OpenRims rims(soup);
     CapsReport said(request.has(RepairKind::holes));
     constexpr double growth = 0.02;
-    const std::vector<FilledOpening> filled = fill_openings(
-        rims, openings_to_cap(rims, request, said), {growth, request.has(RepairKind::intersections), request.poll});
+    const std::vector<FilledOpening> filled =
+        fill_openings(rims, openings_to_cap(rims, request, said),
+                      {growth, request.has(RepairKind::intersections), request.check_cancelled});
     std::vector<std::size_t> by_area;
     std::vector<double> area(filled.size(), 0);
     for (std::size_t i = 0; i < filled.size(); ++i) {

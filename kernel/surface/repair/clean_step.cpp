@@ -50,7 +50,7 @@ class Cleaning {
     // union.
     std::vector<std::int32_t> take_out_closed(SurplusCopies& surplus) const {
         if (!unites() && !request_.is_divided_later) return {};
-        CoveredFacets covered = find_covered_facets(soup_.vertices, soup_.facets, request_.poll);
+        CoveredFacets covered = find_covered_facets(soup_.vertices, soup_.facets, request_.check_cancelled);
         const auto is_of_others = [&](std::int32_t f) {
             return (unites() && covered.is_told[f] != 0) || (request_.is_divided_later && covered.is_closed[f] != 0);
         };

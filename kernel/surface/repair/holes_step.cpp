@@ -67,7 +67,7 @@ RepairPlace place_of(const Soup& soup, const RimOpening& opening) {
 std::vector<RimOpening> openings_to_fill(const OpenRims& rims, const StepRequest& request, HolesReport& said) {
     std::vector<RimOpening> openings;
     for (const Rim& rim : rims.all()) {
-        request.poll();
+        request.check_cancelled();
         const auto edges = static_cast<double>(rim.facets.size());
         if (rim.obstacle != RimObstacle::none)
             said.of(rim.obstacle).add(place_of(rims.soup(), rim, edges));
@@ -76,7 +76,7 @@ std::vector<RimOpening> openings_to_fill(const OpenRims& rims, const StepRequest
         else
             openings.push_back(make_opening(rims, {&rim}));
     }
-    openings = join_facing(rims, std::move(openings), request.poll);
+    openings = join_facing(rims, std::move(openings), request.check_cancelled);
     std::erase_if(openings, [&](const RimOpening& opening) {
         const bool is_sheet = opening.bend > BendDegrees::folded;
         const bool is_unwanted_lid = request.has(RepairKind::thicken) && opening.bend > BendDegrees::lid;
@@ -92,8 +92,9 @@ void holes_step(Soup& soup, const StepRequest& request, StepReport& report) {
     const OpenRims rims(soup);
     HolesReport said;
     constexpr double growth = 0.1;
-    const std::vector<FilledOpening> filled = fill_openings(
-        rims, openings_to_fill(rims, request, said), {growth, request.has(RepairKind::intersections), request.poll});
+    const std::vector<FilledOpening> filled =
+        fill_openings(rims, openings_to_fill(rims, request, said),
+                      {growth, request.has(RepairKind::intersections), request.check_cancelled});
     PatchAppender appender(soup);
     std::int32_t patch = -1;
     for (const FilledOpening& one : filled) {

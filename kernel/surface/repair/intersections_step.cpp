@@ -44,13 +44,13 @@ class CrossingResolver {
             return refuse("doubles as large as a coordinate there are coarser than most facets; leave these facets out",
                           *far_out);
         if (keeps_all()) return divide_walls();
-        turned_ = find_turned_facets(soup_.vertices, soup_.facets, request_.poll);
+        turned_ = find_turned_facets(soup_.vertices, soup_.facets, request_.check_cancelled);
         Soup turned_soup = soup_;
         for (std::size_t f = 0; f < turned_.size(); ++f)
             if (turned_[f]) std::swap(turned_soup.facets[f][1], turned_soup.facets[f][2]);
-        pieces_ = arrange(turned_soup.vertices, turned_soup.facets, request_.poll);
+        pieces_ = arrange(turned_soup.vertices, turned_soup.facets, request_.check_cancelled);
         if (request_.bodies == BodyRepair::regions && become_regions(std::move(turned_soup))) return;
-        fate_ = find_hull(pieces_.vertices, pieces_.facets, request_.poll);
+        fate_ = find_hull(pieces_.vertices, pieces_.facets, request_.check_cancelled);
         if (request_.voids_are_parity) keep_shells();
         const bool is_clean =
             pieces_.rounds == 0 && pieces_.dropped_facets == 0 && std::all_of(fate_.begin(), fate_.end(), is_kept);
@@ -111,7 +111,7 @@ class CrossingResolver {
     }
     // All pieces stay, copies too: which regions they part is told by their cells.
     void divide_walls() {
-        pieces_ = arrange(soup_.vertices, soup_.facets, request_.poll);
+        pieces_ = arrange(soup_.vertices, soup_.facets, request_.check_cancelled);
         if (pieces_.rounds == 0) return;
         tell_crossings();
         tell_unresolved();
@@ -122,14 +122,14 @@ class CrossingResolver {
 
     // Makes each body a region. False if there is one body alone, or the facets bound no regions.
     bool become_regions(Soup divided) {
-        GivenBodies bodies = find_bodies(divided, request_.poll);
+        GivenBodies bodies = find_bodies(divided, request_.check_cancelled);
         if (bodies.names.size() < 2) return false;
         std::vector<std::int32_t> of_pieces;
         for (const std::int32_t parent : pieces_.parent) of_pieces.push_back(bodies.of_facet[parent]);
         bodies.of_facet = std::move(of_pieces);
         const std::vector<char> all(pieces_.facets.size(), 1), none(pieces_.facets.size(), 0);
         take_divided_facets(divided, pieces_, all, none);
-        std::optional<BodyRegions> regions = make_regions(divided, bodies, request_.poll);
+        std::optional<BodyRegions> regions = make_regions(divided, bodies, request_.check_cancelled);
         if (!regions) {
             RepairAction refused{"surface", "surfaces", "", 1, {}, "its facets part no regions; bodies are united"};
             refused.changes_surface = false;

@@ -24,7 +24,7 @@ class ManifoldOpening {
     void run() {
         if (has_walls(soup_, request_)) return;
         drop_loose();
-        request_.poll();
+        request_.check_cancelled();
         FanSeparation separation = separate_fans(soup_, request_.bound, request_.is_divided_later);
         report_.largest_move = std::max(report_.largest_move, separation.largest_move);
         for (RepairAction& action : separation.actions) report_.actions.push_back(std::move(action));

@@ -36,11 +36,11 @@ class Orienting {
         if (facets_.empty() || (facets_.size() == soup_.facets.size() && has_walls(soup_, request_))) return;
         new_ = make_consistent(facets_);
         restore_one_sided();
-        request_.poll();
+        request_.check_cancelled();
         rims_ = find_rims(facets_);
         is_hull_.assign(facets_.size(), 1);
         turn_by_cells();
-        request_.poll();
+        request_.check_cancelled();
         turn_shells_outwards();
         say();
         for (std::size_t i = 0; i < number_.size(); ++i) soup_.facets[number_[i]] = new_.facets[i];

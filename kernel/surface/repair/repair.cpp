@@ -22,11 +22,12 @@ namespace {
 
 class Ladder {
  public:
-    Ladder(Soup& soup, const RepairPlan& plan, const std::function<void()>& poll) : soup_(soup), plan_(plan) {
+    Ladder(Soup& soup, const RepairPlan& plan, const std::function<void()>& check_cancelled)
+        : soup_(soup), plan_(plan) {
         const Box box = box_around_finite(soup.vertices);
         report_.diagonal = box.isEmpty() ? 0 : box.diagonal().norm();
         report_.bound = plan.bound.of(report_.diagonal);
-        if (poll) poll_ = poll;
+        if (check_cancelled) check_cancelled_ = check_cancelled;
     }
 
     RepairReport climb() {
@@ -46,14 +47,14 @@ class Ladder {
     void apply(RepairKind kind, int round = 0) {
         const RepairStep* step = plan_.find(kind);
         if (step == nullptr) return;
-        poll_();
+        check_cancelled_();
         const RepairStepRow& row = repair_step_rows()[static_cast<std::size_t>(kind)];
         StepRequest request{.bound = report_.bound,
                             .diagonal = report_.diagonal,
                             .bodies = plan_.bodies,
                             .are_walls = plan_.are_walls,
                             .voids_are_parity = plan_.voids_are_parity,
-                            .poll = poll_,
+                            .check_cancelled = check_cancelled_,
                             .plan = &plan_,
                             .round = round,
                             .is_last_round = round == most_renewals - 1,
@@ -139,7 +140,7 @@ class Ladder {
 
     Soup& soup_;
     const RepairPlan& plan_;
-    std::function<void()> poll_ = [] {};
+    std::function<void()> check_cancelled_ = [] {};
     RepairReport report_;
     bool is_renewing_ = false;
     bool is_divided_later_ = plan_.find(RepairKind::intersections) != nullptr;
@@ -147,13 +148,13 @@ class Ladder {
 
 }  // namespace
 
-RepairReport repair(Soup& soup, const RepairPlan& plan, const std::function<void()>& poll) {
+RepairReport repair(Soup& soup, const RepairPlan& plan, const std::function<void()>& check_cancelled) {
     if (plan.empty()) return {};
     if (!soup.sides.empty())
         throw Error(ErrorCode::usage,
                     "Repairs are for facets that do not say what they bound, but this surface has regions that share "
                     "walls. Mesh it as it is, without --repair, or mend it where it was made.");
-    return Ladder(soup, plan, poll).climb();
+    return Ladder(soup, plan, check_cancelled).climb();
 }
 
 }  // namespace kerf

@@ -21,10 +21,10 @@ namespace kerf {
 /// step that would move a vertex farther than the bound, or change something that is no defect, leaves it and reports
 /// that.
 ///
-/// `soup`: its numbers in range, welded exactly; facets without finite coordinates stay. `poll`, if given, is called
-/// again and again, and ends the work by throwing. Throws Error(usage) for a soup that says what lies on the sides of
-/// its facets: its regions share walls already. Deterministic. 400 k facets take seconds where few cross; 100 k that
-/// cross everywhere take minutes, since each round divides all of them again.
-RepairReport repair(Soup& soup, const RepairPlan& plan, const std::function<void()>& poll = {});
+/// `soup`: its numbers in range, welded exactly; facets without finite coordinates stay. `check_cancelled`, if given,
+/// is called again and again, and ends the work by throwing. Throws Error(usage) for a soup that says what lies on the
+/// sides of its facets: its regions share walls already. Deterministic. 400 k facets take seconds where few cross; 100
+/// k that cross everywhere take minutes, since each round divides all of them again.
+RepairReport repair(Soup& soup, const RepairPlan& plan, const std::function<void()>& check_cancelled = {});
 
 }  // namespace kerf

@@ -17,11 +17,11 @@ struct StepRequest {
     double bound = 0;     ///< the largest move of a vertex of the input, units of the surface
     double diagonal = 0;  ///< diagonal of the bounding box of the surface as it came
     BodyRepair bodies = BodyRepair::as_found;
-    bool are_walls = false;              ///< see RepairPlan
-    bool voids_are_parity = false;       ///< see RepairPlan
-    std::function<void()> poll = [] {};  ///< to be called now and then; may throw
-    const RepairPlan* plan = {};         ///< the whole plan; none: this step alone
-    int round = 0;                       ///< the round of renewing; 0: before facets are divided where they cross
+    bool are_walls = false;                         ///< see RepairPlan
+    bool voids_are_parity = false;                  ///< see RepairPlan
+    std::function<void()> check_cancelled = [] {};  ///< to be called now and then; may throw
+    const RepairPlan* plan = {};                    ///< the whole plan; none: this step alone
+    int round = 0;  ///< the round of renewing; 0: before facets are divided where they cross
     bool is_last_round = false;
     bool is_divided_later = false;  ///< a later step divides facets that cross or touch
 

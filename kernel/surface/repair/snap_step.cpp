@@ -40,13 +40,14 @@ class WallSnapping {
         : soup_(soup), request_(request), report_(report), tolerance_(std::min(request.amount, request.bound)) {}
 
     void run() {
-        const GivenBodies bodies = find_bodies(soup_, request_.poll);
+        const GivenBodies bodies = find_bodies(soup_, request_.check_cancelled);
         if (bodies.names.size() < 2 || !(tolerance_ > 0)) return;
-        walls_ = find_near_walls(soup_.vertices, soup_.facets, bodies.of_facet, tolerance_, nothing(), request_.poll);
+        walls_ = find_near_walls(soup_.vertices, soup_.facets, bodies.of_facet, tolerance_, nothing(),
+                                 request_.check_cancelled);
         tell_thin();
         for (int tries = 0; tries < most_snap_tries && has_unlike(); ++tries) {
             Arrangement divided =
-                arrange_walls(soup_.vertices, soup_.facets, walls_.is_wall, tolerance_, request_.poll);
+                arrange_walls(soup_.vertices, soup_.facets, walls_.is_wall, tolerance_, request_.check_cancelled);
             if (divided.facets == soup_.facets) break;
             if (leave_out_turned(divided)) continue;
             if (divided.largest_move <= request_.bound && stays_closed(divided))

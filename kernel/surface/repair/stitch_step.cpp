@@ -36,7 +36,7 @@ class Stitching {
 
  private:
     void join(double tolerance, double near_end, int rounds) {
-        for (int round = 0; round < rounds && join_once(tolerance, near_end); ++round) request_.poll();
+        for (int round = 0; round < rounds && join_once(tolerance, near_end); ++round) request_.check_cancelled();
     }
     bool join_once(double tolerance, double near_end) {
         const Border border(soup_.vertices, soup_.facets);

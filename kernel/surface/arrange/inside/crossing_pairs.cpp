@@ -11,7 +11,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::size_t facets_between_polls = 4096;
+constexpr std::size_t facets_between_checks = 4096;
 
 class CrossingSearch {
  public:
@@ -32,10 +32,10 @@ class CrossingSearch {
         order_ = std::move(items);
     }
 
-    std::vector<FacetPair> run(const std::function<void()>& poll) {
+    std::vector<FacetPair> run(const std::function<void()>& check_cancelled) {
         std::size_t asked = 0;
         const auto ask = [&](std::int32_t facet) {
-            if (++asked % facets_between_polls == 0) poll();
+            if (++asked % facets_between_checks == 0) check_cancelled();
             if (pairs_.size() <= most_) find_those_with(facet);
         };
         for (const std::int32_t facet : order_) ask(facet);
@@ -77,8 +77,8 @@ class CrossingSearch {
 
 std::vector<FacetPair> crossing_pairs(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                       const std::vector<char>& changed, std::size_t most,
-                                      const std::function<void()>& poll) {
-    return CrossingSearch(vertices, facets, changed, most).run(poll);
+                                      const std::function<void()>& check_cancelled) {
+    return CrossingSearch(vertices, facets, changed, most).run(check_cancelled);
 }
 
 }  // namespace kerf

@@ -18,6 +18,6 @@ using FacetPair = std::array<std::int32_t, 2>;
 /// changed facet.
 std::vector<FacetPair> crossing_pairs(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                       const std::vector<char>& changed, std::size_t most,
-                                      const std::function<void()>& poll);
+                                      const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

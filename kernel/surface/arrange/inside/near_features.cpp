@@ -236,9 +236,9 @@ void NearFeatures::replace(std::vector<FacetPiece>& pieces, const std::vector<ch
 }  // namespace
 
 double join_near_features(DividedFacets& divided, std::vector<char> is_near, double tolerance, std::size_t given,
-                          const std::function<void()>& poll) {
+                          const std::function<void()>& check_cancelled) {
     NearFeatures near(divided, std::move(is_near), tolerance, given);
-    for (int passes = 0; passes < most_passes && near.pass(); ++passes) poll();
+    for (int passes = 0; passes < most_passes && near.pass(); ++passes) check_cancelled();
     return near.largest_move();
 }
 

@@ -16,6 +16,6 @@ namespace kerf {
 /// `is_near` (#F): the given facets; the facets that come of them, and all others that have to be divided, are
 /// `changed` then. Returns the largest distance of a vertex with a number below `given` from the one that it became.
 double join_near_features(DividedFacets& divided, std::vector<char> is_near, double tolerance, std::size_t given,
-                          const std::function<void()>& poll);
+                          const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

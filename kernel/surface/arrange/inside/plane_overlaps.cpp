@@ -8,7 +8,7 @@
 namespace kerf {
 
 std::vector<FacetPair> plane_overlaps(const DividedFacets& divided, std::vector<char>& is_near, double tolerance,
-                                      const std::function<void()>& poll) {
+                                      const std::function<void()>& check_cancelled) {
     const std::vector<Box> boxes = boxes_around(divided.points.all(), divided.facets);
     std::vector<std::int32_t> order(boxes.size()), open;
     std::iota(order.begin(), order.end(), 0);
@@ -18,7 +18,7 @@ std::vector<FacetPair> plane_overlaps(const DividedFacets& divided, std::vector<
     std::vector<FacetPair> pairs;
     std::vector<char> is_done(is_near.size(), 0);
     while (!open.empty()) {
-        poll();
+        check_cancelled();
         const std::int32_t facet = open.back();
         open.pop_back();
         is_done[facet] = 1;

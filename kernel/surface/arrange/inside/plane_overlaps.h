@@ -12,6 +12,6 @@ namespace kerf {
 /// Returns all pairs of facets that lie in one plane within `tolerance` and share area, and of which one is near,
 /// ascending. `is_near` (#F): facets of these pairs become near, too, and so on. Expected O(#F log #F).
 std::vector<FacetPair> plane_overlaps(const DividedFacets& divided, std::vector<char>& is_near, double tolerance,
-                                      const std::function<void()>& poll);
+                                      const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

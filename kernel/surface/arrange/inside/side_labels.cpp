@@ -45,19 +45,19 @@ class SideLabeller {
  public:
     SideLabeller(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                  const std::vector<std::int32_t>& times, const WindingNumber& winding,
-                 const std::function<void()>& poll)
+                 const std::function<void()>& check_cancelled)
         : vertices_(vertices),
           facets_(facets),
           times_(times),
           winding_(winding),
-          poll_(poll),
+          check_cancelled_(check_cancelled),
           votes_(2 * facets.size()) {
         for (const Triangle& t : facets) areas_.push_back(triangle_area(vertices, t));
     }
 
     std::vector<char> run() {
         find_facing_sides();
-        poll_();
+        check_cancelled_();
         if (is_open_)
             ask_all();
         else
@@ -96,17 +96,17 @@ class SideLabeller {
             votes_[side] = weight * std::clamp(beside + sign * times_[facet] / 2.0 - 0.5, -0.5, 0.5);
     }
     void ask_all() {
-        constexpr std::size_t polled_each = 1 << 14, grain = 1 << 8;
-        for (std::size_t first = 0; first < facets_.size(); first += polled_each) {
-            poll_();
-            for_ranges_on_threads(std::min(polled_each, facets_.size() - first), grain, [&](const IndexRange& range) {
+        constexpr std::size_t checked_each = 1 << 14, grain = 1 << 8;
+        for (std::size_t first = 0; first < facets_.size(); first += checked_each) {
+            check_cancelled_();
+            for_ranges_on_threads(std::min(checked_each, facets_.size() - first), grain, [&](const IndexRange& range) {
                 for (std::size_t f = first + range.first; f < first + range.last; ++f)
                     ask(static_cast<std::int32_t>(f), areas_[f]);
             });
         }
     }
     void ask_patches() {
-        constexpr std::int32_t polled_each = 4096;
+        constexpr std::int32_t checked_each = 4096;
         std::int32_t questions = 0;
         UnionFind joined(facets_.size());
         for (const Facing& facing : facing_)
@@ -122,7 +122,7 @@ class SideLabeller {
             for (const std::int32_t f : samples) asked += areas_[f];
             if (asked > 0)
                 for (const std::int32_t f : samples) {
-                    if (++questions % polled_each == 0) poll_();
+                    if (++questions % checked_each == 0) check_cancelled_();
                     ask(f, areas_[f] / asked * area);
                 }
         }
@@ -165,7 +165,7 @@ class SideLabeller {
         std::erase_if(facing_, [&](const Facing& f) { return sets_.of[f.a] == sets_.of[f.b]; });
         if (std::any_of(facing_.begin(), facing_.end(),
                         [&](const Facing& f) { return is_inside[sets_.of[f.a]] != is_inside[sets_.of[f.b]]; })) {
-            poll_();
+            check_cancelled_();
             MaxFlow flow(sets_.count);
             for (std::int32_t s = 0; s < sets_.count; ++s)
                 flow.add_terminal(s, std::max(votes[s], 0.0), std::max(-votes[s], 0.0));
@@ -183,7 +183,7 @@ class SideLabeller {
     const std::vector<Triangle>& facets_;
     const std::vector<std::int32_t>& times_;
     const WindingNumber& winding_;
-    const std::function<void()>& poll_;
+    const std::function<void()>& check_cancelled_;
     std::vector<double> areas_, votes_;  // #F; 2 #F
     std::vector<Facing> facing_;         // the links of an edge follow each other
     bool is_open_ = false;
@@ -194,8 +194,8 @@ class SideLabeller {
 
 std::vector<char> find_inside_sides(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                     const std::vector<std::int32_t>& times, const WindingNumber& winding,
-                                    const std::function<void()>& poll) {
-    return SideLabeller(vertices, facets, times, winding, poll).run();
+                                    const std::function<void()>& check_cancelled) {
+    return SideLabeller(vertices, facets, times, winding, check_cancelled).run();
 }
 
 }  // namespace kerf

@@ -19,9 +19,9 @@ namespace kerf {
 /// vote, and are parted where they disagree.
 ///
 /// `facets`: in range, each once, with different corners, each standing for `times` facets, those that are turned
-/// subtracted; `winding` is that of them. `poll` may throw. O(#F log #F) and the questions to `winding`.
+/// subtracted; `winding` is that of them. `check_cancelled` may throw. O(#F log #F) and the questions to `winding`.
 std::vector<char> find_inside_sides(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                                     const std::vector<std::int32_t>& times, const WindingNumber& winding,
-                                    const std::function<void()>& poll);
+                                    const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

@@ -44,7 +44,7 @@ struct WindingBody {
 
 // Gives voids the number of the smallest body around them.
 void join_voids(const Soup& soup, std::vector<std::int32_t>& piece, std::int32_t count,
-                const std::function<void()>& poll) {
+                const std::function<void()>& check_cancelled) {
     std::vector<std::vector<Triangle>> facets(count);
     for (std::size_t f = 0; f < piece.size(); ++f)
         if (!has_repeated_vertex(soup.facets[f])) facets[piece[f]].push_back(soup.facets[f]);
@@ -52,7 +52,7 @@ void join_voids(const Soup& soup, std::vector<std::int32_t>& piece, std::int32_t
     for (const std::vector<Triangle>& own : facets) bodies.emplace_back(soup.vertices, own);
     std::vector<std::int32_t> body_of(count);
     for (std::int32_t p = 0; p < count; ++p) {
-        poll();
+        check_cancelled();
         body_of[p] = p;
         if (bodies[p].volume >= 0) continue;
         const auto& [a, b, c] = facets[p].front();
@@ -69,8 +69,8 @@ void join_voids(const Soup& soup, std::vector<std::int32_t>& piece, std::int32_t
 
 class RegionMaker {
  public:
-    RegionMaker(Soup& soup, const GivenBodies& bodies, DividedSpace space, const std::function<void()>& poll)
-        : soup_(soup), given_(bodies), space_(std::move(space)), poll_(poll) {}
+    RegionMaker(Soup& soup, const GivenBodies& bodies, DividedSpace space, const std::function<void()>& check_cancelled)
+        : soup_(soup), given_(bodies), space_(std::move(space)), check_cancelled_(check_cancelled) {}
 
     BodyRegions run() {
         collect_bodies();
@@ -108,7 +108,7 @@ class RegionMaker {
         }
         auto member = members_.begin();
         for (std::int32_t body = 0; body < std::ssize(given_.names); ++body) {
-            poll_();
+            check_cancelled_();
             std::vector<Triangle> facets;
             std::vector<std::int32_t> times;
             for (; member != members_.end() && member->body == body; ++member) {
@@ -164,7 +164,7 @@ class RegionMaker {
         const std::vector<double> volumes = cell_volumes(soup_.vertices, space_.single.facets, space_.cells);
         const auto samples = samples_of_cells();
         for (std::int32_t cell = 0; cell < space_.cells.count; ++cell) {
-            poll_();
+            check_cancelled_();
             const std::vector<std::int32_t> around = bodies_around(cell, samples[cell]);
             if (around.empty()) continue;
             const auto smallest = std::min_element(around.begin(), around.end(), [&](std::int32_t a, std::int32_t b) {
@@ -218,7 +218,7 @@ class RegionMaker {
     Soup& soup_;
     const GivenBodies& given_;
     DividedSpace space_;
-    const std::function<void()>& poll_;
+    const std::function<void()>& check_cancelled_;
     std::vector<Member> members_;        // by bodies, then facets
     std::vector<std::ptrdiff_t> first_;  // of a body, in members_
     std::vector<WindingBody> bodies_;
@@ -227,7 +227,7 @@ class RegionMaker {
 
 }  // namespace
 
-GivenBodies find_bodies(const Soup& soup, const std::function<void()>& poll) {
+GivenBodies find_bodies(const Soup& soup, const std::function<void()>& check_cancelled) {
     GivenBodies bodies = closed_patches(soup);
     if (!bodies.names.empty()) return bodies;
     UnionFind joined(soup.facets.size());
@@ -235,7 +235,7 @@ GivenBodies find_bodies(const Soup& soup, const std::function<void()>& poll) {
         for (const auto& c : corners) joined.join(corners[0].corner / 3, c.corner / 3);
     });
     Components pieces = joined.take();
-    join_voids(soup, pieces.of, pieces.count, poll);
+    join_voids(soup, pieces.of, pieces.count, check_cancelled);
     std::vector<std::int32_t> number(pieces.count, -1);
     for (const std::int32_t piece : pieces.of) {
         if (number[piece] < 0) {
@@ -247,10 +247,11 @@ GivenBodies find_bodies(const Soup& soup, const std::function<void()>& poll) {
     return bodies;
 }
 
-std::optional<BodyRegions> make_regions(Soup& soup, const GivenBodies& bodies, const std::function<void()>& poll) {
+std::optional<BodyRegions> make_regions(Soup& soup, const GivenBodies& bodies,
+                                        const std::function<void()>& check_cancelled) {
     std::optional<DividedSpace> space = divide_space(soup);
     if (!space) return std::nullopt;
-    return RegionMaker(soup, bodies, std::move(*space), poll).run();
+    return RegionMaker(soup, bodies, std::move(*space), check_cancelled).run();
 }
 
 }  // namespace kerf

@@ -15,9 +15,9 @@ namespace kerf {
 
 /// Returns the bodies of a soup whose closed shells point out of the space that they enclose: its patches, if there are
 /// several and each is closed by itself, else the pieces that hang together over edges, called "body_1", "body_2", ...
-/// A void belongs to the smallest body around it. `poll` may throw. O(#F log #F) and, for each void, questions to the
-/// bodies around it.
-GivenBodies find_bodies(const Soup& soup, const std::function<void()>& poll);
+/// A void belongs to the smallest body around it. `check_cancelled` may throw. O(#F log #F) and, for each void,
+/// questions to the bodies around it.
+GivenBodies find_bodies(const Soup& soup, const std::function<void()>& check_cancelled);
 
 /// The bodies that became regions, their overlaps, and the bodies that were left out, as repair actions.
 struct BodyRegions {
@@ -33,8 +33,9 @@ struct BodyRegions {
 /// so that bodies need not be quite closed. Where only one region comes of it, the soup gets no sides.
 ///
 /// `bodies`: the body of each facet of the soup, which must be an arrangement (surface/arrange/arrangement.h). Returns
-/// nothing, and changes nothing, where the facets do not conform or close nothing. `poll` may throw. O(#F log #F) and
-/// questions to each body around a cell. Deterministic.
-std::optional<BodyRegions> make_regions(Soup& soup, const GivenBodies& bodies, const std::function<void()>& poll);
+/// nothing, and changes nothing, where the facets do not conform or close nothing. `check_cancelled` may throw. O(#F
+/// log #F) and questions to each body around a cell. Deterministic.
+std::optional<BodyRegions> make_regions(Soup& soup, const GivenBodies& bodies,
+                                        const std::function<void()>& check_cancelled);
 
 }  // namespace kerf

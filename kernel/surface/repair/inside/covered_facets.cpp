@@ -51,7 +51,7 @@ std::optional<std::vector<SingleFate>> find_fates(const std::vector<Vec3>& verti
 }  // namespace
 
 CoveredFacets find_covered_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                                  const std::function<void()>& poll) {
+                                  const std::function<void()>& check_cancelled) {
     CoveredFacets found{{}, {}, {}, std::vector<char>(facets.size(), 0), std::vector<char>(facets.size(), 0)};
     if (!has_edge_of_many(facets)) return found;
     const Rims rims = find_rims(facets);
@@ -59,7 +59,7 @@ CoveredFacets find_covered_facets(const std::vector<Vec3>& vertices, const std::
     for (const std::vector<std::int32_t>& piece : rims.facets_of_pieces()) {
         const std::int32_t p = rims.piece_of[piece.front()];
         if (!is_balanced[p] || rims.pieces[p].edges_of_many == 0) continue;
-        poll();
+        check_cancelled();
         std::vector<Triangle> own;
         for (const std::int32_t f : piece) own.push_back(facets[f]);
         const CompactFacets compact = make_compact(vertices, own);

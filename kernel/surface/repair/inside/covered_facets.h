@@ -23,8 +23,8 @@ struct CoveredFacets {
 /// around points in whole numbers. The union of a piece is the space where it winds once or more. Nothing is said of a
 /// piece that crosses itself elsewhere than in copies, that winds less than not at all somewhere, because a body in it
 /// is inside out, or of which nothing would stay. Requires finite coordinates and facets with three different vertices
-/// and area. O(#F), and for these pieces O(n log n). `poll` may throw.
+/// and area. O(#F), and for these pieces O(n log n). `check_cancelled` may throw.
 CoveredFacets find_covered_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-                                  const std::function<void()>& poll);
+                                  const std::function<void()>& check_cancelled);
 
 }  // namespace kerf
