@@ -144,7 +144,7 @@ class Causes {
 std::vector<std::int32_t> absent(const std::vector<CellFace>& faces) {
     std::vector<std::int32_t> facets;
     for (std::size_t f = 0; f < faces.size(); ++f)
-        if (faces[f] == Triangulation::none) facets.push_back(static_cast<std::int32_t>(f));
+        if (faces[f] == SpatialTriangulation::none) facets.push_back(static_cast<std::int32_t>(f));
     return facets;
 }
 
@@ -171,7 +171,7 @@ int run(const std::vector<std::string>& words) {
     const Surface surface = read_input(words[0]).complex.take_only_region();
     const SurfaceArrays arrays = surface.arrays();
     const Causes causes(surface);
-    Triangulation triangulation = delaunay(arrays.vertices).triangulation;
+    SpatialTriangulation triangulation = delaunay(arrays.vertices).triangulation;
     const std::vector<std::int32_t> missing = absent(find_faces(triangulation, arrays.facets));
     const std::vector<std::int32_t> lost = recover_faces(triangulation, arrays.facets).lost;
     fmt::print(R"({{"facets": {}, "missing": {}, "lost": {}}})"

@@ -6,7 +6,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>
 
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 
 namespace kerf::test {
 
@@ -116,7 +116,7 @@ CellPoints sorted_corners(const std::array<Vec3, 4>& corners) {
     return points;
 }
 
-std::vector<CellPoints> sorted_cells(const Triangulation& triangulation) {
+std::vector<CellPoints> sorted_cells(const SpatialTriangulation& triangulation) {
     std::vector<CellPoints> cells;
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
         if (triangulation.is_ghost(cell)) continue;
@@ -128,7 +128,7 @@ std::vector<CellPoints> sorted_cells(const Triangulation& triangulation) {
     return cells;
 }
 
-void expect_valid(const Triangulation& triangulation) {
+void expect_valid(const SpatialTriangulation& triangulation) {
     const auto point = [&](std::int32_t v) { return point_of(triangulation.points()[v]); };
     std::vector<bool> has_cell(triangulation.points().size());
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
@@ -141,7 +141,7 @@ void expect_valid(const Triangulation& triangulation) {
             for (int k = 1; k < 4; ++k)
                 ASSERT_LT(index_of(triangulation.vertices(cell_of(behind)), v[i ^ k]), 4) << "of the same face";
             ASSERT_EQ(index_of(triangulation.vertices(cell_of(behind)), v[i]), 4);
-            ASSERT_EQ(v[i] == Triangulation::ghost, i == 3 && triangulation.is_ghost(cell));
+            ASSERT_EQ(v[i] == SpatialTriangulation::ghost, i == 3 && triangulation.is_ghost(cell));
             if (v[i] >= 0) has_cell[v[i]] = true;
         }
         if (triangulation.is_ghost(cell)) {
@@ -153,7 +153,7 @@ void expect_valid(const Triangulation& triangulation) {
     }
     for (std::size_t v = 0; v < has_cell.size(); ++v) {
         const std::int32_t cell = triangulation.cell_at(static_cast<std::int32_t>(v));
-        ASSERT_EQ(has_cell[v], cell != Triangulation::none);
+        ASSERT_EQ(has_cell[v], cell != SpatialTriangulation::none);
         if (has_cell[v]) {
             ASSERT_LT(index_of(triangulation.vertices(cell), static_cast<std::int32_t>(v)), 4);
         }
@@ -162,13 +162,13 @@ void expect_valid(const Triangulation& triangulation) {
 
 // Spheres are empty if none has the vertex behind a face inside; the hull is convex if no face has the one behind an
 // edge beyond it.
-void expect_delaunay(const Triangulation& triangulation) {
+void expect_delaunay(const SpatialTriangulation& triangulation) {
     const auto point = [&](std::int32_t v) { return point_of(triangulation.points()[v]); };
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
         for (int i = 0; i < 4; ++i) {
             const std::int32_t behind = triangulation.opposite_vertex(triangulation.mirror(cell_face(cell, i)));
             const Tetrahedron& v = triangulation.vertices(cell);
-            if (behind == Triangulation::ghost) continue;
+            if (behind == SpatialTriangulation::ghost) continue;
             if (!triangulation.is_ghost(cell)) {
                 ASSERT_NE(
                     CGAL::side_of_oriented_sphere(point(v[0]), point(v[1]), point(v[2]), point(v[3]), point(behind)),

@@ -8,7 +8,7 @@
 #include "base/core/types.h"
 
 namespace kerf {
-class Triangulation;
+class SpatialTriangulation;
 }
 
 namespace kerf::test {
@@ -28,13 +28,13 @@ std::vector<PointSet> point_sets();
 
 /// The four points of each cell that is no ghost, sorted: equal lists are equal sets of cells.
 using CellPoints = std::array<std::array<double, 3>, 4>;
-std::vector<CellPoints> sorted_cells(const Triangulation& triangulation);
+std::vector<CellPoints> sorted_cells(const SpatialTriangulation& triangulation);
 CellPoints sorted_corners(const std::array<Vec3, 4>& corners);
 
 /// Expects cells of positive orientation, ghosts outside of them alone, symmetric links between cells that share a
 /// face, and a cell at every vertex that has one.
-void expect_valid(const Triangulation& triangulation);
+void expect_valid(const SpatialTriangulation& triangulation);
 /// Expects empty spheres, by predicates of others, and a convex hull.
-void expect_delaunay(const Triangulation& triangulation);
+void expect_delaunay(const SpatialTriangulation& triangulation);
 
 }  // namespace kerf::test

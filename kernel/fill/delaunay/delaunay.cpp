@@ -1,7 +1,7 @@
-// All points are inserted one after another (fill/delaunay/triangulation.h), in an order in which each lies near the
-// one before. They are kept in that order meanwhile, so that memory that is needed next is in the cache; at the end
-// vertices get the numbers of their points. The first cell is made of the first four points of the order that do not
-// lie in one plane.
+// All points are inserted one after another (fill/delaunay/spatial_triangulation.h), in an order in which each lies
+// near the one before. They are kept in that order meanwhile, so that memory that is needed next is in the cache; at
+// the end vertices get the numbers of their points. The first cell is made of the first four points of the order that
+// do not lie in one plane.
 #include "fill/delaunay/delaunay.h"
 
 #include <algorithm>
@@ -48,12 +48,12 @@ std::vector<std::int32_t> representatives_by_sorting(const std::vector<Vec3>& po
     return representative;
 }
 
-Triangulation first_cells(const std::vector<std::int32_t>& order, const std::vector<Vec3>& points) {
-    return Triangulation({points[order[0]], points[order[1]], points[order[2]], points[order[3]]});
+SpatialTriangulation first_cells(const std::vector<std::int32_t>& order, const std::vector<Vec3>& points) {
+    return SpatialTriangulation({points[order[0]], points[order[1]], points[order[2]], points[order[3]]});
 }
 
 // Inserts all points behind the first four, and returns the vertex of each point.
-std::vector<std::int32_t> insert_all(Triangulation& triangulation, const std::vector<std::int32_t>& order,
+std::vector<std::int32_t> insert_all(SpatialTriangulation& triangulation, const std::vector<std::int32_t>& order,
                                      const std::vector<Vec3>& points) {
     std::vector<std::int32_t> vertex(points.size());
     for (std::int32_t i = 0; i < 4; ++i) vertex[order[i]] = i;
@@ -71,11 +71,11 @@ Delaunay delaunay(std::vector<Vec3> points) {
     const std::vector<std::int32_t> vertex = insert_all(result.triangulation, order, points);
     order = {};
 
-    std::vector<std::int32_t> number(result.triangulation.points().size(), Triangulation::none);
+    std::vector<std::int32_t> number(result.triangulation.points().size(), SpatialTriangulation::none);
     result.representative.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::int32_t& first = number[vertex[i]];
-        if (first == Triangulation::none) first = static_cast<std::int32_t>(i);
+        if (first == SpatialTriangulation::none) first = static_cast<std::int32_t>(i);
         result.representative[i] = first;
     }
     result.triangulation.renumber(number, std::move(points));

@@ -47,9 +47,9 @@ TrianglesByVertex by_smallest_vertex(const std::vector<Triangle>& triangles, std
 
 }  // namespace
 
-std::vector<CellFace> find_faces(const Triangulation& triangulation, const std::vector<Triangle>& triangles) {
+std::vector<CellFace> find_faces(const SpatialTriangulation& triangulation, const std::vector<Triangle>& triangles) {
     const auto [start, list] = by_smallest_vertex(triangles, triangulation.points().size());
-    std::vector<CellFace> faces(triangles.size(), Triangulation::none);
+    std::vector<CellFace> faces(triangles.size(), SpatialTriangulation::none);
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
         for (int i = triangulation.is_ghost(cell) ? 3 : 0; i < 4; ++i) {
             const CellFace face = cell_face(cell, i), behind = triangulation.mirror(face);
@@ -64,7 +64,8 @@ std::vector<CellFace> find_faces(const Triangulation& triangulation, const std::
     return faces;
 }
 
-std::optional<std::vector<bool>> cells_behind(const Triangulation& triangulation, const std::vector<CellFace>& faces) {
+std::optional<std::vector<bool>> cells_behind(const SpatialTriangulation& triangulation,
+                                              const std::vector<CellFace>& faces) {
     std::vector<bool> is_behind(static_cast<std::size_t>(triangulation.cell_count()));
     std::vector<std::int32_t> found;
     const auto reach = [&](std::int32_t cell) {

@@ -4,9 +4,9 @@
 // of its two cells is named by 4 * cell + i, as half-edges are on a surface. A link is the name of the same face seen
 // from the other side, with a flag where the face is constrained, or it is below 0 where there is no cell behind.
 //
-// Delaunay insertion (fill/delaunay/triangulation.h) and improvement (fill/improve/inside/improved_mesh.h) are built on
-// this. They change cells in three steps: find_ring() or find_star() finds the cells around an edge or a vertex, the
-// caller chooses new cells as Tetrahedron, and replace() puts these in their place.
+// Delaunay insertion (fill/delaunay/spatial_triangulation.h) and improvement (fill/improve/inside/improved_mesh.h) are
+// built on this. They change cells in three steps: find_ring() or find_star() finds the cells around an edge or a
+// vertex, the caller chooses new cells as Tetrahedron, and replace() puts these in their place.
 #pragma once
 
 #include <bit>

@@ -35,7 +35,7 @@ std::vector<Triangle> all_triangles(const SurfaceArrays& surface, const ShellCor
     return triangles;
 }
 
-Triangulation triangulate(std::vector<Vec3> points) {
+SpatialTriangulation triangulate(std::vector<Vec3> points) {
     Delaunay result = delaunay(std::move(points));
     if (result.triangulation.cell_count() == 0)
         throw Error(ErrorCode::subdomain, "All vertices of the surface lie in one plane.");
@@ -47,7 +47,7 @@ Triangulation triangulate(std::vector<Vec3> points) {
 }
 
 // Removes all cells but those between surface and core, and adds the caps.
-void cut_out(Triangulation& triangulation, const RecoveredFaces& boundary) {
+void cut_out(SpatialTriangulation& triangulation, const RecoveredFaces& boundary) {
     const auto behind = cells_behind(triangulation, boundary.faces);
     if (!behind) throw Error(ErrorCode::subdomain, "The facets do not enclose a body.");
     triangulation.keep_cells(*behind);
@@ -55,7 +55,7 @@ void cut_out(Triangulation& triangulation, const RecoveredFaces& boundary) {
 }
 
 // Recovers all triangles. Throws where the surface meets itself, or so nearly that no double lies between.
-RecoveredFaces recover(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
+RecoveredFaces recover(SpatialTriangulation& triangulation, const std::vector<Triangle>& triangles) {
     RecoveredFaces found = recover_faces(triangulation, triangles);
     if (!found.lost.empty())
         throw Error(ErrorCode::subdomain,
@@ -85,7 +85,7 @@ FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const Refin
     FilledShell shell;
     const auto boundary_vertices = static_cast<std::int32_t>(surface.vertices.size() + core.points.size());
     const std::vector<Triangle> triangles = all_triangles(surface, core);
-    Triangulation triangulation = triangulate(all_points(surface, core));
+    SpatialTriangulation triangulation = triangulate(all_points(surface, core));
     core = {};
     const auto given_vertices = static_cast<std::int32_t>(triangulation.points().size());
     const RecoveredFaces found = recover(triangulation, triangles);

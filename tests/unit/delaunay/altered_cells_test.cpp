@@ -7,7 +7,7 @@
 
 #include "base/geometry/predicates.h"
 #include "fill/delaunay/delaunay.h"
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 #include "support/point_sets.h"
 
 namespace kerf {
@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned altering_seed = 32;
 
 // Replaces the two cells of a face by three, if they are positive, whatever is Delaunay.
-bool flip_face(Triangulation& triangulation, CellFace face) {
+bool flip_face(SpatialTriangulation& triangulation, CellFace face) {
     const CellFace behind = triangulation.mirror(face);
     if (triangulation.is_ghost(cell_of(face)) || triangulation.is_ghost(cell_of(behind))) return false;
     const std::vector<Vec3>& p = triangulation.points();
@@ -30,8 +30,8 @@ bool flip_face(Triangulation& triangulation, CellFace face) {
 }
 
 // Cells of random points after random flips, some of their faces constrained.
-Triangulation altered(std::mt19937& random) {
-    Triangulation triangulation = delaunay(test::point_sets().front().points).triangulation;
+SpatialTriangulation altered(std::mt19937& random) {
+    SpatialTriangulation triangulation = delaunay(test::point_sets().front().points).triangulation;
     for (int flip = 0; flip < 300; ++flip)
         flip_face(triangulation,
                   static_cast<CellFace>(random() % (4 * static_cast<std::uint32_t>(triangulation.cell_count()))));
@@ -42,7 +42,7 @@ Triangulation altered(std::mt19937& random) {
 
 // The cells that p may remove, by the slowest way: all whose spheres contain it are reached from the one where it is,
 // those with a face that it does not see are refused, and so on from the beginning.
-std::set<std::int32_t> removed_by(const Triangulation& triangulation, const Vec3& p) {
+std::set<std::int32_t> removed_by(const SpatialTriangulation& triangulation, const Vec3& p) {
     const std::vector<Vec3>& points = triangulation.points();
     const std::int32_t start = triangulation.locate(p, 0);
     for (std::set<std::int32_t> refused;;) {
@@ -72,11 +72,11 @@ std::set<std::int32_t> removed_by(const Triangulation& triangulation, const Vec3
     }
 }
 
-TEST(Triangulation, RemovesAllCellsOfWhichAPointSeesTheFaces) {
+TEST(SpatialTriangulation, RemovesAllCellsOfWhichAPointSeesTheFaces) {
     std::mt19937 random(altering_seed);
     int inserted = 0, left = 0, kept_off = 0;
     for (int round = 0; round < 5; ++round) {
-        Triangulation triangulation = altered(random);
+        SpatialTriangulation triangulation = altered(random);
         for (int i = 0; i < 100; ++i) {
             const auto corners = triangulation.vertices(
                 static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(triangulation.cell_count())));
@@ -98,7 +98,7 @@ TEST(Triangulation, RemovesAllCellsOfWhichAPointSeesTheFaces) {
                 return true;
             };
             const std::int32_t vertex = triangulation.insert_if(p, 0, {accepts, is_kept_off_by});
-            ASSERT_EQ(vertex != Triangulation::none, is_star_known);
+            ASSERT_EQ(vertex != SpatialTriangulation::none, is_star_known);
             ASSERT_EQ(is_star_known, asked.size() < 3 && !expected.empty());
             inserted += is_star_known;
             left += is_star_known && triangulation.has_left_cells();

@@ -47,7 +47,7 @@ std::vector<CellPoints> sorted_cells_of(const std::vector<Vec3>& points) {
 TEST(Delaunay, HasEmptySpheresAndAConvexHull) {
     for (const auto& [name, points] : test::point_sets()) {
         SCOPED_TRACE(name);
-        const Triangulation triangulation = delaunay(points).triangulation;
+        const SpatialTriangulation triangulation = delaunay(points).triangulation;
         EXPECT_EQ(triangulation.cell_count() == 0, name.starts_with("flat"));
         test::expect_valid(triangulation);
         test::expect_delaunay(triangulation);
@@ -65,7 +65,7 @@ TEST(Delaunay, HasTheCellsOfCgal) {
 
 TEST(Delaunay, FillsTheHull) {
     for (const bool is_centred : {false, true}) {
-        const Triangulation triangulation = delaunay(test::lattice(6, 0.25, is_centred)).triangulation;
+        const SpatialTriangulation triangulation = delaunay(test::lattice(6, 0.25, is_centred)).triangulation;
         double volume = 0;
         for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
             if (triangulation.is_ghost(cell)) continue;
@@ -121,7 +121,7 @@ TEST(Delaunay, NumbersVerticesAsItsPoints) {
             ASSERT_EQ(representative[i], known->second);
             if (name.starts_with("flat")) continue;
             ASSERT_EQ(triangulation.points()[i], points[i]);
-            ASSERT_EQ(triangulation.cell_at(number) != Triangulation::none, representative[i] == number);
+            ASSERT_EQ(triangulation.cell_at(number) != SpatialTriangulation::none, representative[i] == number);
         }
     }
 }

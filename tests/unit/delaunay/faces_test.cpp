@@ -18,7 +18,7 @@ constexpr unsigned faces_seed = 8;
 Triangle reversed(const Triangle& t) { return {t[0], t[2], t[1]}; }
 
 // As find_faces() wants it, told by signs alone: seen from the cell's fourth vertex it turns clockwise.
-Triangle triangle_of(const Triangulation& triangulation, CellFace face) {
+Triangle triangle_of(const SpatialTriangulation& triangulation, CellFace face) {
     const Tetrahedron& v = triangulation.vertices(cell_of(face));
     const int i = index_in_cell(face);
     const std::vector<Vec3>& p = triangulation.points();
@@ -30,7 +30,7 @@ TEST(Faces, AreFoundFromBothSides) {
     std::mt19937 random(faces_seed);
     for (const auto& [name, points] : test::point_sets()) {
         SCOPED_TRACE(testing::Message() << name << ", seed " << faces_seed);
-        const Triangulation triangulation = delaunay(points).triangulation;
+        const SpatialTriangulation triangulation = delaunay(points).triangulation;
         std::vector<Triangle> triangles;
         std::vector<CellFace> expected;
         for (CellFace face = 0; face < 4 * triangulation.cell_count(); ++face) {
@@ -46,7 +46,7 @@ TEST(Faces, AreFoundFromBothSides) {
 
 TEST(Faces, AreNotFoundWhereThereAreNone) {
     std::mt19937 random(faces_seed);
-    const Triangulation triangulation = delaunay(test::random_points(random, 60)).triangulation;
+    const SpatialTriangulation triangulation = delaunay(test::random_points(random, 60)).triangulation;
     std::set<std::set<std::int32_t>> all;
     for (CellFace face = 0; face < 4 * triangulation.cell_count(); ++face) {
         if (triangulation.is_ghost(cell_of(face))) continue;
@@ -58,7 +58,8 @@ TEST(Faces, AreNotFoundWhereThereAreNone) {
         const auto vertex = [&] { return static_cast<std::int32_t>(random() % 60); };
         const Triangle triangle = {vertex(), vertex(), vertex()};
         const bool is_face = all.contains(std::set(triangle.begin(), triangle.end()));
-        ASSERT_EQ(find_faces(triangulation, {triangle})[0] != Triangulation::none, is_face) << "seed " << faces_seed;
+        ASSERT_EQ(find_faces(triangulation, {triangle})[0] != SpatialTriangulation::none, is_face)
+            << "seed " << faces_seed;
         missing += !is_face;
     }
     EXPECT_GT(missing, 500);
@@ -70,7 +71,7 @@ TEST(Faces, EncloseCells) {
     std::mt19937 random(faces_seed);
     for (const auto& [name, points] : test::point_sets()) {
         SCOPED_TRACE(testing::Message() << name << ", seed " << faces_seed);
-        Triangulation triangulation = delaunay(points).triangulation;
+        SpatialTriangulation triangulation = delaunay(points).triangulation;
         if (triangulation.cell_count() == 0) continue;
         std::vector<bool> is_inside(static_cast<std::size_t>(triangulation.cell_count()));
         const std::uint32_t one_in = 2 + random() % 4;

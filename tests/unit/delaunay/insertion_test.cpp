@@ -1,5 +1,5 @@
 // Triangulations point by point, walks, stars, and faces that stay.
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 
 #include <algorithm>
 #include <map>
@@ -20,7 +20,7 @@ constexpr unsigned insertion_seed = 3;
 
 using Corners = std::array<std::int32_t, 3>;
 
-Corners sorted_corners_of(const Triangulation& triangulation, CellFace face) {
+Corners sorted_corners_of(const SpatialTriangulation& triangulation, CellFace face) {
     const Tetrahedron& v = triangulation.vertices(cell_of(face));
     const int i = index_in_cell(face);
     Corners corners = {v[i ^ 1], v[i ^ 2], v[i ^ 3]};
@@ -28,14 +28,14 @@ Corners sorted_corners_of(const Triangulation& triangulation, CellFace face) {
     return corners;
 }
 
-std::vector<CellFace> inner_faces(const Triangulation& triangulation) {
+std::vector<CellFace> inner_faces(const SpatialTriangulation& triangulation) {
     std::vector<CellFace> faces;
     for (CellFace face = 0; face < 4 * triangulation.cell_count(); ++face)
         if (!triangulation.is_ghost(cell_of(face)) && face < triangulation.mirror(face)) faces.push_back(face);
     return faces;
 }
 
-std::set<Corners> constrained_faces(const Triangulation& triangulation) {
+std::set<Corners> constrained_faces(const SpatialTriangulation& triangulation) {
     std::set<Corners> faces;
     for (CellFace face = 0; face < 4 * triangulation.cell_count(); ++face)
         if (triangulation.is_constrained(face)) faces.insert(sorted_corners_of(triangulation, face));
@@ -49,7 +49,7 @@ struct Snapshot {
     bool operator==(const Snapshot&) const = default;
 };
 
-Snapshot snapshot(const Triangulation& triangulation) {
+Snapshot snapshot(const SpatialTriangulation& triangulation) {
     Snapshot seen{triangulation.points().size(), {}};
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
         for (int i = 0; i < 4; ++i) {
@@ -63,7 +63,7 @@ Snapshot snapshot(const Triangulation& triangulation) {
 }
 
 // Whether p is in the closed cell, or strictly beyond the face of a ghost cell.
-bool is_in(const Triangulation& triangulation, std::int32_t cell, const Vec3& p) {
+bool is_in(const SpatialTriangulation& triangulation, std::int32_t cell, const Vec3& p) {
     const std::vector<Vec3>& points = triangulation.points();
     const Tetrahedron& v = triangulation.vertices(cell);
     if (triangulation.is_ghost(cell)) return orientation(points[v[0]], points[v[1]], points[v[2]], p) > 0;
@@ -75,14 +75,14 @@ bool is_in(const Triangulation& triangulation, std::int32_t cell, const Vec3& p)
     return true;
 }
 
-bool lies_on(const Triangulation& triangulation, CellFace face, const Vec3& p) {
+bool lies_on(const SpatialTriangulation& triangulation, CellFace face, const Vec3& p) {
     const std::vector<Vec3>& points = triangulation.points();
     const Corners v = sorted_corners_of(triangulation, face);
     return orientation(points[v[0]], points[v[1]], points[v[2]], p) == 0 && is_in(triangulation, cell_of(face), p);
 }
 
 // With constrained faces.
-bool must_be_refused(const Triangulation& triangulation, const Vec3& p) {
+bool must_be_refused(const SpatialTriangulation& triangulation, const Vec3& p) {
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
         for (int i = 0; i < 4; ++i) {
             if (triangulation.is_ghost(cell)) continue;
@@ -94,14 +94,14 @@ bool must_be_refused(const Triangulation& triangulation, const Vec3& p) {
     return triangulation.is_ghost(triangulation.locate(p, 0));
 }
 
-bool is_vertex(const Triangulation& triangulation, const Vec3& p) {
+bool is_vertex(const SpatialTriangulation& triangulation, const Vec3& p) {
     const std::vector<Vec3>& points = triangulation.points();
     return std::find(points.begin(), points.end(), p) != points.end();
 }
 
 struct Case {
     std::string name;
-    Triangulation triangulation;
+    SpatialTriangulation triangulation;
 };
 
 // Of all point sets that have cells.
@@ -112,16 +112,16 @@ std::vector<Case> cases() {
     return cases;
 }
 
-TEST(Triangulation, GrowsPointByPointToTheSameCells) {
+TEST(SpatialTriangulation, GrowsPointByPointToTheSameCells) {
     for (const auto& [name, points] : test::point_sets()) {
         SCOPED_TRACE(name);
-        const Triangulation all = delaunay(points).triangulation;
+        const SpatialTriangulation all = delaunay(points).triangulation;
         if (all.cell_count() == 0) continue;
         std::int32_t first = 0;
         while (all.is_ghost(first)) ++first;
         const auto [a, b, c, d] = all.vertices(first);
-        Triangulation triangulation({points[a], points[b], points[c], points[d]});
-        std::int32_t hint = Triangulation::none;
+        SpatialTriangulation triangulation({points[a], points[b], points[c], points[d]});
+        std::int32_t hint = SpatialTriangulation::none;
         for (const Vec3& p : points) {
             const std::int32_t vertex = triangulation.insert(p, hint);
             ASSERT_EQ(triangulation.points()[vertex], p);
@@ -132,7 +132,7 @@ TEST(Triangulation, GrowsPointByPointToTheSameCells) {
     }
 }
 
-TEST(Triangulation, LocatesPoints) {
+TEST(SpatialTriangulation, LocatesPoints) {
     SCOPED_TRACE(testing::Message() << "seed " << insertion_seed);
     std::mt19937 random(insertion_seed);
     for (const auto& [name, triangulation] : cases()) {
@@ -151,7 +151,7 @@ TEST(Triangulation, LocatesPoints) {
     }
 }
 
-TEST(Triangulation, FindsTheCellsAroundVertices) {
+TEST(SpatialTriangulation, FindsTheCellsAroundVertices) {
     for (auto& [name, triangulation] : cases()) {
         SCOPED_TRACE(name);
         std::vector<std::vector<std::int32_t>> around(triangulation.points().size());
@@ -168,7 +168,7 @@ TEST(Triangulation, FindsTheCellsAroundVertices) {
     }
 }
 
-TEST(Triangulation, TurnsAroundEdges) {
+TEST(SpatialTriangulation, TurnsAroundEdges) {
     for (const auto& [name, triangulation] : cases()) {
         SCOPED_TRACE(name);
         std::map<UndirectedEdge, std::int32_t> cells_at;
@@ -203,7 +203,7 @@ TEST(Triangulation, TurnsAroundEdges) {
 }
 
 // Constrains some faces, inserts points in special position to them and elsewhere.
-TEST(Triangulation, KeepsConstrainedFacesAndRefusesWithoutAChange) {
+TEST(SpatialTriangulation, KeepsConstrainedFacesAndRefusesWithoutAChange) {
     SCOPED_TRACE(testing::Message() << "seed " << insertion_seed);
     std::mt19937 random(insertion_seed);
     int inserted = 0, refused = 0;
@@ -224,13 +224,13 @@ TEST(Triangulation, KeepsConstrainedFacesAndRefusesWithoutAChange) {
             const Snapshot before = snapshot(triangulation);
             const bool is_refused = !is_vertex(triangulation, p) && must_be_refused(triangulation, p);
             const std::int32_t vertex = triangulation.insert(p);
-            ASSERT_EQ(vertex == Triangulation::none, is_refused);
-            vertex == Triangulation::none ? ++refused : ++inserted;
-            if (vertex == Triangulation::none || vertex < static_cast<std::int32_t>(before.points)) {
+            ASSERT_EQ(vertex == SpatialTriangulation::none, is_refused);
+            vertex == SpatialTriangulation::none ? ++refused : ++inserted;
+            if (vertex == SpatialTriangulation::none || vertex < static_cast<std::int32_t>(before.points)) {
                 ASSERT_TRUE(snapshot(triangulation) == before);
             } else {
                 ASSERT_EQ(triangulation.points()[vertex], p);
-                ASSERT_NE(triangulation.cell_at(vertex), Triangulation::none);
+                ASSERT_NE(triangulation.cell_at(vertex), SpatialTriangulation::none);
             }
         }
         ASSERT_TRUE(constrained_faces(triangulation) == constrained);
@@ -241,8 +241,8 @@ TEST(Triangulation, KeepsConstrainedFacesAndRefusesWithoutAChange) {
 }
 
 // A square in a plane, constrained, in the middle of a grid.
-TEST(Triangulation, RefusesPointsOnConstrainedFacesAndOnTheHull) {
-    Triangulation triangulation = delaunay(test::lattice(4, 1, false)).triangulation;
+TEST(SpatialTriangulation, RefusesPointsOnConstrainedFacesAndOnTheHull) {
+    SpatialTriangulation triangulation = delaunay(test::lattice(4, 1, false)).triangulation;
     for (const CellFace face : inner_faces(triangulation)) {
         const Corners corners = sorted_corners_of(triangulation, face);
         const auto is_in_square = [&](std::int32_t v) { return triangulation.points()[v][2] == 2; };
@@ -251,7 +251,7 @@ TEST(Triangulation, RefusesPointsOnConstrainedFacesAndOnTheHull) {
     const std::set<Corners> square = constrained_faces(triangulation);
     EXPECT_EQ(square.size(), 32U);
     for (const Vec3& p : {Vec3(1.25, 1.5, 2), Vec3(1.5, 1.5, 2), Vec3(1.5, 3, 2), Vec3(1.25, 1.5, 0), Vec3(5, 5, 5)})
-        EXPECT_EQ(triangulation.insert(p), Triangulation::none);
+        EXPECT_EQ(triangulation.insert(p), SpatialTriangulation::none);
     for (const Vec3& p : {Vec3(1.25, 1.5, 1.75), Vec3(1.25, 1.5, 2.25), Vec3(1.25, 1.5, 1.5), Vec3(2.5, 2, 1)})
         EXPECT_GE(triangulation.insert(p), 125);
     EXPECT_EQ(triangulation.insert({2, 2, 2}), triangulation.insert({2, 2, 2}, 0));
@@ -260,7 +260,7 @@ TEST(Triangulation, RefusesPointsOnConstrainedFacesAndOnTheHull) {
 }
 
 // The limit is that of the numbers of faces; here it is lower.
-TEST(Triangulation, RefusesMoreCellsThanNumbersWithoutAChange) {
+TEST(SpatialTriangulation, RefusesMoreCellsThanNumbersWithoutAChange) {
     const std::array<Vec3, 4> corners = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
     const Vec3 inside(0.2, 0.2, 0.2);
     const auto code_of = [](const auto& grow) {
@@ -273,25 +273,26 @@ TEST(Triangulation, RefusesMoreCellsThanNumbersWithoutAChange) {
     };
     for (const std::int32_t most : {7, 9}) {
         const bool is_refused = most == 7;  // of 5 cells one is replaced by four; an insertion asks for all four
-        Triangulation inserted(corners, most), replaced(corners, most);
+        SpatialTriangulation inserted(corners, most), replaced(corners, most);
         EXPECT_EQ(code_of([&] { inserted.insert(inside); }), is_refused ? 5 : 0);
         const std::int32_t v = replaced.add_vertex(inside);
         const std::array<Tetrahedron, 4> by = {{{v, 1, 2, 3}, {0, v, 2, 3}, {0, 1, v, 3}, {0, 1, 2, v}}};
         EXPECT_EQ(code_of([&] { replaced.replace(std::array{0}, by); }), is_refused ? 5 : 0);
-        for (const Triangulation* grown : {&inserted, &replaced}) EXPECT_EQ(grown->cell_count(), is_refused ? 5 : 8);
+        for (const SpatialTriangulation* grown : {&inserted, &replaced})
+            EXPECT_EQ(grown->cell_count(), is_refused ? 5 : 8);
         if (is_refused) {
             EXPECT_EQ(inserted.points().size(), 4U);
             EXPECT_EQ(replaced.vertices(0), (Tetrahedron{0, 1, 2, 3}));
-            EXPECT_EQ(replaced.cell_at(v), Triangulation::none);
+            EXPECT_EQ(replaced.cell_at(v), SpatialTriangulation::none);
         }
     }
 }
 
 // As long as nothing was constrained they may be outside.
-TEST(Triangulation, GrowsTheHull) {
+TEST(SpatialTriangulation, GrowsTheHull) {
     SCOPED_TRACE(testing::Message() << "seed " << insertion_seed);
     std::mt19937 random(insertion_seed);
-    Triangulation triangulation({Vec3(0, 0, 0), Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0), Vec3(0, 0, 1e-3)});
+    SpatialTriangulation triangulation({Vec3(0, 0, 0), Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0), Vec3(0, 0, 1e-3)});
     for (const Vec3& p : test::random_points(random, 200)) {
         const std::size_t count = triangulation.points().size();
         ASSERT_EQ(triangulation.insert(p), static_cast<std::int32_t>(count));

@@ -31,7 +31,7 @@ double uniform(Random& random, double low, double high) {
 }
 int integer(Random& random, int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); }
 
-std::set<Triangle> constrained_triangles(const Triangulation& triangulation) {
+std::set<Triangle> constrained_triangles(const SpatialTriangulation& triangulation) {
     std::set<Triangle> triangles;
     for (CellFace face = 0; face < 4 * triangulation.cell_count(); ++face) {
         if (!triangulation.is_constrained(face)) continue;
@@ -42,14 +42,14 @@ std::set<Triangle> constrained_triangles(const Triangulation& triangulation) {
     return triangles;
 }
 
-std::vector<Tetrahedron> all_cells(const Triangulation& triangulation) {
+std::vector<Tetrahedron> all_cells(const SpatialTriangulation& triangulation) {
     std::vector<Tetrahedron> cells;
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
         cells.push_back(triangulation.vertices(cell));
     return cells;
 }
 
-double six_volumes_of(const Triangulation& triangulation) {
+double six_volumes_of(const SpatialTriangulation& triangulation) {
     double sum = 0;
     for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
         if (triangulation.is_ghost(cell)) continue;
@@ -62,7 +62,7 @@ double six_volumes_of(const Triangulation& triangulation) {
 }
 
 // One flip at a random place. Whether it changed anything.
-bool flip_somewhere(Triangulation& triangulation, Random& random) {
+bool flip_somewhere(SpatialTriangulation& triangulation, Random& random) {
     const std::int32_t cell = integer(random, 0, triangulation.cell_count() - 1);
     if (triangulation.is_ghost(cell)) return false;
     const int i = integer(random, 0, 3), j = (i + integer(random, 1, 3)) % 4, kind = integer(random, 0, 4);
@@ -85,7 +85,7 @@ TEST(RingFlips, LeaveTriangulationsValid) {
     for (const auto& [name, points] : test::point_sets()) {
         if (name.starts_with("flat")) continue;
         SCOPED_TRACE(name);
-        Triangulation triangulation = delaunay(points).triangulation;
+        SpatialTriangulation triangulation = delaunay(points).triangulation;
         for (CellFace face = 0; face < 4 * triangulation.cell_count(); face += 97)
             if (!triangulation.is_ghost(cell_of(face))) triangulation.constrain(face);
         const std::set<Triangle> constrained = constrained_triangles(triangulation);
@@ -117,7 +117,7 @@ TEST(RingFlips, MakeNothingThatCrossesTheirGoal) {
     std::vector<Vec3> points;
     for (int k = 0; k < 300; ++k)
         points.emplace_back(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1));
-    Triangulation triangulation = delaunay(points).triangulation;
+    SpatialTriangulation triangulation = delaunay(points).triangulation;
     int flipped = 0;
     for (std::int32_t a = 0; a < 100; ++a) {
         const std::int32_t b = 299 - a;
@@ -182,11 +182,11 @@ std::vector<std::pair<std::string, Soup>> surfaces_to_recover() {
 }
 
 void expect_recovered(const Soup& soup) {
-    Triangulation triangulation = delaunay(soup.vertices).triangulation;
+    SpatialTriangulation triangulation = delaunay(soup.vertices).triangulation;
     const auto before = find_faces(triangulation, soup.facets);
     const RecoveredFaces result = recover_faces(triangulation, soup.facets);
     test::expect_valid(triangulation);
-    EXPECT_EQ(result.missing, std::count(before.begin(), before.end(), Triangulation::none));
+    EXPECT_EQ(result.missing, std::count(before.begin(), before.end(), SpatialTriangulation::none));
     EXPECT_LE(result.split, result.missing);
     ASSERT_TRUE(result.lost.empty());
     for (const CellFace face : result.faces) EXPECT_TRUE(triangulation.is_constrained(face));

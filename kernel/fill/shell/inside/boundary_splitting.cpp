@@ -94,7 +94,7 @@ bool BoundarySplitting::split_edge(std::int32_t a, std::int32_t b) {
 
 std::optional<double> BoundarySplitting::find_place(const Crossing& crossing, std::int32_t a, std::int32_t b,
                                                     Place& place) const {
-    if (crossing.cell == Triangulation::none || crossing.has_end) return std::nullopt;
+    if (crossing.cell == SpatialTriangulation::none || crossing.has_end) return std::nullopt;
     double share = 0;
     if (crossing.is_through_edge()) {
         const auto [p, q] = crossing.edge;
@@ -307,7 +307,7 @@ template <class Accepts>
 std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Place& place, const Accepts& accepts) {
     const auto before = static_cast<std::int32_t>(t_.points().size());
     const std::int32_t at = t_.locate_in_sight(p, place.cavity[0]);
-    if (at == Triangulation::none) return std::nullopt;
+    if (at == SpatialTriangulation::none) return std::nullopt;
     const auto is_free = [&](const Star& star) {
         return accepts(star.removed) && may_be_removed(t_, star.removed, is_kept_);
     };

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 #include "fill/shell/inside/cavity.h"
 #include "fill/shell/inside/crossing.h"
 #include "fill/shell/inside/missing_triangles.h"
@@ -32,8 +32,8 @@ class BoundarySplitting {
  public:
     /// Takes the triangles `given`, of which missing ones are parts. `offset` is the slope of the dome at the ends of
     /// the longest edge: in (0, 1). The smaller it is, the nearer another part of the boundary may be.
-    BoundarySplitting(Triangulation& triangulation, const std::vector<Triangle>& given, MissingTriangles& missing,
-                      double offset)
+    BoundarySplitting(SpatialTriangulation& triangulation, const std::vector<Triangle>& given,
+                      MissingTriangles& missing, double offset)
         : t_(triangulation),
           given_(given),
           missing_(missing),
@@ -82,7 +82,7 @@ class BoundarySplitting {
     void flip_part(std::int32_t number, int i);
     const Vec3& point(std::int32_t vertex) const { return t_.points()[vertex]; }
 
-    Triangulation& t_;
+    SpatialTriangulation& t_;
     const std::vector<Triangle>& given_;
     MissingTriangles& missing_;
     IsKept is_kept_;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 
 namespace kerf {
 

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t most_crossings = 1000;
 
-int orient(const Triangulation& t, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+int orient(const SpatialTriangulation& t, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     const auto& p = t.points();
     return orientation(p[a], p[b], p[c], p[d]);
 }
 
 // Whether the line from a to b leaves the cell through the face, or through an edge of it; fills `crossing` if so.
-bool leaves_through(const Triangulation& t, CellFace face, std::int32_t a, std::int32_t b, Crossing& crossing) {
+bool leaves_through(const SpatialTriangulation& t, CellFace face, std::int32_t a, std::int32_t b, Crossing& crossing) {
     const Triangle corners = t.face_vertices(face);
     int zeros = 0, on_edge = 0;
     for (int i = 0; i < 3; ++i) {
@@ -37,7 +37,7 @@ bool leaves_through(const Triangulation& t, CellFace face, std::int32_t a, std::
 }
 
 // Whether the edge between p and q goes through the inside of the triangle.
-bool pierces(const Triangulation& t, std::int32_t p, std::int32_t q, const Triangle& triangle) {
+bool pierces(const SpatialTriangulation& t, std::int32_t p, std::int32_t q, const Triangle& triangle) {
     const auto& [a, b, c] = triangle;
     if (std::find(triangle.begin(), triangle.end(), p) != triangle.end() ||
         std::find(triangle.begin(), triangle.end(), q) != triangle.end())
@@ -48,7 +48,7 @@ bool pierces(const Triangulation& t, std::int32_t p, std::int32_t q, const Trian
 }
 
 // Whether the face is the triangle, seen from the cell that sees it clockwise.
-bool is_face(const Triangulation& triangulation, CellFace face, const Triangle& triangle) {
+bool is_face(const SpatialTriangulation& triangulation, CellFace face, const Triangle& triangle) {
     if (triangulation.opposite_vertex(face) == triangle[0]) return false;
     Triangle there = triangulation.face_vertices(face);
     std::rotate(there.begin(), std::find(there.begin(), there.end(), triangle[0]), there.end());
@@ -57,7 +57,7 @@ bool is_face(const Triangulation& triangulation, CellFace face, const Triangle& 
 
 }  // namespace
 
-Crossing crossing_of(Triangulation& triangulation, std::int32_t a, std::int32_t b) {
+Crossing crossing_of(SpatialTriangulation& triangulation, std::int32_t a, std::int32_t b) {
     Crossing crossing;
     for (const std::int32_t cell : triangulation.cells_around_vertex(a)) {
         if (index_of(triangulation.vertices(cell), b) < 4) {
@@ -65,28 +65,28 @@ Crossing crossing_of(Triangulation& triangulation, std::int32_t a, std::int32_t 
             crossing.has_end = true;
             return crossing;
         }
-        if (crossing.cell == Triangulation::none && !triangulation.is_ghost(cell))
+        if (crossing.cell == SpatialTriangulation::none && !triangulation.is_ghost(cell))
             leaves_through(triangulation, cell_face(cell, index_of(triangulation.vertices(cell), a)), a, b, crossing);
     }
     return crossing;
 }
 
-std::vector<Crossing> crossings_of(Triangulation& triangulation, std::int32_t a, std::int32_t b) {
+std::vector<Crossing> crossings_of(SpatialTriangulation& triangulation, std::int32_t a, std::int32_t b) {
     std::vector<Crossing> crossings;
     Crossing next = crossing_of(triangulation, a, b);
-    while (next.cell != Triangulation::none && !next.has_end && crossings.size() < most_crossings) {
+    while (next.cell != SpatialTriangulation::none && !next.has_end && crossings.size() < most_crossings) {
         crossings.push_back(next);
         if (next.is_through_edge()) break;
         const CellFace from = triangulation.mirror(next.face);
         if (triangulation.is_ghost(cell_of(from)) || triangulation.opposite_vertex(from) == b) break;
         next = {};
-        for (int i = 0; i < 4 && next.cell == Triangulation::none; ++i)
+        for (int i = 0; i < 4 && next.cell == SpatialTriangulation::none; ++i)
             if (i != index_in_cell(from)) leaves_through(triangulation, cell_face(cell_of(from), i), a, b, next);
     }
     return crossings;
 }
 
-std::vector<PiercingEdge> edges_through(Triangulation& triangulation, const Triangle& triangle) {
+std::vector<PiercingEdge> edges_through(SpatialTriangulation& triangulation, const Triangle& triangle) {
     std::vector<PiercingEdge> edges;
     for (const std::int32_t cell : triangulation.cells_around_vertex(triangle[0])) {
         if (triangulation.is_ghost(cell)) continue;
@@ -99,11 +99,11 @@ std::vector<PiercingEdge> edges_through(Triangulation& triangulation, const Tria
     return edges;
 }
 
-CellFace find_face(Triangulation& triangulation, const Triangle& triangle) {
+CellFace find_face(SpatialTriangulation& triangulation, const Triangle& triangle) {
     for (const std::int32_t cell : triangulation.cells_around_vertex(triangle[0]))
         for (int i = 0; i < 4; ++i)
             if (is_face(triangulation, cell_face(cell, i), triangle)) return cell_face(cell, i);
-    return Triangulation::none;
+    return SpatialTriangulation::none;
 }
 
 }  // namespace kerf

@@ -57,7 +57,7 @@ std::vector<Triangle> without_opposites(std::vector<Triangle> triangles) {
 
 class FaceRecovery {
  public:
-    FaceRecovery(Triangulation& triangulation, const std::vector<Triangle>& triangles)
+    FaceRecovery(SpatialTriangulation& triangulation, const std::vector<Triangle>& triangles)
         : t_(triangulation), triangles_(triangles), flips_(triangulation, [this](std::int32_t a, std::int32_t b) {
               return edges_.contains(a, b) || missing_.has_edge(a, b);
           }) {}
@@ -65,7 +65,7 @@ class FaceRecovery {
     RecoveredFaces run() {
         RecoveredFaces result;
         result.faces = find_faces(t_, triangles_);
-        result.missing = std::count(result.faces.begin(), result.faces.end(), Triangulation::none);
+        result.missing = std::count(result.faces.begin(), result.faces.end(), SpatialTriangulation::none);
         if (result.missing > 0) {
             edges_ = SurfaceEdges(triangles_, t_.points().size());
             recover_edges(result.faces);
@@ -101,7 +101,7 @@ class FaceRecovery {
     std::vector<UndirectedEdge> missing_edges(const std::vector<CellFace>& faces) {
         std::vector<UndirectedEdge> edges;
         for (std::size_t k = 0; k < triangles_.size(); ++k)
-            for (int i = 0; i < 3 && faces[k] == Triangulation::none; ++i)
+            for (int i = 0; i < 3 && faces[k] == SpatialTriangulation::none; ++i)
                 edges.push_back(undirected(triangles_[k][i], triangles_[k][(i + 1) % 3]));
         std::sort(edges.begin(), edges.end());
         edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -127,7 +127,7 @@ class FaceRecovery {
 
     void constrain(const std::vector<CellFace>& faces) {
         for (std::size_t k = 0; k < triangles_.size(); ++k)
-            if (faces[k] == Triangulation::none)
+            if (faces[k] == SpatialTriangulation::none)
                 missing_.add(triangles_[k], static_cast<std::int32_t>(k));
             else
                 t_.constrain(faces[k]);
@@ -158,7 +158,7 @@ class FaceRecovery {
     // --- vertices ---
 
     void add_vertices(RecoveredFaces& result) {
-        const Triangulation flipped = t_;
+        const SpatialTriangulation flipped = t_;
         const MissingTriangles missing = missing_;
         for (const std::size_t most_removed : most_removed_cells) {
             t_ = flipped;
@@ -189,7 +189,7 @@ class FaceRecovery {
 
     // Splits missing triangles and returns the caps; none if some are still missing.
     std::vector<Tetrahedron> split_missing() {
-        const Triangulation unsplit = t_;
+        const SpatialTriangulation unsplit = t_;
         const MissingTriangles missing = missing_;
         most_triangles_ = missing.count() + most_parts_of_any + most_parts_of_a_triangle * missing.missing_count();
         for (const double offset : offsets) {
@@ -242,13 +242,13 @@ class FaceRecovery {
     std::vector<Triangle> boundary(const std::vector<CellFace>& faces) const {
         std::vector<Triangle> all;
         for (std::size_t k = 0; k < triangles_.size(); ++k)
-            if (faces[k] != Triangulation::none) all.push_back(triangles_[k]);
+            if (faces[k] != SpatialTriangulation::none) all.push_back(triangles_[k]);
         for (std::int32_t k = 0; k < missing_.count(); ++k)
             if (missing_.is_made(k)) all.push_back(missing_.triangle(k));
         return without_opposites(std::move(all));
     }
 
-    Triangulation& t_;
+    SpatialTriangulation& t_;
     const std::vector<Triangle>& triangles_;
     SurfaceEdges edges_;
     MissingTriangles missing_;
@@ -259,7 +259,7 @@ class FaceRecovery {
 
 }  // namespace
 
-RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles) {
+RecoveredFaces recover_faces(SpatialTriangulation& triangulation, const std::vector<Triangle>& triangles) {
     return FaceRecovery(triangulation, triangles).run();
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 
 namespace kerf {
 
@@ -25,6 +25,6 @@ struct RecoveredFaces {
 /// Two triangles must not meet but in common corners and edges. The method is not complete: where parts of the surface
 /// are so close together that hardly a double lies between, some may be lost. Exact, deterministic. Linear where
 /// nothing is missing; some 0.1 to 10 ms a missing triangle.
-RecoveredFaces recover_faces(Triangulation& triangulation, const std::vector<Triangle>& triangles);
+RecoveredFaces recover_faces(SpatialTriangulation& triangulation, const std::vector<Triangle>& triangles);
 
 }  // namespace kerf

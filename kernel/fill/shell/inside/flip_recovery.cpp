@@ -37,7 +37,7 @@ bool FlipRecovery::recover_edge(std::int32_t a, std::int32_t b, const FlipLimits
 // Removes a face or an edge that is crossed. True if there is none.
 bool FlipRecovery::clear(const Crossing& crossing) {
     if (crossing.has_end) return true;
-    if (crossing.cell == Triangulation::none) return false;
+    if (crossing.cell == SpatialTriangulation::none) return false;
     if (crossing.is_through_edge()) return removal_.remove(crossing.cell, crossing.edge[0], crossing.edge[1]);
     const std::int32_t d = t_.opposite_vertex(crossing.face), e = t_.opposite_vertex(t_.mirror(crossing.face));
     if (e < 0) return false;
@@ -61,9 +61,9 @@ bool FlipRecovery::clear_anywhere(std::int32_t a, std::int32_t b) {
 
 bool FlipRecovery::recover_face(const Triangle& triangle, const FlipLimits& limits) {
     removal_.begin({Goal::triangle(triangle), limits.depth, most_rings, limits.new_vertices});
-    for (int flip = 0; flip < most_flips_of_a_triangle && find_face(t_, triangle) == Triangulation::none; ++flip)
+    for (int flip = 0; flip < most_flips_of_a_triangle && find_face(t_, triangle) == SpatialTriangulation::none; ++flip)
         if (removal_.is_exhausted() || !clear_face(triangle)) break;
-    return find_face(t_, triangle) != Triangulation::none;
+    return find_face(t_, triangle) != SpatialTriangulation::none;
 }
 
 // Removes an edge that goes through the triangle, or makes a change at least. False if there is none, or it cannot be.

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 #include "fill/shell/inside/cavity.h"
 #include "fill/shell/inside/crossing.h"
 #include "fill/shell/inside/nested_edge_removal.h"
@@ -23,7 +23,7 @@ struct FlipLimits {
 /// constrained face and no edge that is to be kept. Exact, deterministic.
 class FlipRecovery {
  public:
-    FlipRecovery(Triangulation& triangulation, const IsKept& is_kept)
+    FlipRecovery(SpatialTriangulation& triangulation, const IsKept& is_kept)
         : t_(triangulation), is_kept_(is_kept), removal_(triangulation, is_kept) {}
 
     /// Makes an edge. Returns false if it is still not there. A face that the edge crosses is flipped; one that cannot
@@ -42,7 +42,7 @@ class FlipRecovery {
     bool clear_face(const Triangle& triangle);
     double some_share();
 
-    Triangulation& t_;
+    SpatialTriangulation& t_;
     IsKept is_kept_;
     NestedEdgeRemoval removal_;
     std::minstd_rand random_;

@@ -13,7 +13,7 @@ bool is_corner(const Triangle& triangle, std::int32_t v) {
 }
 
 // Whether an edge goes through a triangle's inside or through an edge of it, and has ends on both sides of its plane.
-bool crosses(const Triangulation& t, std::int32_t u, std::int32_t v, const Triangle& triangle) {
+bool crosses(const SpatialTriangulation& t, std::int32_t u, std::int32_t v, const Triangle& triangle) {
     if (is_corner(triangle, u) || is_corner(triangle, v)) return false;
     const auto& p = t.points();
     const auto& [a, b, c] = triangle;
@@ -27,12 +27,12 @@ bool crosses(const Triangulation& t, std::int32_t u, std::int32_t v, const Trian
 
 }  // namespace
 
-bool Goal::allows_face(const Triangulation& triangulation, const Triangle& face) const {
+bool Goal::allows_face(const SpatialTriangulation& triangulation, const Triangle& face) const {
     if (!is_edge() || std::min({face[0], face[1], face[2]}) < 0) return true;
     return !crosses(triangulation, corners_[0], corners_[1], face);
 }
 
-bool Goal::allows_edge(const Triangulation& triangulation, std::int32_t p, std::int32_t q) const {
+bool Goal::allows_edge(const SpatialTriangulation& triangulation, std::int32_t p, std::int32_t q) const {
     if (count_ != 3 || std::min(p, q) < 0) return true;
     return !crosses(triangulation, p, q, corners_);
 }

@@ -49,7 +49,7 @@ bool NestedEdgeRemoval::remove(std::int32_t cell, const UndirectedEdge& edge, st
         if (remove_at_once(ring, kept)) return true;
         if (ring.size() == 3 || !(flip_face(ring) || remove_reflex_edge(ring))) return false;
         const std::int32_t next = cell_with(edge, ring);
-        if (next == Triangulation::none) return true;
+        if (next == SpatialTriangulation::none) return true;
         ring = ring_around(t_, next, edge[0], edge[1]);
     }
     return false;
@@ -111,15 +111,15 @@ bool NestedEdgeRemoval::remove_reflex_edge(EdgeRing& ring) {
     const std::vector<std::int32_t> vertices = ring.ring;
     for (const std::int32_t vertex : vertices) {
         const std::size_t k = ring.place_of(vertex);
-        const std::int32_t end = k < ring.size() ? reflex_end(ring, k) : Triangulation::none;
-        if (end == Triangulation::none) continue;
+        const std::int32_t end = k < ring.size() ? reflex_end(ring, k) : SpatialTriangulation::none;
+        if (end == SpatialTriangulation::none) continue;
         const Spoke at = spoke(ring, k);
         above_.push_back(edge);
         const bool is_removed = remove(ring.cells[k], undirected(end, vertex), std::array{at.before, at.after});
         above_.pop_back();
         if (is_removed) return true;
         const std::int32_t cell = cell_with(edge, ring);
-        if (cell == Triangulation::none) return true;
+        if (cell == SpatialTriangulation::none) return true;
         ring = ring_around(t_, cell, edge[0], edge[1]);
     }
     return false;
@@ -129,11 +129,11 @@ bool NestedEdgeRemoval::remove_reflex_edge(EdgeRing& ring) {
 // the cells there must stay.
 std::int32_t NestedEdgeRemoval::reflex_end(const EdgeRing& ring, std::size_t k) const {
     const Spoke at = spoke(ring, k);
-    if (at.has_ghost() || is_at_ring_above(ring, k)) return Triangulation::none;
+    if (at.has_ghost() || is_at_ring_above(ring, k)) return SpatialTriangulation::none;
     const auto& p = t_.points();
     if (orientation(p[ring.b], p[at.at], p[at.before], p[at.after]) <= 0) return ring.b;
     if (orientation(p[at.at], p[ring.a], p[at.before], p[at.after]) <= 0) return ring.a;
-    return Triangulation::none;
+    return SpatialTriangulation::none;
 }
 
 // Returns one of the cells around an edge, most often one of those that it had; none if the edge is gone.
@@ -143,7 +143,7 @@ std::int32_t NestedEdgeRemoval::cell_with(const UndirectedEdge& edge, const Edge
     t_.find_star(t_.cell_at(edge[0]), edge[0], star_);
     const auto found =
         std::find_if(star_.begin(), star_.end(), [&](std::int32_t cell) { return has_edge(t_.vertices(cell), edge); });
-    return found == star_.end() ? Triangulation::none : *found;
+    return found == star_.end() ? SpatialTriangulation::none : *found;
 }
 
 }  // namespace kerf

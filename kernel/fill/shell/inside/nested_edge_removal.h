@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 #include "fill/shell/inside/cavity.h"
 #include "fill/shell/inside/goal.h"
 #include "fill/shell/inside/ring_flips.h"
@@ -23,7 +23,8 @@ class NestedEdgeRemoval {
         NewVertices new_vertices = NewVertices::none;
     };
 
-    NestedEdgeRemoval(Triangulation& triangulation, IsKept is_kept) : t_(triangulation), is_kept_(std::move(is_kept)) {}
+    NestedEdgeRemoval(SpatialTriangulation& triangulation, IsKept is_kept)
+        : t_(triangulation), is_kept_(std::move(is_kept)) {}
 
     /// Sets the limits of all removals until the next call.
     void begin(const Limits& limits) { limits_ = limits; }
@@ -50,7 +51,7 @@ class NestedEdgeRemoval {
     bool overlaps_rings_above(const EdgeRing& ring) const;
     std::int32_t cell_with(const UndirectedEdge& edge, const EdgeRing& before);
 
-    Triangulation& t_;
+    SpatialTriangulation& t_;
     IsKept is_kept_;
     Limits limits_;
     std::vector<UndirectedEdge> above_;  // edges for which others are removed, the outermost first

@@ -68,7 +68,7 @@ class CellsByRadius {
 
 class Refinement {
  public:
-    Refinement(Triangulation& triangulation, const RefinementBounds& bounds)
+    Refinement(SpatialTriangulation& triangulation, const RefinementBounds& bounds)
         : t_(triangulation),
           size_(bounds.size),
           most_ratio_sq_(bounds.radius_edge > 0 ? bounds.radius_edge * bounds.radius_edge : infinity),
@@ -165,7 +165,7 @@ class Refinement {
 
     bool insert(const Vec3& p, double least_edge_sq, std::int32_t cell, bool keeps_off_faces) {
         const std::int32_t at = t_.locate_in_sight(p, cell);
-        if (at == Triangulation::none || is_too_near(p, least_edge_sq, at)) return false;
+        if (at == SpatialTriangulation::none || is_too_near(p, least_edge_sq, at)) return false;
         const auto before = static_cast<std::int32_t>(t_.points().size());
         InsertionConditions conditions = {.accepts = [&](const Star& star) { return is_good(p, least_edge_sq, star); }};
         if (keeps_off_faces) conditions.is_kept_off_by = [&](const Triangle& face) { return is_near_face(p, face); };
@@ -207,7 +207,7 @@ class Refinement {
         return worst;
     }
 
-    Triangulation& t_;
+    SpatialTriangulation& t_;
     const SizeField& size_;
     double most_ratio_sq_, most_at_face_, most_;
     CellsByRadius bad_;
@@ -216,7 +216,7 @@ class Refinement {
 
 }  // namespace
 
-std::int64_t refine(Triangulation& triangulation, const RefinementBounds& bounds) {
+std::int64_t refine(SpatialTriangulation& triangulation, const RefinementBounds& bounds) {
     return Refinement(triangulation, bounds).run();
 }
 

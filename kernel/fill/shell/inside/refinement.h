@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 #include "surface/size/size_field.h"
 
 namespace kerf {
@@ -19,6 +19,6 @@ struct RefinementBounds {
 /// the smallest sphere around a constrained face, as in TetGen; a constant size is a bound, and is kept there, too.
 /// There must be no ghosts (EditableTets::keep_cells()). Returns the number of points. Deterministic. Some 10 us a
 /// point.
-std::int64_t refine(Triangulation& triangulation, const RefinementBounds& bounds);
+std::int64_t refine(SpatialTriangulation& triangulation, const RefinementBounds& bounds);
 
 }  // namespace kerf

@@ -24,7 +24,7 @@ constexpr double least_share_of_star = 1e-4;
 constexpr double share_towards_end = 0.2;
 constexpr double impossible = std::numeric_limits<double>::infinity();
 
-int orientation_of(const Triangulation& t, const Tetrahedron& v) {
+int orientation_of(const SpatialTriangulation& t, const Tetrahedron& v) {
     const auto& points = t.points();
     return orientation(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
 }
@@ -36,13 +36,13 @@ double badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return badness < most ? badness : most;  // infinite or no number where it is flat in doubles
 }
 
-double badness_of(const Triangulation& t, const Tetrahedron& v) {
+double badness_of(const SpatialTriangulation& t, const Tetrahedron& v) {
     const auto& points = t.points();
     return badness_of(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
 }
 
 // Returns the worst badness of the cells between a point, the polygon of a ring's vertices, and the ring's two ends.
-double badness_of_star(const Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
+double badness_of_star(const SpatialTriangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                        const Vec3& centre) {
     const auto& points = t.points();
     double worst = 0;
@@ -63,7 +63,7 @@ Vec3 nearest_to_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 
 // Returns the cell with the ghost, if it is a corner, in the last place.
 Tetrahedron with_ghost_last(Tetrahedron v) {
-    const auto i = std::find(v.begin(), v.end(), Triangulation::ghost) - v.begin();
+    const auto i = std::find(v.begin(), v.end(), SpatialTriangulation::ghost) - v.begin();
     if (i >= 3) return v;
     std::swap(v[i], v[3]);
     std::swap(v[(i + 1) % 3], v[(i + 2) % 3]);
@@ -72,7 +72,8 @@ Tetrahedron with_ghost_last(Tetrahedron v) {
 
 // Returns the worse badness of the two cells of a triangle in the ring. With the ghost they lie outside, and the edge
 // must lie in the plane of the other two vertices.
-double badness_of_pair(const Triangulation& t, const EdgeRing& ring, std::int32_t p, std::int32_t q, std::int32_t r) {
+double badness_of_pair(const SpatialTriangulation& t, const EdgeRing& ring, std::int32_t p, std::int32_t q,
+                       std::int32_t r) {
     const Tetrahedron below = {ring.a, p, q, r}, above = {p, q, r, ring.b};
     if (std::min({p, q, r}) >= 0) return std::max(badness_of(t, below), badness_of(t, above));
     const std::int32_t u = p < 0 ? q : p, v = r < 0 ? q : r;
@@ -81,7 +82,7 @@ double badness_of_pair(const Triangulation& t, const EdgeRing& ring, std::int32_
 
 // Whether the goal allows the faces and edges that come with the two cells of a triangle p, q, r in the ring; the edge
 // from p to r is new, too, if `has_diagonal`.
-bool allows_pair(const Triangulation& t, const EdgeRing& ring, const Triangle& triangle, bool has_diagonal,
+bool allows_pair(const SpatialTriangulation& t, const EdgeRing& ring, const Triangle& triangle, bool has_diagonal,
                  const Goal& goal) {
     const auto& [p, q, r] = triangle;
     if (goal.corners().empty()) return true;
@@ -91,7 +92,7 @@ bool allows_pair(const Triangulation& t, const EdgeRing& ring, const Triangle& t
 }
 
 // Appends the cells of a polygon of the ring's vertices. False if there are none that are positive.
-bool append_polygon(const Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
+bool append_polygon(const SpatialTriangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                     const Goal& goal, std::vector<Tetrahedron>& cells) {
     PolygonTriangulation<most_cells_of_a_ring> triangles;
     const auto badness = [&](std::size_t i, std::size_t j, std::size_t k, double) {
@@ -111,9 +112,9 @@ bool append_polygon(const Triangulation& t, const EdgeRing& ring, const std::vec
 // Appends the cells between the polygon of a ring's vertices, its two ends, and a new vertex, which is added. It comes
 // to lie next to the closing edge, from where the ring's own edge, which is near, sees all of these cells' outer faces.
 // False, and there is no new vertex, if none of a few places makes positive cells.
-bool append_star(Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
+bool append_star(SpatialTriangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
                  std::vector<Tetrahedron>& cells) {
-    if (std::find(polygon.begin(), polygon.end(), Triangulation::ghost) != polygon.end()) return false;
+    if (std::find(polygon.begin(), polygon.end(), SpatialTriangulation::ghost) != polygon.end()) return false;
     const auto point = [&](std::int32_t v) -> const Vec3& { return t.points()[v]; };
     const Vec3 start = nearest_to_line(point(polygon.front()), point(polygon.back()), point(ring.a), point(ring.b));
     Vec3 middle = Vec3::Zero();
@@ -144,14 +145,14 @@ std::vector<std::int32_t> polygon_between(const EdgeRing& ring, std::size_t from
     return polygon;
 }
 
-bool append_cells(Triangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon, const Goal& goal,
-                  NewVertices new_vertices, std::vector<Tetrahedron>& cells) {
+bool append_cells(SpatialTriangulation& t, const EdgeRing& ring, const std::vector<std::int32_t>& polygon,
+                  const Goal& goal, NewVertices new_vertices, std::vector<Tetrahedron>& cells) {
     if (append_polygon(t, ring, polygon, goal, cells)) return true;
     return new_vertices == NewVertices::allowed && append_star(t, ring, polygon, cells);
 }
 
-bool span_ring_between(Triangulation& t, const EdgeRing& ring, std::size_t from, std::size_t to, const Goal& goal,
-                       NewVertices new_vertices) {
+bool span_ring_between(SpatialTriangulation& t, const EdgeRing& ring, std::size_t from, std::size_t to,
+                       const Goal& goal, NewVertices new_vertices) {
     const std::vector<std::int32_t> polygon = polygon_between(ring, from, to);
     const Tetrahedron middle = {ring.a, ring.b, polygon.front(), polygon.back()};
     if (std::min(middle[2], middle[3]) < 0 || polygon.size() < 3 || orientation_of(t, middle) <= 0) return false;
@@ -168,14 +169,14 @@ bool span_ring_between(Triangulation& t, const EdgeRing& ring, std::size_t from,
 
 }  // namespace
 
-EdgeRing ring_around(const Triangulation& triangulation, std::int32_t cell, std::int32_t a, std::int32_t b) {
+EdgeRing ring_around(const SpatialTriangulation& triangulation, std::int32_t cell, std::int32_t a, std::int32_t b) {
     EdgeRing ring;
     const Tetrahedron& vertices = triangulation.vertices(cell);
     find_ring(triangulation, cell, index_of(vertices, a), index_of(vertices, b), ring);
     return ring;
 }
 
-bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::span<const std::int32_t> kept,
+bool remove_ring_edge(SpatialTriangulation& triangulation, const EdgeRing& ring, std::span<const std::int32_t> kept,
                       const Goal& goal, NewVertices new_vertices) {
     if (ring.size() > most_cells_of_a_ring) return false;
     std::vector<std::size_t> corners;
@@ -203,15 +204,15 @@ bool remove_ring_edge(Triangulation& triangulation, const EdgeRing& ring, std::s
     return true;
 }
 
-bool span_ring(Triangulation& triangulation, const EdgeRing& ring, std::int32_t a, std::int32_t b, const Goal& goal,
-               NewVertices new_vertices) {
+bool span_ring(SpatialTriangulation& triangulation, const EdgeRing& ring, std::int32_t a, std::int32_t b,
+               const Goal& goal, NewVertices new_vertices) {
     const std::size_t from = ring.place_of(a), to = ring.place_of(b);
     if (from == ring.size() || to == ring.size() || ring.size() > most_cells_of_a_ring) return false;
     return span_ring_between(triangulation, ring, from, to, goal, new_vertices) ||
            span_ring_between(triangulation, ring, to, from, goal, new_vertices);
 }
 
-bool replace_face_by_edge(Triangulation& triangulation, CellFace face, const Goal& goal) {
+bool replace_face_by_edge(SpatialTriangulation& triangulation, CellFace face, const Goal& goal) {
     const CellFace behind = triangulation.mirror(face);
     const std::int32_t a = triangulation.opposite_vertex(face), b = triangulation.opposite_vertex(behind);
     if (a < 0 || b < 0 || triangulation.is_constrained(face) || triangulation.is_ghost(cell_of(face))) return false;

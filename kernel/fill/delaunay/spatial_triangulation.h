@@ -21,7 +21,7 @@ struct Star {
     std::span<const std::int32_t> removed;  ///< cells that are removed
 };
 
-/// The conditions of Triangulation::insert_if().
+/// The conditions of SpatialTriangulation::insert_if().
 struct InsertionConditions {
     std::function<bool(const Star&)> accepts;  ///< whether the point may come, asked when its star is known
     /// Whether a constrained face that the point sees keeps it off. Asked before all cells that the point would remove
@@ -36,13 +36,13 @@ struct InsertionConditions {
 /// A triangulation that is Delaunay by the predicates of predicates.h, which know no ties, as long as no face was
 /// constrained and no cell replaced by others. Outside of the hull there are ghosts. 32 bytes a cell and 29 a vertex,
 /// about 6.8 cells a vertex in space.
-class Triangulation : public EditableTets {
+class SpatialTriangulation : public EditableTets {
  public:
     /// A triangulation without cells, as of points that all lie in one plane.
-    Triangulation() = default;
+    SpatialTriangulation() = default;
     /// Makes one tetrahedron, of vertices 0 to 3. Requires orientation() 1. There will never be more than `most` cells,
     /// at most most_cells.
-    explicit Triangulation(const std::array<Vec3, 4>& corners, std::int32_t most = most_cells);
+    explicit SpatialTriangulation(const std::array<Vec3, 4>& corners, std::int32_t most = most_cells);
 
     /// Makes room for so many vertices, so that nothing is moved while they come.
     void reserve(std::size_t vertices);

@@ -10,7 +10,7 @@
 // behind them or in their plane. Cells of the cavity are marked (EditableTets::Cell), and every way out of the search
 // takes the marks back. New cells take the places of old ones, and find each other by a square table of edges
 // (fill/delaunay/inside/star_edges.h), or by sorting where a star is too large for it.
-#include "fill/delaunay/triangulation.h"
+#include "fill/delaunay/spatial_triangulation.h"
 
 #include <algorithm>
 
@@ -74,7 +74,7 @@ inline bool sphere_contains(const EditableTets& tets, std::int32_t cell, const V
 
 }  // namespace
 
-Triangulation::Triangulation(const std::array<Vec3, 4>& corners, std::int32_t most)
+SpatialTriangulation::SpatialTriangulation(const std::array<Vec3, 4>& corners, std::int32_t most)
     : EditableTets({corners.begin(), corners.end()}, most) {
     KERF_CHECK(orientation(corners[0], corners[1], corners[2], corners[3]) > 0);
     cell_at_vertex_.assign(4, 0);
@@ -97,7 +97,7 @@ Triangulation::Triangulation(const std::array<Vec3, 4>& corners, std::int32_t mo
         }
 }
 
-void Triangulation::reserve(std::size_t vertices) {
+void SpatialTriangulation::reserve(std::size_t vertices) {
     points_.reserve(vertices);
     cell_at_vertex_.reserve(vertices);
     cells_.reserve(cells_a_vertex * vertices);
@@ -106,15 +106,17 @@ void Triangulation::reserve(std::size_t vertices) {
 
 // --- the place of a point ---
 
-std::int32_t Triangulation::locate(const Vec3& p, std::int32_t hint) const { return walk<false>(*this, p, hint); }
+std::int32_t SpatialTriangulation::locate(const Vec3& p, std::int32_t hint) const {
+    return walk<false>(*this, p, hint);
+}
 
-std::int32_t Triangulation::locate_in_sight(const Vec3& p, std::int32_t hint) const {
+std::int32_t SpatialTriangulation::locate_in_sight(const Vec3& p, std::int32_t hint) const {
     return walk<true>(*this, p, hint);
 }
 
 // Returns the cell of a point. Without a hint the walk begins at the last cell made; where others have been replaced,
 // that may be gone, and any other one will do.
-std::int32_t Triangulation::start_of(const Vec3& p, std::int32_t hint) const {
+std::int32_t SpatialTriangulation::start_of(const Vec3& p, std::int32_t hint) const {
     return locate(p, hint == none ? std::min(last_cell_, cell_count() - 1) : hint);
 }
 
@@ -122,7 +124,7 @@ std::int32_t Triangulation::start_of(const Vec3& p, std::int32_t hint) const {
 
 // The sphere of a ghost cell is the half-space beyond its face. In its plane, it is the disk of the face, which the
 // sphere behind it has, too, with the same decision of ties: heights in a plane say nothing about those outside of it.
-bool Triangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
+bool SpatialTriangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
     const Tetrahedron& v = cells_[cell].vertex;
     const int side = orientation(points_[v[0]], points_[v[1]], points_[v[2]], p);
     if (side != 0) return side > 0;
@@ -130,15 +132,15 @@ bool Triangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
     return cells_[inside].is_marked() || sphere_contains(*this, inside, p);
 }
 
-inline bool Triangulation::conflicts(std::int32_t cell, const Vec3& p) const {
+inline bool SpatialTriangulation::conflicts(std::int32_t cell, const Vec3& p) const {
     return is_ghost(cell) ? ghost_conflicts(cell, p) : sphere_contains(*this, cell, p);
 }
 
-void Triangulation::unmark_cavity() {
+void SpatialTriangulation::unmark_cavity() {
     for (const std::int32_t cell : cavity_) cells_[cell].flip_mark();
 }
 
-void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
+void SpatialTriangulation::grow_cavity(const Vec3& p, std::int32_t start) {
     cavity_.assign(1, start);
     cells_[start].flip_mark();
     for (std::size_t k = 0; k < cavity_.size(); ++k) {
@@ -160,7 +162,7 @@ void Triangulation::grow_cavity(const Vec3& p, std::int32_t start) {
 }
 
 // Returns the vertices of a face of a marked cell.
-Triangle Triangulation::cavity_face_vertices(CellFace face) const {
+Triangle SpatialTriangulation::cavity_face_vertices(CellFace face) const {
     Cell cell = cells_[cell_of(face)];
     cell.flip_mark();
     const auto& [i, j, k] = tet_faces[index_in_cell(face)];
@@ -168,14 +170,15 @@ Triangle Triangulation::cavity_face_vertices(CellFace face) const {
 }
 
 // Returns 1 where p sees a face of a marked cell from inside of the cell, 0 where p lies in its plane.
-int Triangulation::side_of(const Vec3& p, CellFace face) const {
+int SpatialTriangulation::side_of(const Vec3& p, CellFace face) const {
     const auto [a, b, c] = cavity_face_vertices(face);
     return orientation(p, points()[a], points()[b], points()[c]);
 }
 
 // Grows the cavity by steps through faces that the point sees, or on which it lies. So all cells are found that it sees
 // through others with spheres around it, and few that it does not see. Returns false if a face keeps the point off.
-bool Triangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
+bool SpatialTriangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t start,
+                                                const InsertionConditions& conditions) {
     unseen_.clear();
     cavity_.assign(1, start);
     cells_[start].flip_mark();
@@ -199,7 +202,7 @@ bool Triangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t start, cons
 }
 
 // Leaves the largest part of the cavity all of whose faces the point sees, in whatever order cells are taken away.
-void Triangulation::shrink_cavity(const Vec3& p) {
+void SpatialTriangulation::shrink_cavity(const Vec3& p) {
     while (!unseen_.empty()) {
         const CellFace face = unseen_.back();
         unseen_.pop_back();
@@ -219,7 +222,7 @@ void Triangulation::shrink_cavity(const Vec3& p) {
 
 // Finds the cavity; returns false if the point may not be inserted. Among Delaunay cells the point sees all of its
 // cavity. No vertex is lost: the cell behind it, seen from the point, has the point outside of its sphere.
-bool Triangulation::find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
+bool SpatialTriangulation::find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
     cavity_faces_.clear();
     has_left_cells_ = false;
     if (!is_altered_) {
@@ -237,7 +240,7 @@ bool Triangulation::find_cavity(const Vec3& p, std::int32_t start, const Inserti
 
 // New cells take the places of old ones first, of those with the lowest numbers: then none of them moves when the
 // others are removed.
-void Triangulation::place_cells() {
+void SpatialTriangulation::place_cells() {
     star_edges_.set_vertex_count(points_.size());
     star_edges_.clear();
     new_cells_.resize(cavity_faces_.size());
@@ -264,7 +267,7 @@ void Triangulation::place_cells() {
 }
 
 // Sets vertices and outer links of the new cells; their links to each other follow.
-void Triangulation::set_cells(std::int32_t vertex) {
+void SpatialTriangulation::set_cells(std::int32_t vertex) {
     for (const NewCell& made : new_cells_) {
         const int i = index_in_cell(made.face);
         Cell& cell = cells_[cell_of(made.face)];
@@ -276,7 +279,7 @@ void Triangulation::set_cells(std::int32_t vertex) {
 }
 
 // The face of a new cell opposite to the vertex tet_faces[i][k] has the edge between the other two.
-void Triangulation::join_cells() {
+void SpatialTriangulation::join_cells() {
     star_edges_.make_table();
     for (const NewCell& made : new_cells_) {
         const auto& [p, q, r] = made.place;
@@ -296,7 +299,7 @@ void Triangulation::join_cells() {
     }
 }
 
-void Triangulation::join_cells_of_large_star() {
+void SpatialTriangulation::join_cells_of_large_star() {
     struct Edge {
         UndirectedEdge ends;
         CellFace face;
@@ -314,7 +317,7 @@ void Triangulation::join_cells_of_large_star() {
     }
 }
 
-std::int32_t Triangulation::insert_in_cavity(const Vec3& p) {
+std::int32_t SpatialTriangulation::insert_in_cavity(const Vec3& p) {
     require_room(cavity_faces_.size());
     const std::int32_t vertex = add_vertex(p);
     place_cells();
@@ -326,13 +329,13 @@ std::int32_t Triangulation::insert_in_cavity(const Vec3& p) {
     return vertex;
 }
 
-std::int32_t Triangulation::insert(const Vec3& p, std::int32_t hint) {
+std::int32_t SpatialTriangulation::insert(const Vec3& p, std::int32_t hint) {
     const std::int32_t start = start_of(p, hint);
     if (const std::int32_t same = vertex_at(*this, p, start); same != none) return same;
     return find_cavity(p, start, {}) ? insert_in_cavity(p) : none;
 }
 
-std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint, const InsertionConditions& conditions) {
+std::int32_t SpatialTriangulation::insert_if(const Vec3& p, std::int32_t hint, const InsertionConditions& conditions) {
     const std::int32_t start = start_of(p, hint);
     if (const std::int32_t same = vertex_at(*this, p, start); same != none) return same;
     if (!find_cavity(p, start, conditions)) return none;
@@ -343,7 +346,7 @@ std::int32_t Triangulation::insert_if(const Vec3& p, std::int32_t hint, const In
     return conditions.accepts(star_) ? insert_in_cavity(p) : none;
 }
 
-void Triangulation::renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points) {
+void SpatialTriangulation::renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points) {
     std::vector<std::int32_t> cell_at_vertex(points.size(), none);
     for (std::size_t v = 0; v < number.size(); ++v) cell_at_vertex[number[v]] = cell_at_vertex_[v];
     for (Cell& cell : cells_)
