@@ -20,7 +20,7 @@ struct ShellCore {
 struct FilledShell {
     TetMesh mesh;  ///< mesh with neighbours; its vertices are those of the surface, of the core, and others; the first
                    ///< two are its boundary
-    FacetRecovery recovery;
+    FacetRecoveryCounts recovery;
     std::int64_t refining_points = 0;
 };
 

@@ -41,10 +41,10 @@ struct Filling {
     TetMesh mesh;             ///< mesh, with neighbours only if the mesher knows them anyway
     std::string strategy;     ///< the way that the mesher went, in a few words for the report; empty if it has only one
     std::string reason = {};  ///< reason why it did not go its first way, in a sentence; empty if it did
-    std::int64_t core_tets = 0;    ///< number of the first cells that were stamped; the others are of the shell
-    FacetRecovery recovery = {};   ///< counts of the shell's facets; empty where TetGen has filled the surface
-    Improvement improvement = {};  ///< improvement of the cells; empty if there was none
-    double improve_seconds = 0;    ///< wall clock of the improvement
+    std::int64_t core_tets = 0;         ///< number of the first cells that were stamped; the others are of the shell
+    FacetRecoveryCounts recovery = {};  ///< counts of the shell's facets; empty where TetGen has filled the surface
+    Improvement improvement = {};       ///< improvement of the cells; empty if there was none
+    double improve_seconds = 0;         ///< wall clock of the improvement
 };
 
 /// Checks the options of a mesher. Throws Error(usage), naming the option, for values out of range, for names of no

@@ -30,7 +30,7 @@ class CheckedFile;
 /// paths, "" for a file that is not written, and K, 0 if the run chooses it. A reader of a pipe that leaves is told
 /// nothing more, and the run goes on. "message" is there where something failed, "remedy" where the first attempt did,
 /// "way" where the mesher has several, "reason" where it did not go its first one, "core_tets" where it has stamped
-/// cells, "recovery" where facets had to be recovered (FacetRecovery).
+/// cells, "recovery" where facets had to be recovered (FacetRecoveryCounts).
 class EventLog : public RunListener {
  public:
     /// `target`: the path of a file, which is replaced, or fd:N, an open file descriptor, which stays open. Throws

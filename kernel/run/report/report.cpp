@@ -80,7 +80,7 @@ std::string ways_text(const RunReport& report) {
     return text;
 }
 
-std::string recovery_text(const FacetRecovery& recovery) {
+std::string recovery_text(const FacetRecoveryCounts& recovery) {
     if (recovery.missing == 0) return "";
     std::string text = fmt::format("{} facets that were not Delaunay: {} by flips", grouped(recovery.missing),
                                    grouped(recovery.by_flips));

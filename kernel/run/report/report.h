@@ -153,7 +153,7 @@ struct RunReport {
     std::int64_t tets = 0;
     std::map<std::string, std::int64_t> parts_by_way;  ///< number of parts that were filled, by PartResult::way()
     std::int64_t parts_by_tetgen = 0;                  ///< number of these that TetGen has filled, asked for or not
-    FacetRecovery recovery;                            ///< sum over the parts
+    FacetRecoveryCounts recovery;                      ///< sum over the parts
     double imbalance = 1;                              ///< largest over mean of the part seconds summed for each worker
     /// Peak of resident memory: sum over the ranks, each with as many times that of the largest worker as it has
     /// workers.

@@ -86,7 +86,7 @@ struct PartResult {
     SizeRatios sizes;  ///< against the sizes of the call, which a fallback may have made larger
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< see hash_part()
     FileHash file_hash = {0, 0};                 ///< hash of the stored part
-    FacetRecovery recovery;                      ///< Filling::recovery
+    FacetRecoveryCounts recovery;                ///< Filling::recovery
     Improvement improvement;                     ///< Filling::improvement
     ImprovedAngles angles;                       ///< before and after the improvement
     double improve_seconds = 0;                  ///< the share of the improvement in mesh_seconds

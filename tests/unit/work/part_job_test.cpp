@@ -297,7 +297,7 @@ TEST(PartJob, CountsTheFacetsThatWereRecovered) {
     MesherCall whole, in_two;
     in_two.cut_first = true;
     const Soup soup = test::uv_sphere(12, 17);
-    const FacetRecovery of_whole = mesh_volume(test::to_arrays(soup), whole.options).recovery;
+    const FacetRecoveryCounts of_whole = mesh_volume(test::to_arrays(soup), whole.options).recovery;
     const PartResult result = run_part_job(job_of(soup), whole, folder.file("whole"));
     const PartResult halves = run_part_job(job_of(soup), in_two, folder.file("halves"));
     ASSERT_EQ(result.code + halves.code, 0) << result.message << halves.message;
@@ -321,7 +321,7 @@ TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
     report.quality = run_part_job(job_of(test::box()), {}, folder.file("part")).quality;
     report.parts.resize(6);
     const auto set = [&](std::size_t i, const char* mesher, const std::string& strategy,
-                         const FacetRecovery& recovery) {
+                         const FacetRecoveryCounts& recovery) {
         PartReport& part = report.parts[i];
         part.id = static_cast<NodeId>(8 + i);
         part.result.mesher = mesher;

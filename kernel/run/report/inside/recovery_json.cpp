@@ -4,7 +4,7 @@
 
 namespace kerf {
 
-nlohmann::ordered_json json_of_recovery(const FacetRecovery& recovery) {
+nlohmann::ordered_json json_of_recovery(const FacetRecoveryCounts& recovery) {
     return {{"missing", recovery.missing},
             {"by_flips", recovery.by_flips},
             {"split", recovery.split},

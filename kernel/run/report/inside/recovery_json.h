@@ -8,6 +8,6 @@
 namespace kerf {
 
 /// Returns {"missing", "by_flips", "split", "added_vertices"}.
-nlohmann::ordered_json json_of_recovery(const FacetRecovery& recovery);
+nlohmann::ordered_json json_of_recovery(const FacetRecoveryCounts& recovery);
 
 }  // namespace kerf
