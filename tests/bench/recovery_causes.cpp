@@ -28,7 +28,7 @@
 #include "bench/bench.h"
 #include "files/io/obj_writer.h"
 #include "fill/delaunay/delaunay.h"
-#include "fill/delaunay/faces.h"
+#include "fill/delaunay/enclosing_faces.h"
 #include "fill/shell/inside/face_recovery.h"
 #include "run/prepare/input.h"
 #include "surface/soup/triangle_tree.h"

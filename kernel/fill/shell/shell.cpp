@@ -10,7 +10,7 @@
 #include "base/core/error.h"
 #include "fill/delaunay/delaunay.h"
 #include "fill/delaunay/delaunay_flips.h"
-#include "fill/delaunay/faces.h"
+#include "fill/delaunay/enclosing_faces.h"
 #include "fill/shell/inside/face_recovery.h"
 #include "fill/shell/inside/steiner_points.h"
 #include "fill/shell/inside/vertex_merging.h"

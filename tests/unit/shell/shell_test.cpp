@@ -10,7 +10,7 @@
 #include "base/core/error.h"
 #include "base/geometry/predicates.h"
 #include "fill/delaunay/delaunay.h"
-#include "fill/delaunay/faces.h"
+#include "fill/delaunay/enclosing_faces.h"
 #include "fill/lattice/lattice_core.h"
 #include "fill/mesh/verification.h"
 #include "fill/shell/inside/crossing.h"

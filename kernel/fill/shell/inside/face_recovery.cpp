@@ -14,7 +14,7 @@
 #include <array>
 #include <limits>
 
-#include "fill/delaunay/faces.h"
+#include "fill/delaunay/enclosing_faces.h"
 #include "fill/shell/inside/boundary_splitting.h"
 #include "fill/shell/inside/flip_recovery.h"
 #include "fill/shell/inside/surface_edges.h"

@@ -1,6 +1,6 @@
 // Triangles are listed by their smallest vertex, with the other two in the order in which they follow it; then all
 // faces are looked up once.
-#include "fill/delaunay/faces.h"
+#include "fill/delaunay/enclosing_faces.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "fill/delaunay/faces.h"
+#include "fill/delaunay/enclosing_faces.h"
 
 #include <algorithm>
 #include <random>
