@@ -41,7 +41,7 @@ int repair_and_tell(const RepairRequest& request) {
 
 void add_repair_command(CLI::App& kerf, int& exit_code) {
     const auto request = std::make_shared<RepairRequest>();
-    request->options.repair = "full";
+    request->options.repairs.plan = "full";
     CLI::App* command = kerf.add_subcommand("repair", "Repair a surface, and say each step.");
     command->add_option("input", request->files, "Surface files, a body each if there are several.")
         ->required()

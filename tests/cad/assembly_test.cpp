@@ -75,7 +75,7 @@ void expect_regions(const CadBody& body, const std::vector<double>& volumes, dou
     EXPECT_EQ(body.solids, static_cast<std::int32_t>(volumes.size()));
     const CheckedSoup checked = check_soup(soup);
     EXPECT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup);
-    EXPECT_EQ(checked.repairs.dropped_facets + checked.repairs.welded_vertices + checked.repairs.unused_vertices, 0);
+    EXPECT_EQ(checked.tidied.dropped_facets + checked.tidied.welded_vertices + checked.tidied.unused_vertices, 0);
     const Input input =
         make_input(soup.vertices, soup.facets, soup.sides, soup.region_names, soup.patch, soup.patch_names);
     ASSERT_EQ(input.regions.size(), volumes.size());

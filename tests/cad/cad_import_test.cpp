@@ -152,7 +152,7 @@ TEST_P(CadLaws, SoupIsTheSolid) {
     EXPECT_NEAR(body.volume, body.exact_volume, tolerance * body.exact_volume);
     const CheckedSoup checked = check_soup(body.soup);
     EXPECT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup);
-    EXPECT_EQ(checked.repairs.dropped_facets + checked.repairs.welded_vertices + checked.repairs.unused_vertices, 0);
+    EXPECT_EQ(checked.tidied.dropped_facets + checked.tidied.welded_vertices + checked.tidied.unused_vertices, 0);
     for (const DefectKind kind : {DefectKind::inverted_shell, DefectKind::inconsistent_orientation})
         EXPECT_EQ(checked.diagnosis.count(kind), 0);
     EXPECT_EQ(bytes_of(body), bytes_of(import_file(path))) << "not deterministic";

@@ -328,7 +328,7 @@ TEST(BadFiles, CracksAndCavitiesAreMendedOnRequest) {
     options.voids = Voids::parity;
     const std::string cavity = bad_path("ambiguous_cavity_oriented_outward__derived_projection.stl");
     EXPECT_TRUE(check_input(cavity, options).diagnosis.clean());
-    options.weld_tolerance = 1e-5;
+    options.repairs.weld_tolerance = 1e-5;
     const CheckedSoup welded =
         check_input(bad_path("open_cracks_when_welded_exactly__trimesh_featuretype.stl"), options);
     EXPECT_TRUE(welded.diagnosis.clean()) << welded.diagnosis.summary(welded.soup);

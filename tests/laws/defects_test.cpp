@@ -142,7 +142,7 @@ TEST(Defects, RepairsGiveTheUndamagedSurfaceBack) {
                 CheckedSoup checked = check(soup);
                 ASSERT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup);
                 apply_repairs(checked);
-                EXPECT_EQ(checked.repairs.dropped_facets, 4) << "a repeated vertex, a copy and a pocket";
+                EXPECT_EQ(checked.tidied.dropped_facets, 4) << "a repeated vertex, a copy and a pocket";
                 EXPECT_EQ(checked.soup.vertices, base.soup.vertices);
                 EXPECT_EQ(facet_set(checked.soup.facets), facet_set(base.soup.facets));
                 EXPECT_EQ(checked.soup.patch.size(), checked.soup.facets.size());

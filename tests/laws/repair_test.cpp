@@ -62,7 +62,7 @@ test::DamagedBody damaged_body(int damage) {
 
 CheckedSoup check_repaired(const Soup& damaged) {
     InputOptions options;
-    options.repair = "full";
+    options.repairs.plan = "full";
     return check_soup(damaged, options, 0.1);
 }
 
@@ -144,7 +144,7 @@ TEST(Regions, KeepTheirWalls) {
                                                  Case{once, plain, 5}, Case{hollow, seeded, 2}})
         for (const char* level : {"exact", "near", "full"}) {
             InputOptions with = options;
-            with.repair = level;
+            with.repairs.plan = level;
             const CheckedSoup whole = check_soup(soup, options, 0), repaired = check_soup(soup, with, 0);
             ASSERT_EQ(whole.soup.region_names.size(), regions);
             ASSERT_TRUE(repaired.diagnosis.clean()) << repaired.diagnosis.summary(repaired.soup);
@@ -152,7 +152,7 @@ TEST(Regions, KeepTheirWalls) {
             EXPECT_EQ(repaired.soup.facets, whole.soup.facets) << to_text(repaired.ladder);
             EXPECT_FALSE(repaired.ladder.changed()) << to_text(repaired.ladder);
         }
-    plain.repair = "full,bodies=unite";
+    plain.repairs.plan = "full,bodies=unite";
     const CheckedSoup one = check_soup(once, plain, 0);
     EXPECT_TRUE(one.diagnosis.clean());
     EXPECT_TRUE(one.soup.sides.empty());
@@ -182,7 +182,7 @@ TEST(Regions, HaveADefectWhereAFacetOfAWallIsMissing) {
         ASSERT_NE(open, checked.diagnosis.defects.end());
         EXPECT_EQ(open->vertices.size(), 3U);
         EXPECT_FALSE(checked.diagnosis.clean());
-        options.repair = "full";
+        options.repairs.plan = "full";
         const CheckedSoup repaired = check_soup(lacking, options, 0);
         const bool is_beside_others =
             !repaired.diagnosis.clean();  // at an edge of many: left, in words, with all facets
@@ -201,6 +201,44 @@ TEST(Regions, HaveADefectWhereAFacetOfAWallIsMissing) {
     for (std::size_t f = 0; f < once.facets.size(); ++f)
         if (once.sides[f].is_wall() && random.with_chance(0.05))
             expect_told_and_mended(once, lacks(once, f), f, plain, 5);
+}
+
+// An option and the word for the same step give the same surface, to the last bit; and preparations do to a surface
+// what they do when it is mended afterwards, in a run of its own.
+TEST(Spellings, OfOneStepGiveTheSameSurface) {
+    const auto expect_same = [](const CheckedSoup& one, const CheckedSoup& other, int damage) {
+        EXPECT_EQ(one.soup.vertices, other.soup.vertices) << damage;
+        EXPECT_EQ(one.soup.facets, other.soup.facets) << damage;
+        EXPECT_EQ(one.soup.patch, other.soup.patch) << damage;
+        EXPECT_EQ(one.soup.patch_names, other.soup.patch_names) << damage;
+        EXPECT_EQ(to_text(one.ladder), to_text(other.ladder)) << damage;
+    };
+    for (int damage = 0; damage < 24; ++damage) {
+        const Soup body = damaged_body(damage).soup();
+        InputOptions options, words, prepared, rest;
+        options.repairs.plan = "near";
+        options.repairs.cap = true;
+        options.repairs.thicken = Length::percent(0.5);
+        words.repairs.plan = "thicken=0.5%,near,caps";
+        expect_same(check_soup(body, options, 0.1), check_soup(body, words, 0.1), damage);
+        prepared.repairs.weld_tolerance = Length::percent(1e-3);
+        prepared.repairs.keep_largest = true;
+        prepared.repairs.fill_hole_edges = 12;
+        rest.repairs.plan = "near";
+        InputOptions both = prepared;
+        both.repairs.plan = rest.repairs.plan;
+        Soup first = body;
+        weld_exactly(first);
+        RepairReport report = repair(first, repair_plan_of(prepared));
+        EXPECT_TRUE(report.steps.empty());
+        EXPECT_EQ(report.preparations.size(), 3U);
+        report = repair(first, repair_plan_of(rest));
+        const CheckedSoup at_once = check_soup(body, both, 0.1);
+        EXPECT_EQ(to_text(at_once.ladder), to_text(report)) << damage;
+        drop_unused_vertices(first);
+        EXPECT_EQ(at_once.soup.vertices, first.vertices) << damage;
+        EXPECT_EQ(at_once.soup.facets, first.facets) << damage;
+    }
 }
 
 TEST(WholeBodies, AreNotTouched) {

@@ -72,7 +72,7 @@ TEST_P(GeneratedShape, IsWhatItsNameSays) {
     EXPECT_EQ(input.components, GetParam().shells);
     EXPECT_EQ(input.genus, GetParam().genus);
     EXPECT_EQ(input.facets, static_cast<std::int64_t>(GetParam().soup.facets.size()));
-    EXPECT_EQ(input.repairs.welded_vertices + input.repairs.unused_vertices, 0);
+    EXPECT_EQ(input.tidied.welded_vertices + input.tidied.unused_vertices, 0);
     EXPECT_EQ(input.orientation.facets_flipped + input.orientation.shells_flipped, 0);
     EXPECT_NEAR(input.volume / GetParam().volume, 1, GetParam().volume_rel_tolerance);
 }

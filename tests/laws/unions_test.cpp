@@ -142,7 +142,7 @@ void expect_union(const Pair& pair, bool is_named, const std::string& level) {
     Soup both = test::join(named(pair.a, "a"), named(pair.b, "b"));
     if (!is_named) both = named(std::move(both), "all");
     InputOptions options;
-    options.repair = level;
+    options.repairs.plan = level;
     CheckedSoup checked = check_soup(both, options, 0);
     if (!checked.diagnosis.clean()) {
         if (level != "exact")

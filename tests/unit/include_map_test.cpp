@@ -196,12 +196,11 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               (std::set<std::string>{"solve/equations/linear_system.cpp", "solve/equations/inside/petsc_session.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "tetgen.h"; }),
               std::set<std::string>{"kernel/fill/volume/inside/tetgen_adapter.cpp"});
-    EXPECT_EQ(
-        files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
-        (std::set<std::string>{
-            "kernel/base/geometry/predicates.cpp", "kernel/surface/wrap/inside/alpha_wrap.cpp",
-            "kernel/surface/arrange/inside/facet_divider.cpp", "kernel/surface/openings/inside/hole_triangulation.cpp",
-            "kernel/surface/diagnosis/intersections.cpp", "kernel/surface/soup/planar_delaunay.cpp"}));
+    EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "CGAL"; }),
+              (std::set<std::string>{
+                  "kernel/base/geometry/predicates.cpp", "kernel/surface/wrap/inside/alpha_wrap.cpp",
+                  "kernel/surface/arrange/inside/facet_divider.cpp", "kernel/surface/openings/hole_triangulation.cpp",
+                  "kernel/surface/diagnosis/intersections.cpp", "kernel/surface/soup/planar_delaunay.cpp"}));
     const std::set<std::string> slow_parts = {"Eigen/Dense", "Eigen/Eigenvalues", "Eigen/QR",
                                               "Eigen/SVD",   "Eigen/Sparse",      "Eigen/SparseCholesky"};
     EXPECT_EQ(files_including([&](const std::string& name) { return slow_parts.contains(name); }),

@@ -49,7 +49,7 @@ class RepairPanel : public testing::Test {
         driver_->await("the repair", [&] { return !driver_->app().session().busy(); });
         driver_->settle();
     }
-    const std::string& plan() { return driver_->document().options.input_options.repair; }
+    const std::string& plan() { return driver_->document().options.input_options.repairs.plan; }
     void type_plan(const std::string& text) {
         driver_->click("Steps");
         driver_->key(key_of('A'), true);
@@ -174,7 +174,7 @@ TEST_F(RepairPanel, LeavesToTheUserWhetherTheResultIsMeshedOrSaved) {
 TEST_F(RepairPanel, LooksAsItShould) {
     open(480, 360);
     InputOptions options;
-    options.weld_tolerance = 0.01;
+    options.repairs.weld_tolerance = 0.01;
     driver_->app().session().repairs().repair(options);
     driver_->show_panels(false);
     await_repair();

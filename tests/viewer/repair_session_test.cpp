@@ -36,6 +36,17 @@ Soup cracked_sphere(double gap) {
     return soup;
 }
 
+// A prism without its upper end.
+Soup open_prism() {
+    Soup soup = test::prism(24, 1, 4);
+    std::vector<char> is_end;
+    for (const Triangle& t : soup.facets)
+        is_end.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return soup.vertices[v].z() == 4; }));
+    drop_facets(soup, is_end);
+    drop_unused_vertices(soup);
+    return soup;
+}
+
 class RepairSession : public testing::Test {
  protected:
     void open(const Soup& soup) {
@@ -54,7 +65,7 @@ class RepairSession : public testing::Test {
     }
     static InputOptions by(const std::string& plan) {
         InputOptions options;
-        options.repair = plan;
+        options.repairs.plan = plan;
         return options;
     }
     void repair(const std::string& plan) {
@@ -94,6 +105,24 @@ class RepairSession : public testing::Test {
     Session session_{test::kerf_program()};
 };
 
+TEST_F(RepairSession, EveryOptionThatMendsHasASurfaceBeforeIt) {
+    open(test::join(open_prism(), test::box(Vec3::Constant(9), Vec3::Constant(10))));
+    const auto mend = [&](const auto& set) {
+        InputOptions options;
+        set(options.repairs);
+        session_.repairs().repair(options);
+        settle();
+        EXPECT_EQ(steps_of(session_.document(), 1).front().stage, Stage::before_repair);
+        EXPECT_TRUE(session_.repairs().can_undo());
+    };
+    mend([](RepairOptions& repairs) { repairs.weld_tolerance = 0.5; });
+    mend([](RepairOptions& repairs) { repairs.fill_hole_edges = 24; });
+    mend([](RepairOptions& repairs) { repairs.keep_largest = true; });
+    mend([](RepairOptions& repairs) { repairs.plan = "holes"; });
+    mend([](RepairOptions& repairs) { repairs.cap = true; });
+    mend([](RepairOptions& repairs) { repairs.thicken = 0.01; });
+}
+
 TEST_F(RepairSession, ShowsWhatACommandMakesOfTheFileAndWhatItWas) {
     open(read_);
     const auto before = surface(1);
@@ -103,7 +132,7 @@ TEST_F(RepairSession, ShowsWhatACommandMakesOfTheFileAndWhatItWas) {
     for (const char* plan : {"weld=0.01", "weld=0.01,clean", "exact", "near", "full", "none"}) {
         SCOPED_TRACE(plan);
         repair(plan);
-        EXPECT_EQ(session_.document().options.input_options.repair, plan);
+        EXPECT_EQ(session_.document().options.input_options.repairs.plan, plan);
         expect_what_a_command_makes();
         const Document& document = session_.document();
         const Step first = steps_of(document, 1).front();
@@ -129,7 +158,7 @@ TEST_F(RepairSession, GoesBackAndForth) {
     EXPECT_FALSE(session_.repairs().can_redo());
     session_.repairs().undo();
     EXPECT_EQ(session_.document().checked, welded);
-    EXPECT_EQ(session_.document().options.input_options.repair, "weld=0.01");
+    EXPECT_EQ(session_.document().options.input_options.repairs.plan, "weld=0.01");
     EXPECT_EQ(surface(1), welded_surface) << "at once";
     session_.repairs().undo();
     EXPECT_FALSE(session_.repairs().can_undo());
@@ -161,11 +190,11 @@ TEST_F(RepairSession, EndsWhenItIsCancelledAndChangesNothing) {
     }
     settle();
     EXPECT_EQ(session_.document().checked, checked);
-    EXPECT_EQ(session_.document().options.input_options.repair, "");
+    EXPECT_EQ(session_.document().options.input_options.repairs.plan, "");
     session_.repairs().repair(by("full"));
     session_.open(path_);  // something else is open before it ends
     settle();
-    EXPECT_EQ(session_.document().options.input_options.repair, "");
+    EXPECT_EQ(session_.document().options.input_options.repairs.plan, "");
     session_.repairs().repair(by("weld=1e9"));  // or it fails
     settle();
     EXPECT_FALSE(session_.document().progress.running);
@@ -175,7 +204,7 @@ TEST_F(RepairSession, EndsWhenItIsCancelledAndChangesNothing) {
 TEST_F(RepairSession, IsThereFromTheBeginningOn) {
     test::write_off(path_, read_.vertices, read_.facets);
     RunOptions options;
-    options.input_options.repair = "weld=0.01";
+    options.input_options.repairs.plan = "weld=0.01";
     session_.open(path_, options);
     settle();
     expect_what_a_command_makes();
@@ -183,7 +212,7 @@ TEST_F(RepairSession, IsThereFromTheBeginningOn) {
     EXPECT_TRUE(session_.repairs().can_undo());
     session_.repairs().undo();
     EXPECT_FALSE(session_.document().unrepaired);
-    EXPECT_EQ(session_.document().options.input_options.repair, "");
+    EXPECT_EQ(session_.document().options.input_options.repairs.plan, "");
 }
 
 TEST_F(RepairSession, SavesWhatKerfRepairWrites) {

@@ -148,6 +148,28 @@ TEST(Screenshot, ShowsTheSurfaceBeforeAndAfterRemeshing) {
     EXPECT_EQ(screenshot({prism, "--surface", "nicely"}).exit_code, 2);
 }
 
+// Options of a config file mend as --repair does, so there is a surface before them.
+TEST(Screenshot, ShowsTheSurfaceBeforeRepairsOfAnyOption) {
+    Soup cut = box(Vec3::Zero(), Vec3(1, 2, 3), 4);
+    std::vector<char> is_end;
+    for (const Triangle& t : cut.facets)
+        is_end.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return cut.vertices[v].z() == 3; }));
+    drop_facets(cut, is_end);
+    drop_unused_vertices(cut);
+    const std::string open = folder().file("open_box.off"), config = folder().file("caps.toml");
+    write_off(open, cut.vertices, cut.facets);
+    const auto picture = [&](const std::string& option) {
+        std::ofstream(config) << option << "\n";
+        const ChildResult result = screenshot({open, "--config", config, "--stage", "before-repair"});
+        EXPECT_EQ(result.exit_code, 0) << option << ": " << result.log;
+        return result.exit_code == 0 ? read_png(folder().file("a.png")).rgb : std::vector<std::uint8_t>();
+    };
+    const auto named = picture("repair = \"caps\"");
+    EXPECT_EQ(picture("cap = true"), named);
+    EXPECT_EQ(picture("fill-holes = 16"), named);
+    EXPECT_EQ(picture("thicken = 0.1"), named);
+}
+
 TEST(Screenshot, IsTheSameEveryTime) {
     std::string bytes;
     for (int i = 0; i < 2; ++i) {

@@ -25,7 +25,7 @@ bool is_set(const RunOptions& options, const OptionText& option);
 /// Returns `options` with one of them changed, or nothing if the value does not exist or is out of range.
 std::optional<RunOptions> options_with(RunOptions options, const OptionText& option);
 
-/// Returns the list of repairs `plan` (InputOptions::repair) with those steps of `more` added that it lacks.
+/// Returns the list of repairs `plan` (RepairOptions::plan) with those steps of `more` added that it lacks.
 std::string with_repairs(const std::string& plan, const std::string& more);
 
 /// Returns the label of a button: "Remesh the surface", "Run with --voids parity", or "Run with --weld" as long as the

@@ -95,8 +95,8 @@ std::string heading(const Document& document, const ViewState& state, const Step
 std::string repairs_of(const Document& document) {
     const InputOptions& options = document.options.input_options;
     const std::string wraps = options.wraps() ? "wrapped" : "";
-    if (options.repair.empty()) return wraps.empty() ? "by its options" : wraps;
-    return options.repair + (wraps.empty() ? "" : ", " + wraps);
+    if (options.repairs.plan.empty()) return wraps.empty() ? "by its options" : wraps;
+    return options.repairs.plan + (wraps.empty() ? "" : ", " + wraps);
 }
 
 // The place of the clip plane, with its coordinate in units of the file if an axis is its normal.

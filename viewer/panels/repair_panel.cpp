@@ -47,13 +47,13 @@ std::string error_of_plan(const std::string& plan) {
 
 void repair_by(UiContext& context, const std::string& plan) {
     InputOptions options = context.session.document().options.input_options;
-    options.repair = plan;
+    options.repairs.plan = plan;
     context.actions.repairs.repair(options);
 }
 
 // Draws a button that adds steps to those that were done. All of them start from the file.
 void draw_step_button(UiContext& context, const std::string& label, const std::string& words, const std::string& what) {
-    const std::string& plan = context.session.document().options.input_options.repair;
+    const std::string& plan = context.session.document().options.input_options.repairs.plan;
     const std::string more = with_repairs(plan, words);
     const bool is_done = more == plan;
     ImGui::BeginDisabled(is_done || !context.session.repairs().can_repair());
@@ -85,7 +85,7 @@ void draw_levels(UiContext& context) {
 }
 
 void draw_plan(UiContext& context, RepairMemory& memory) {
-    const std::string& plan = context.session.document().options.input_options.repair;
+    const std::string& plan = context.session.document().options.input_options.repairs.plan;
     if (memory.plan_of != plan || ImGui::IsWindowAppearing()) memory.plan = memory.plan_of = plan;
     context.widgets.input_text("Steps", &memory.plan);
     explain(repair_words());
@@ -253,7 +253,8 @@ void draw_repairs(UiContext& context, RepairMemory& memory) {
     const bool is_there = context.session.repairs().can_repair() || context.session.repairs().is_repairing();
     if (!is_there || !document.checked || !document.error.empty()) return;
     const auto checked = document.checked;  // a button may exchange it
-    if (checked->diagnosis.defects.empty() && document.options.input_options.repair.empty() && !document.unrepaired)
+    if (checked->diagnosis.defects.empty() && document.options.input_options.repairs.plan.empty() &&
+        !document.unrepaired)
         return;
     draw_levels(context);
     draw_plan(context, memory);

@@ -1,8 +1,8 @@
-// All ways to a surface go through check_files() and to_input(). check_files() does, in this order: exact welding,
-// welding within a tolerance, the simple repairs, the ladder of repairs (surface/repair/repair.h), the wrap, points of
-// regions, and the diagnosis with its search for regions. The order is part of what users see: each step counts on the
-// ones before. to_input() refuses a surface with errors, drops superfluous facets and orients the rest, and makes the
-// complex; vertices and facets get keys of node 0, which are their numbers.
+// All ways to a surface go through check_files() and to_input(). check_files() does, in this order: exact welding, the
+// ladder of repairs (surface/repair/repair.h), the wrap, points of regions, and the diagnosis with its search for
+// regions. The order is part of what users see: each step counts on the ones before. to_input() refuses a surface with
+// errors, drops superfluous facets and orients the rest, and makes the complex; vertices and facets get keys of node 0,
+// which are their numbers.
 //
 // Arrays of other programs are checked row by row first, in every build, because nothing behind that checks numbers
 // again. Regions exclude the optimisation of the surface and patches by angles.
@@ -27,7 +27,6 @@
 #include "surface/complex/mass_properties.h"
 #include "surface/diagnosis/intersections.h"
 #include "surface/diagnosis/optimisation.h"
-#include "surface/openings/hole_filling.h"
 #include "surface/regions/regions.h"
 #include "surface/repair/repair.h"
 #include "surface/wrap/wrap.h"
@@ -51,18 +50,6 @@ SurfaceArrays with_input_keys(Soup soup) {
 double diagonal_of(const Soup& soup) {
     const Box box = box_around_finite(soup.vertices);
     return box.isEmpty() ? 0 : box.diagonal().norm();
-}
-
-// The tolerance in units of the file. Throws Error(usage) for one that would leave nothing.
-double weld(Soup& soup, const Length& wanted, InputRepairs& repairs) {
-    constexpr double rounding = 1e-16;  // of the diagonal: nearer vertices are equal, and merged already
-    const double diagonal = diagonal_of(soup), tolerance = wanted.of(diagonal);
-    if (tolerance > diagonal && diagonal > 0)
-        throw Error(ErrorCode::usage, fmt::format("--weld is {:.6g}, but the surface, from corner to corner of its "
-                                                  "bounding box, is {:.6g}. Give less.",
-                                                  tolerance, diagonal));
-    if (tolerance > rounding * diagonal) repairs.merged_vertices = weld_within(soup, tolerance);
-    return tolerance;
 }
 
 // Points that the user gives are in place of those of the file.
@@ -120,10 +107,9 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     }
     const std::vector<std::string> gap_notes = notes_on_gaps(checked);
     input.orientation = apply_repairs(checked);
-    input.repairs = checked.repairs;
+    input.tidied = checked.tidied;
     input.ladder = std::move(checked.ladder);
     input.wrapped = checked.wrapped;
-    input.weld_tolerance = checked.weld_tolerance;
     input.notes = soup.notes;
     for (const std::string& note : gap_notes) input.notes.push_back(note);
     if (!soup.sides.empty() && (options.feature_angle_deg > 0 || options.optimisation_sweeps > 0))
@@ -272,21 +258,14 @@ Input input_of_arrays(Soup soup, const InputOptions& options, const std::functio
 
 CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg,
                         const std::function<void()>& check_cancelled) {
-    CheckedSoup checked{std::move(files.soup), {}, {}, 0, {}};
+    CheckedSoup checked{std::move(files.soup), {}};
     Soup& soup = checked.soup;
-    InputRepairs& repairs = checked.repairs;
-    if (!files.is_welded) repairs.welded_vertices = weld_exactly(soup);
-    if (options.weld_tolerance.number() > 0) checked.weld_tolerance = weld(soup, options.weld_tolerance, repairs);
-    if (options.keep_largest) repairs.removed_facets = keep_largest_component(soup);
-    if (options.fill_hole_edges > 0 && soup.sides.empty()) {
-        const HoleFilling filling = fill_holes(soup, options.fill_hole_edges);
-        repairs.filled_holes = filling.holes;
-        repairs.added_facets = filling.facets;
-    }
+    TidyCounts& tidied = checked.tidied;
+    if (!files.is_welded) tidied.welded_vertices = weld_exactly(soup);
     RepairPlan plan = repair_plan_of(options);
     plan.are_walls |= !files.walls.empty() || !soup.seeds.empty();
     checked.ladder = repair(soup, plan, check_cancelled);
-    repairs.unused_vertices = drop_unused_vertices(soup);
+    tidied.unused_vertices = drop_unused_vertices(soup);
     if (options.wraps()) {
         checked.wrapped = wrap(soup, options.wrapping, check_cancelled);
         files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
@@ -294,7 +273,7 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
     take_points(soup, options);
     diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);
     const std::vector<char>& dropped = checked.diagnosis.dropped;
-    repairs.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    tidied.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
     return checked;
 }
 
@@ -327,7 +306,7 @@ OrientationReport apply_repairs(CheckedSoup& checked) {
     const std::vector<char>& dropped = diagnosis.dropped;
     if (std::find(dropped.begin(), dropped.end(), char{1}) != dropped.end()) {
         drop_facets(checked.soup, dropped);
-        checked.repairs.unused_vertices += drop_unused_vertices(checked.soup);
+        checked.tidied.unused_vertices += drop_unused_vertices(checked.soup);
     }
     if (!checked.soup.sides.empty()) return {};
     if (!diagnosis.orientation) return orient(checked.soup);
@@ -349,7 +328,7 @@ Input read_input(const std::string& path, const InputOptions& options, StageList
     const std::string hash = files.hash;
     const std::size_t more = options.more_files.size();
     const std::string all = more == 0 ? path : fmt::format("{} and {} more file{}", path, more, more == 1 ? "" : "s");
-    if (!repair_plan_of(options).empty()) tell_progress(listener, "repair", 0, 0);
+    if (!repair_plan_of(options).only_prepares()) tell_progress(listener, "repair", 0, 0);
     Input input = to_input(check_files(std::move(files), options, 1, cancellation_check(listener)), all, options,
                            " Run kerf check on it for all defects.");
     input.path = path;

@@ -25,24 +25,19 @@ namespace kerf {
 
 class StageListener;
 
-/// Counts of the repairs of a surface.
-struct InputRepairs {
+/// Counts of what goes from every surface without being asked for.
+struct TidyCounts {
     std::int64_t welded_vertices = 0;  ///< vertices merged because their coordinates are equal
     std::int64_t unused_vertices = 0;  ///< vertices dropped because no facet uses them
     std::int64_t dropped_facets = 0;   ///< copies, and facets with a repeated vertex
-    std::int64_t merged_vertices = 0;  ///< vertices merged by weld_tolerance
-    std::int64_t removed_facets = 0;   ///< facets removed by keep_largest
-    std::int64_t filled_holes = 0;     ///< holes filled by fill_hole_edges
-    std::int64_t added_facets = 0;     ///< facets added in these holes
 };
 
 /// A surface file after the repairs that come before orientation, and the defects that are left.
 struct CheckedSoup {
     Soup soup;
     Diagnosis diagnosis;  ///< defects of `soup`, which still has the facets that are dropped later
-    InputRepairs repairs;
-    double weld_tolerance = 0;  ///< the tolerance that was used, units of the file
-    RepairReport ladder = {};   ///< the steps of InputOptions::repair
+    TidyCounts tidied = {};
+    RepairReport ladder = {};  ///< the steps of InputOptions::repairs
     std::optional<WrapReport> wrapped = {};
 };
 
@@ -108,8 +103,7 @@ struct Input {
     std::vector<InputRegion> regions;  ///< one for each of Complex::region_names(); empty if there is only one
     double largest_coordinate = 0;     ///< the largest absolute value of a coordinate
     double diagonal = 0;               ///< diagonal of the bounding box
-    InputRepairs repairs;
-    double weld_tolerance = 0;  ///< the tolerance that was used, units of the input
+    TidyCounts tidied;
     OrientationReport orientation;
     std::int64_t moved_vertices = 0;  ///< vertices moved by the optimisation of the surface
     double largest_move = 0;          ///< largest move of a vertex by it
@@ -124,7 +118,7 @@ struct Input {
     Complex complex;
     /// The largest volume of cells for each region, where the file says one, else 0. Empty: it says none.
     std::vector<double> largest_cells = {};
-    RepairReport ladder = {};  ///< the steps of InputOptions::repair
+    RepairReport ladder = {};  ///< the steps of InputOptions::repairs
     std::optional<WrapReport> wrapped = {};
 };
 

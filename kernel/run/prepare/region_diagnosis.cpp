@@ -54,7 +54,7 @@ void diagnose_said(CheckedSoup& checked, const DiagnosisOptions& options, const 
         if (found.count(DefectKind::self_intersection) > 0 && !is_double) return;
         throw MisplacedRegion(file.empty() ? error.what() : fmt::format("{}: {}", file, error.what()));
     }
-    if (is_found) checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    if (is_found) checked.tidied.unused_vertices += drop_unused_vertices(divided);
     Diagnosis diagnosis = diagnose(divided, options);
     take_regions(checked, std::move(divided), std::move(diagnosis));
 }
@@ -125,7 +125,7 @@ bool take_found_regions(CheckedSoup& checked, const InputFiles& files, const Dia
     const std::int64_t unused = drop_unused_vertices(divided);
     Diagnosis diagnosis = diagnose(divided, options);
     if (!diagnosis.clean()) return false;
-    checked.repairs.unused_vertices += unused;
+    checked.tidied.unused_vertices += unused;
     take_regions(checked, std::move(divided), std::move(diagnosis));
     return true;
 }
@@ -162,7 +162,7 @@ bool take_nested_bodies(CheckedSoup& checked, const GivenBodies& bodies, const D
         fmt::format("Bodies lie inside of others: they are {} regions by their names, and each is cut out of what is "
                     "around it.",
                     divided.region_names.size()));
-    checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    checked.tidied.unused_vertices += drop_unused_vertices(divided);
     take_regions(checked, std::move(divided), std::move(diagnosis));
     return true;
 }
@@ -192,7 +192,7 @@ void diagnose_filled(CheckedSoup& checked, const DiagnosisOptions& options) {
     Soup divided = checked.soup;
     if (!checked.diagnosis.dropped.empty()) drop_facets(divided, checked.diagnosis.dropped);
     if (!fill_voids(divided)) return;
-    checked.repairs.unused_vertices += drop_unused_vertices(divided);
+    checked.tidied.unused_vertices += drop_unused_vertices(divided);
     Diagnosis diagnosis = diagnose(divided, options);
     take_regions(checked, std::move(divided), std::move(diagnosis));
 }

@@ -46,7 +46,7 @@ std::vector<InputOptions> ways_to_try(const InputOptions& given, const Diagnosis
         for (const std::string& plan : plans) {
             InputOptions way = given;
             way.voids = v;
-            way.repair = plan;
+            way.repairs.plan = plan;
             if (asks_for_more(way, given)) ways.push_back(std::move(way));
         }
     return ways;
@@ -63,14 +63,6 @@ bool is_too_much_to_try(const CheckedSoup& checked) {
     return checked.soup.facets.size() > most_tried || crossings >= most_crossings_tried;
 }
 
-std::int64_t count_caps(const RepairReport& ladder) {
-    std::int64_t caps = 0;
-    for (const StepReport& step : ladder.steps)
-        for (const RepairAction& action : step.actions)
-            if (step.kind == RepairKind::caps && *action.refused_because == '\0') caps += action.count;
-    return caps;
-}
-
 // The outcome of one way.
 struct Trial {
     bool fits = false;
@@ -84,8 +76,8 @@ Trial try_way(const InputFiles& files, const InputOptions& way, StageListener* l
         const bool is_region_missing =  // where facets part no bodies, all is united
             repair_plan_of(way).bodies == BodyRepair::regions && repaired.soup.region_names.size() < 2;
         trial.fits = repaired.diagnosis.clean() && !is_region_missing;
-        trial.remedy.caps = count_caps(repaired.ladder);
-        trial.remedy.options.cap = trial.remedy.caps > 0;
+        trial.remedy.caps = repaired.ladder.done_by(RepairKind::caps);
+        trial.remedy.options.repairs.cap = trial.remedy.caps > 0;
         trial.remedy.largest_move = repaired.ladder.largest_move();
         for (const StepReport& step : repaired.ladder.steps)
             for (const RepairAction& action : step.actions)
@@ -98,10 +90,10 @@ Trial try_way(const InputFiles& files, const InputOptions& way, StageListener* l
 
 Trial try_with_and_without_caps(const InputFiles& files, InputOptions way, bool may_cap, StageListener* listener) {
     if (may_cap) {
-        way.cap = true;
+        way.repairs.cap = true;
         Trial capped = try_way(files, way, listener);
         if (capped.fits || capped.remedy.caps == 0) return capped;
-        way.cap = false;
+        way.repairs.cap = false;
     }
     return try_way(files, way, listener);
 }
@@ -109,8 +101,8 @@ Trial try_with_and_without_caps(const InputFiles& files, InputOptions way, bool 
 Remedy wrap_remedy(const InputOptions& given, const Soup& soup) {
     Remedy remedy{.options = given};
     remedy.options.wrap = true;
-    remedy.options.repair.clear();
-    remedy.options.cap = false;
+    remedy.options.repairs.plan.clear();
+    remedy.options.repairs.cap = false;
     if (!soup.sides.empty() || soup.is_of_model || soup.facets.empty()) return remedy;
     try {
         remedy.wrap_distance = estimated_wrap_distance(soup);
@@ -123,14 +115,14 @@ Remedy wrap_remedy(const InputOptions& given, const Soup& soup) {
 Remedy untried_remedy(const std::string& path, const InputOptions& given, const CheckedSoup& checked, bool may_cap,
                       StageListener* listener) {
     InputOptions way = given;
-    way.repair = are_bodies(given, checked.diagnosis) ? regions_plan : name(level_for(checked.diagnosis));
+    way.repairs.plan = are_bodies(given, checked.diagnosis) ? regions_plan : name(level_for(checked.diagnosis));
     if (!asks_for_more(way, given)) return wrap_remedy(given, checked.soup);
     Remedy remedy{.options = way};
     if (!may_cap) return remedy;
     InputOptions capping = given;
-    capping.cap = true;
+    capping.repairs.cap = true;
     remedy.caps = try_way(read_input_files(path, given), capping, listener).remedy.caps;
-    remedy.options.cap = remedy.caps > 0;
+    remedy.options.repairs.cap = remedy.caps > 0;
     return remedy;
 }
 
@@ -142,7 +134,7 @@ std::optional<Remedy> find_remedy(const std::string& path, const InputOptions& o
     const Soup& soup = checked.soup;
     if (is_beyond_numbers(diagnosis)) return std::nullopt;
     if (!soup.sides.empty() || soup.is_of_model || soup.facets.empty()) return wrap_remedy(options, soup);
-    const bool may_cap = !options.cap && diagnosis.count(DefectKind::open_edge) > 0;
+    const bool may_cap = !options.repairs.cap && diagnosis.count(DefectKind::open_edge) > 0;
     if (is_too_much_to_try(checked)) return untried_remedy(path, options, checked, may_cap, listener);
     const InputFiles files = read_input_files(path, options);
     for (const InputOptions& way : ways_to_try(options, diagnosis))

@@ -16,7 +16,7 @@ namespace kerf {
 struct Remedy {
     InputOptions options = {};  ///< options of the check with the changes that help; `wrap` where no repair does
     bool was_tried = false;     ///< whether a copy was repaired; else the steps fit the kinds of the defects
-    std::int64_t caps = 0;      ///< openings that InputOptions::cap closes by patches of their own
+    std::int64_t caps = 0;      ///< openings that RepairOptions::cap closes by patches of their own
     double largest_move = 0;    ///< the largest move of a vertex, where it was tried; units of the surface
     double wrap_distance = 0;   ///< estimated_wrap_distance() of a wrap; 0: not known
     std::vector<std::string> losses = {};  ///< losses that may be wanted, where it was tried, see RepairAction::is_loss

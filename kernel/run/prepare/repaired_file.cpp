@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_unchanged(const CheckedSoup& checked, const OrientationReport& turned) {
-    const InputRepairs& r = checked.repairs;
-    return !checked.ladder.changed() && r.dropped_facets + r.merged_vertices + r.removed_facets + r.filled_holes == 0 &&
+    return !checked.ladder.changed() && checked.tidied.dropped_facets == 0 &&
            turned.facets_flipped + turned.shells_flipped == 0;
 }
 

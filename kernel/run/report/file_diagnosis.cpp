@@ -42,13 +42,6 @@ Json defect_json(const Defect& defect, const Soup& soup) {
     return json;
 }
 
-Json repairs_json(const InputRepairs& r) {
-    return {{"vertices_welded", r.welded_vertices}, {"vertices_unused", r.unused_vertices},
-            {"facets_dropped", r.dropped_facets},   {"vertices_merged", r.merged_vertices},
-            {"facets_removed", r.removed_facets},   {"holes_filled", r.filled_holes},
-            {"facets_added", r.added_facets}};
-}
-
 // The regions of a surface that can be meshed. Copies of facets that its repairs leave out have sides, too, so they go
 // first.
 std::vector<RegionSummary> regions_of(const CheckedSoup& checked) {
@@ -87,7 +80,7 @@ Json surface_json(const FileDiagnosis& found) {
                  {"patches", soup.patch_names},
                  {"regions", regions_json(found.regions)},
                  {"notes", soup.notes},
-                 {"repairs", repairs_json(checked.repairs)},
+                 {"repairs", json_of_counts(checked.tidied, checked.ladder)},
                  {"counts", std::move(counts)},
                  {"defects", std::move(defects)}};
     if (!checked.ladder.steps.empty()) json["repair"] = json_of_repair(checked.ladder);

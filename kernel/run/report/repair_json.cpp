@@ -1,3 +1,6 @@
+// Each function makes the object that its declaration lists, key by key, from the values of reports. Preparations are
+// told as sums among the counts of what goes from every surface, all other steps one by one with the places of their
+// actions. What is not known, as a distance that could not be proven, is null.
 #include "run/report/repair_json.h"
 
 #include <cmath>
@@ -54,11 +57,21 @@ nlohmann::ordered_json json_of_repair(const RepairReport& report) {
             {"steps", std::move(steps)}};
 }
 
+nlohmann::ordered_json json_of_counts(const TidyCounts& tidied, const RepairReport& ladder) {
+    return {{"vertices_welded", tidied.welded_vertices},
+            {"vertices_unused", tidied.unused_vertices},
+            {"facets_dropped", tidied.dropped_facets},
+            {"vertices_merged", ladder.done_by(RepairKind::merge)},
+            {"facets_removed", ladder.done_by(RepairKind::largest)},
+            {"holes_filled", ladder.done_by(RepairKind::span)},
+            {"facets_added", ladder.preparation(RepairKind::span).added_facets}};
+}
+
 std::string to_json(const RepairReport& report) { return json_text(json_of_repair(report)) + "\n"; }
 
 nlohmann::ordered_json json_of_remedy(const Remedy& remedy, const std::string& path) {
     const InputOptions& options = remedy.options;
-    return {{"repair", options.wrap ? Json(nullptr) : Json(options.repair)},
+    return {{"repair", options.wrap ? Json(nullptr) : Json(options.repairs.plan)},
             {"tried", remedy.was_tried},
             {"largest_move", remedy.largest_move},
             {"wrap_distance", remedy.wrap_distance},

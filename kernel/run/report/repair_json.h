@@ -17,6 +17,10 @@ namespace kerf {
 nlohmann::ordered_json json_of_repair(const RepairReport& report);
 std::string to_json(const RepairReport& report);
 
+/// {"vertices_welded", "vertices_unused", "facets_dropped", "vertices_merged", "facets_removed", "holes_filled",
+/// "facets_added"}: the sums of all that comes before the steps of json_of_repair().
+nlohmann::ordered_json json_of_counts(const TidyCounts& tidied, const RepairReport& ladder);
+
 /// {"repair": words of --repair or null, "tried", "largest_move", "wrap_distance", "voids": "parity" or null, "caps",
 /// "losses": lines, "command"}.
 nlohmann::ordered_json json_of_remedy(const Remedy& remedy, const std::string& path);

@@ -87,7 +87,7 @@ std::string command_of(const Remedy& remedy, const std::string& path) {
     if (!is_wrap) {  // kerf wrap has one INPUT, and others by --with
         words.insert(words.end(), options.more_files.begin(), options.more_files.end());
         options.more_files.clear();
-        if (options.repair == name(RepairLevel::full)) options.repair.clear();  // its default
+        if (options.repairs.plan == name(RepairLevel::full)) options.repairs.plan.clear();  // its default
     }
     words.insert(words.end(), {"-o", output});
     for (std::string& word : command_words(std::move(options))) words.push_back(std::move(word));
@@ -109,7 +109,7 @@ std::string to_text(const RepairedFile& repaired) {
         text += line("unchanged", repaired.is_copy ? "nothing to repair: the output is a copy, byte for byte"
                                                    : "nothing to repair: the output has the same facets");
     } else {
-        text += line("mended", repairs_text(repaired.checked.repairs, repaired.turned));
+        text += line("mended", repairs_text(repaired.checked.tidied, repaired.checked.ladder, repaired.turned));
         text += line("moved", moves_text(repaired.checked.ladder));
         text += line("changed", facets_at_text(measures.changed_facets, measures.distance_of_changed));
         text += line("added", facets_at_text(measures.added_facets, measures.distance_of_added));

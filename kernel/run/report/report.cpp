@@ -178,17 +178,17 @@ std::string finer_text(const FinerShares& finer) {
 
 }  // namespace
 
-std::string repairs_text(const InputRepairs& repairs, const OrientationReport& turned) {
+std::string repairs_text(const TidyCounts& tidied, const RepairReport& ladder, const OrientationReport& turned) {
     std::string text;
     const auto add = [&](std::int64_t count, const char* what) {
         if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), what);
     };
-    add(repairs.dropped_facets, "superfluous facets dropped");
+    add(tidied.dropped_facets, "superfluous facets dropped");
     add(turned.facets_flipped, "facets turned");
     add(turned.shells_flipped, "shells turned");
-    add(repairs.merged_vertices, "vertices merged");
-    add(repairs.removed_facets, "facets of smaller components removed");
-    add(repairs.filled_holes, "holes filled");
+    add(ladder.done_by(RepairKind::merge), "vertices merged");
+    add(ladder.done_by(RepairKind::largest), "facets of smaller components removed");
+    add(ladder.done_by(RepairKind::span), "holes filled");
     return text;
 }
 
@@ -256,7 +256,7 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
         lines.add("input",
                   fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
                               input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
-    lines.add("repaired", repairs_text(input.repairs, input.orientation));
+    lines.add("repaired", repairs_text(input.tidied, input.ladder, input.orientation));
     for (const StepReport& step : input.ladder.steps)
         for (const RepairAction& action : step.actions)
             lines.add("repair", fmt::format("{}: {}", name(step.kind), to_text(action)));

@@ -178,7 +178,7 @@ std::string to_json(const RunReport& report);
 
 /// Returns one line on the changes to a surface beside steps by name and the welding of equal vertices; empty if there
 /// are none.
-std::string repairs_text(const InputRepairs& repairs, const OrientationReport& turned);
+std::string repairs_text(const TidyCounts& tidied, const RepairReport& ladder, const OrientationReport& turned);
 
 /// Returns one line on the result of remeshing.
 std::string remeshing_text(const InputRemeshing& done);

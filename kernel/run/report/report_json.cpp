@@ -48,16 +48,9 @@ Json input_json(const Input& input) {
                  {"volume", input.volume},
                  {"volume_of_file", volume_before_remeshing(input)},
                  {"area", input.area},
-                 {"repairs",
-                  {{"vertices_welded", input.repairs.welded_vertices},
-                   {"vertices_unused", input.repairs.unused_vertices},
-                   {"facets_dropped", input.repairs.dropped_facets},
-                   {"vertices_merged", input.repairs.merged_vertices},
-                   {"facets_removed", input.repairs.removed_facets},
-                   {"holes_filled", input.repairs.filled_holes},
-                   {"facets_added", input.repairs.added_facets},
-                   {"facets_flipped", input.orientation.facets_flipped},
-                   {"shells_flipped", input.orientation.shells_flipped}}}};
+                 {"repairs", json_of_counts(input.tidied, input.ladder)}};
+    json["repairs"]["facets_flipped"] = input.orientation.facets_flipped;
+    json["repairs"]["shells_flipped"] = input.orientation.shells_flipped;
     for (const std::string& name : input.patch_names) json["patches"].push_back(path_text(name));
     for (std::size_t r = 0; r < input.regions.size(); ++r) {
         const InputRegion& region = input.regions[r];

@@ -13,14 +13,21 @@
 
 namespace kerf {
 
+/// Spellings of the steps that mend a surface: each is a step of the one plan, see repair_plan_of().
+struct RepairOptions {
+    Length weld_tolerance;             ///< vertices this close are merged; % of the file's diagonal; 0: only equal ones
+    std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned; 0: none
+    bool keep_largest = false;         ///< only the connected component of the largest area stays
+    std::string plan = {};             ///< steps of a ladder, see parse_repair_plan(); empty: none
+    bool cap = false;                  ///< the step `caps`, beside those of `plan`
+    Length thicken = {};               ///< the step `thicken` with this thickness, beside those; 0: none
+};
+
 /// Options of a surface file, applied before it is diagnosed and cut. `voids`, `fill_voids`, `regions` and
 /// `feature_angle_deg` leave the geometry as it is.
 struct InputOptions {
     double scale = 1;       ///< factor of all coordinates as they are read; other lengths are in units after it
-    Length weld_tolerance;  ///< vertices this close are merged; % of the file's diagonal; 0: only equal ones
-    std::int32_t fill_hole_edges = 0;  ///< open loops of at most so many edges are spanned; 0: none
-    bool keep_largest = false;         ///< only the connected component of the largest area stays
-    std::string repair = {};           ///< steps of a ladder, see parse_repair_plan(); empty: none
+    RepairOptions repairs;  ///< the steps that mend it
     Voids voids = Voids::as_given;
     std::vector<std::string> regions;      ///< NAME=x,y,z: points of regions, in units after scaling
     std::vector<std::string> more_files;   ///< files whose bodies are meshed with those of the input
@@ -30,8 +37,6 @@ struct InputOptions {
     CadOptions cad;                        ///< for STEP, IGES and BREP files
     bool wrap = false;                     ///< the surface is wrapped, see wrap(); also where there is a gap
     WrapOptions wrapping = {};             ///< the lengths of the wrap
-    bool cap = false;                      ///< the step `caps`, beside those of `repair`
-    Length thicken = {};                   ///< the step `thicken` with this thickness, beside those; 0: none
 
     bool wraps() const { return wrap || wrapping.gap.number() > 0; }
     /// Throws Error(usage) naming option, value and range or form.
@@ -48,7 +53,11 @@ std::vector<std::string> files_of(const std::string& input, const InputOptions& 
 /// is none of them.
 std::vector<std::string> command_words(InputOptions options);
 
-/// Returns the steps of `repair`, `cap` and `thicken`. Throws Error(usage), naming option, word and its alternatives.
+/// Returns the options without the steps that mend a surface and without a wrap: they read the files in the same way,
+/// and leave the surface as it is read.
+InputOptions without_repairs(InputOptions options);
+
+/// Returns the plan of all of RepairOptions. Throws Error(usage), naming option, word and its alternatives.
 RepairPlan repair_plan_of(const InputOptions& options);
 
 /// Returns the points of `regions`. Throws Error(usage), naming option, value and form.

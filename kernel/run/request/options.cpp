@@ -68,12 +68,23 @@ std::vector<std::string> files_of(const std::string& input, const InputOptions& 
 }
 
 RepairPlan repair_plan_of(const InputOptions& options) {
-    RepairPlan plan = parse_repair_plan("repair", options.repair);
+    const RepairOptions& asked = options.repairs;
+    RepairPlan plan = parse_repair_plan("repair", asked.plan);
     plan.are_walls = !options.regions.empty();
     plan.voids_are_parity = options.voids == Voids::parity;
-    if (options.cap) plan.put({RepairKind::caps});
-    if (options.thicken.number() > 0) plan.put({RepairKind::thicken, options.thicken});
+    if (asked.weld_tolerance.number() > 0) plan.put({RepairKind::merge, asked.weld_tolerance});
+    if (asked.keep_largest) plan.put({RepairKind::largest});
+    if (asked.fill_hole_edges > 0) plan.put({RepairKind::span, Length(asked.fill_hole_edges)});
+    if (asked.cap) plan.put({RepairKind::caps});
+    if (asked.thicken.number() > 0) plan.put({RepairKind::thicken, asked.thicken});
     return plan;
+}
+
+InputOptions without_repairs(InputOptions options) {
+    options.repairs = {};
+    options.wrap = false;
+    options.wrapping = {};
+    return options;
 }
 
 std::vector<RegionSeed> seeds_of(const InputOptions& options) {

@@ -148,7 +148,7 @@ void plan_surface(RunPlan& plan, Input& input, int ranks, StageListener* listene
     RunOptions wanted = std::move(plan.options);
     if (!std::exchange(input.is_ready, false)) input = read_input(wanted.input, wanted.input_options, listener);
     refuse_changed_input(wanted, input.file_hash);
-    wanted.input_options.weld_tolerance = input.weld_tolerance;
+    wanted.input_options.repairs.weld_tolerance = input.ladder.preparation(RepairKind::merge).amount;
     wanted = with_lengths(std::move(wanted), input.diagonal);
     check_budget_before_remeshing(input, wanted, ranks);
     const SurfaceArrays behind = surface_behind(input, wanted);

@@ -1,5 +1,6 @@
 // The ladder is climbed once in the order of the table of steps, with the repetitions that repair.h names; apply()
-// gives each step its request and a report, and passes over steps that the plan does not have. Later steps rely on
+// gives each step its request and a report, and passes over steps that the plan does not have. The preparations are
+// done first and reported apart, and the lengths of the other steps are measured behind them. Later steps rely on
 // earlier ones: `is_divided_later_` tells steps before `intersections` to leave contacts of bodies alone.
 //
 // renew() then climbs from `manifold` on again in rounds. A round is a transaction: the soup and the list of reports
@@ -24,14 +25,15 @@ class Ladder {
  public:
     Ladder(Soup& soup, const RepairPlan& plan, const std::function<void()>& check_cancelled)
         : soup_(soup), plan_(plan) {
-        const Box box = box_around_finite(soup.vertices);
-        report_.diagonal = box.isEmpty() ? 0 : box.diagonal().norm();
-        report_.bound = plan.bound.of(report_.diagonal);
         if (check_cancelled) check_cancelled_ = check_cancelled;
     }
 
     RepairReport climb() {
-        for (const RepairStepRow& row : repair_step_rows()) {
+        for (const RepairKind kind : {RepairKind::merge, RepairKind::largest, RepairKind::span}) apply(kind);
+        if (plan_.only_prepares()) return std::move(report_);
+        refuse_regions();
+        measure();
+        for (const RepairStepRow& row : rows_with_words()) {
             if (row.kind == RepairKind::renew) continue;
             if (row.kind == RepairKind::intersections) apply(RepairKind::renew);
             apply(row.kind);
@@ -44,13 +46,29 @@ class Ladder {
     }
 
  private:
+    void refuse_regions() const {
+        if (soup_.sides.empty()) return;
+        throw Error(ErrorCode::usage,
+                    "Repairs are for facets that do not say what they bound, but this surface has regions that share "
+                    "walls. Mesh it as it is, without --repair, or mend it where it was made.");
+    }
+    double diagonal_now() const {
+        const Box box = box_around_finite(soup_.vertices);
+        return box.isEmpty() ? 0 : box.diagonal().norm();
+    }
+    void measure() {
+        report_.diagonal = diagonal_now();
+        report_.bound = plan_.bound.of(report_.diagonal);
+    }
+
     void apply(RepairKind kind, int round = 0) {
         const RepairStep* step = plan_.find(kind);
         if (step == nullptr) return;
         check_cancelled_();
         const RepairStepRow& row = repair_step_rows()[static_cast<std::size_t>(kind)];
+        const bool prepares = is_preparation(kind);
         StepRequest request{.bound = report_.bound,
-                            .diagonal = report_.diagonal,
+                            .diagonal = prepares ? diagonal_now() : report_.diagonal,
                             .bodies = plan_.bodies,
                             .are_walls = plan_.are_walls,
                             .voids_are_parity = plan_.voids_are_parity,
@@ -59,8 +77,9 @@ class Ladder {
                             .round = round,
                             .is_last_round = round == most_renewals - 1,
                             .is_divided_later = is_divided_later_};
-        request.amount = step->amount.value_or(usual_amount(row)).of(report_.diagonal);
-        StepReport& done = report_.steps.emplace_back(StepReport{kind, {}});
+        request.amount = step->amount.value_or(usual_amount(row)).of(request.diagonal);
+        StepReport& done = (prepares ? report_.preparations : report_.steps).emplace_back(StepReport{kind, {}});
+        done.amount = request.amount;
         row.apply(soup_, request, done);
         std::erase_if(done.actions, [](const RepairAction& action) { return action.count == 0; });
     }
@@ -149,11 +168,6 @@ class Ladder {
 }  // namespace
 
 RepairReport repair(Soup& soup, const RepairPlan& plan, const std::function<void()>& check_cancelled) {
-    if (plan.empty()) return {};
-    if (!soup.sides.empty())
-        throw Error(ErrorCode::usage,
-                    "Repairs are for facets that do not say what they bound, but this surface has regions that share "
-                    "walls. Mesh it as it is, without --repair, or mend it where it was made.");
     return Ladder(soup, plan, check_cancelled).climb();
 }
 

@@ -10,6 +10,7 @@
 namespace kerf {
 
 /// Does the steps of a plan, in the order of RepairKind, some of them more than once where they are asked for.
+/// Percentages of `merge` are of the soup as it comes, those of the other steps of what the preparations leave.
 /// `manifold` follows `holes` again, because fins are known once a body is closed. `clean`, `manifold` and `specks`
 /// follow `intersections`: places where the surface touches itself are parted only there, so that bodies with other
 /// facets at a contact become one without a crack. `renew` takes out loose pieces before `intersections`; at the end it
@@ -22,9 +23,10 @@ namespace kerf {
 /// that.
 ///
 /// `soup`: its numbers in range, welded exactly; facets without finite coordinates stay. `check_cancelled`, if given,
-/// is called again and again, and ends the work by throwing. Throws Error(usage) for a soup that says what lies on the
-/// sides of its facets: its regions share walls already. Deterministic. 400 k facets take seconds where few cross; 100
-/// k that cross everywhere take minutes, since each round divides all of them again.
+/// is called again and again, and ends the work by throwing. Throws Error(usage) for a tolerance of `merge` beyond the
+/// diagonal, and, if there are steps behind the preparations, for a soup that says what lies on the sides of its
+/// facets: its regions share walls already. Deterministic. 400 k facets take seconds where few cross; 100 k that cross
+/// everywhere take minutes, since each round divides all of them again.
 RepairReport repair(Soup& soup, const RepairPlan& plan, const std::function<void()>& check_cancelled = {});
 
 }  // namespace kerf

@@ -50,7 +50,7 @@ class PlanParser {
     bool take_step(std::string_view key, std::string_view value, bool has_value) {
         const bool leaves_out = key.starts_with("no-") && !has_value;
         if (leaves_out) key.remove_prefix(3);
-        for (const RepairStepRow& row : repair_step_rows()) {
+        for (const RepairStepRow& row : rows_with_words()) {
             if (row.name != key || (has_value && row.amount == AmountKind::none)) continue;
             RepairStep step{row.kind};
             if (has_value && row.amount == AmountKind::length) step.amount = length(key, value);
@@ -115,7 +115,7 @@ RepairPlan parse_repair_plan(std::string_view option, std::string_view text) {
 
 std::string repair_words() {
     std::string words = "Give none, exact, near or full, and steps: ";
-    for (const RepairStepRow& row : repair_step_rows())
+    for (const RepairStepRow& row : rows_with_words())
         words += fmt::format("{}{}, ", row.name,
                              row.amount == AmountKind::none    ? ""
                              : row.amount == AmountKind::count ? "=N"

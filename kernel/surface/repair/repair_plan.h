@@ -12,6 +12,9 @@ namespace kerf {
 
 /// The steps of the ladder, in the order in which they are done.
 enum class RepairKind {
+    merge,          ///< vertices nearer than a tolerance become one, wherever they are: --weld
+    largest,        ///< only the connected component of the largest area stays: --keep-largest
+    span,           ///< closed loops of few edges are spanned by facets of their own vertices: --fill-holes
     weld,           ///< vertices nearer than a tolerance become one
     clean,          ///< facets that are copies, folded upon each other, or without area go
     stitch,         ///< borders that are nearer than a tolerance become one
@@ -25,7 +28,10 @@ enum class RepairKind {
     intersections,  ///< facets that cross share the curve, and facets inside go
     renew,          ///< remaining defects go, with facets around them, and are filled
 };
-inline constexpr std::size_t repair_kind_count = static_cast<std::size_t>(RepairKind::renew) + 1;
+
+/// Returns whether a step prepares the surface for the others: it has an option of its own in place of a word, it takes
+/// surfaces whose facets say what they bound, too, and percentages of the steps behind it are of what it leaves.
+constexpr bool is_preparation(RepairKind kind) { return kind < RepairKind::weld; }
 
 /// The extent of a repair; each level has the steps of the one before.
 enum class RepairLevel {
@@ -57,6 +63,8 @@ struct RepairPlan {
     bool voids_are_parity = false;  ///< shells within others that cross none stay, whichever way they are turned
 
     bool empty() const { return steps.empty(); }
+    /// Returns whether there is no step behind the preparations.
+    bool only_prepares() const { return steps.empty() || is_preparation(steps.back().kind); }
     const RepairStep* find(RepairKind kind) const;
     /// Adds a step at its place; it replaces one of the same kind.
     void put(const RepairStep& step);

@@ -21,13 +21,29 @@ bool StepReport::changed() const {
 }
 
 bool RepairReport::changed() const {
-    return std::any_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.changed(); });
+    const auto has_changed = [](const StepReport& step) { return step.changed(); };
+    return std::any_of(preparations.begin(), preparations.end(), has_changed) ||
+           std::any_of(steps.begin(), steps.end(), has_changed);
 }
 
 double RepairReport::largest_move() const {
     double largest = 0;
     for (const StepReport& step : steps) largest = std::max(largest, step.largest_move);
     return largest;
+}
+
+std::int64_t RepairReport::done_by(RepairKind kind) const {
+    std::int64_t count = 0;
+    for (const StepReport& step : is_preparation(kind) ? preparations : steps)
+        for (const RepairAction& action : step.actions)
+            if (step.kind == kind && *action.refused_because == '\0') count += action.count;
+    return count;
+}
+
+StepReport RepairReport::preparation(RepairKind kind) const {
+    const auto found = std::find_if(preparations.begin(), preparations.end(),
+                                    [&](const StepReport& step) { return step.kind == kind; });
+    return found == preparations.end() ? StepReport{kind, {}} : *found;
 }
 
 std::string to_text(const RepairAction& action) {

@@ -36,18 +36,26 @@ struct StepReport {
     RepairKind kind;
     std::vector<RepairAction> actions;  ///< actions with a count
     double largest_move = 0;            ///< the largest move of a vertex of the input, units of the surface
+    double amount = 0;                  ///< the amount that was used: a length in units of the surface, or a count
+    std::int64_t added_facets = 0;      ///< facets of `span`
 
     bool changed() const;
 };
 
 struct RepairReport {
-    double diagonal = 0;            ///< diagonal of the bounding box before; the unit of percentages
-    double bound = 0;               ///< the bound that was used, units of the surface
-    std::vector<StepReport> steps;  ///< the steps that were done, in their order
+    double diagonal = 0;  ///< diagonal of the bounding box behind the preparations; the unit of percentages
+    double bound = 0;     ///< the bound that was used, units of the surface
+    std::vector<StepReport> preparations = {};  ///< the steps that were done of is_preparation(), in their order
+    std::vector<StepReport> steps = {};         ///< the other steps that were done, in their order
 
     /// Whether the surface has changed.
     bool changed() const;
+    /// Returns the largest move by one of `steps`, which `bound` limits.
     double largest_move() const;
+    /// Returns the number of things that steps of one kind did, without those that they refused.
+    std::int64_t done_by(RepairKind kind) const;
+    /// Returns the report of a preparation, an empty one where it was not done.
+    StepReport preparation(RepairKind kind) const;
 };
 
 /// Returns an action as text, with its first place and the reason of a refusal: "3 holes filled, the first near (0, 0,

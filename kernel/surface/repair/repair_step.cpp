@@ -12,6 +12,12 @@ namespace {
 constexpr RepairLevel by_name_only = RepairLevel::none;
 
 const RepairStepRow step_rows[] = {
+    {RepairKind::merge, "merge", by_name_only, AmountKind::length, 0,
+     "merge vertices nearer than TOL, wherever they are", merge_step},
+    {RepairKind::largest, "largest", by_name_only, AmountKind::none, 0,
+     "keep only the connected component of the largest area", largest_step},
+    {RepairKind::span, "span", by_name_only, AmountKind::count, 0,
+     "span closed loops of at most N edges by facets of their own vertices", span_step},
     {RepairKind::weld, "weld", RepairLevel::near, AmountKind::length, Length::percent(1e-4),
      "merge vertices nearer than TOL", weld_step},
     {RepairKind::clean, "clean", RepairLevel::exact, AmountKind::none, 0,
@@ -43,6 +49,10 @@ const RepairStepRow step_rows[] = {
 }  // namespace
 
 std::span<const RepairStepRow> repair_step_rows() { return step_rows; }
+
+std::span<const RepairStepRow> rows_with_words() {
+    return repair_step_rows().subspan(static_cast<std::size_t>(RepairKind::weld));
+}
 
 const char* name(RepairKind kind) { return step_rows[static_cast<std::size_t>(kind)].name; }
 

@@ -36,8 +36,8 @@ enum class AmountKind { none, length, count };
 
 struct RepairStepRow {
     RepairKind kind;
-    const char* name;   ///< the word that users write
-    RepairLevel level;  ///< the least level that has it; none: it is done only by name
+    const char* name;   ///< the word that users write, unless is_preparation()
+    RepairLevel level;  ///< the least level that has it; none: it is done only by name or option
     AmountKind amount;
     Length usual;      ///< the amount where nobody gives one
     const char* help;  ///< "merge vertices nearer than this"
@@ -46,6 +46,8 @@ struct RepairStepRow {
 
 /// Returns a row for each step, in the order of RepairKind.
 std::span<const RepairStepRow> repair_step_rows();
+/// Returns the rows of the steps behind the preparations.
+std::span<const RepairStepRow> rows_with_words();
 const char* name(RepairKind kind);
 
 /// Whether facets part regions, by walls that these share or are said to share, which no step may take out or part;
@@ -59,7 +61,7 @@ void refuse_odd_facets(StepReport& report);
 /// The functions of the steps. intersections_step() refuses, with a report, surfaces whose coordinates are not finite,
 /// and surfaces half of whose facets are shorter than the spacing of doubles at the largest coordinate: divided facets
 /// would not be theirs.
-ApplyStep weld_step, clean_step, stitch_step, orient_step, manifold_step, specks_step, caps_step, holes_step,
-    thicken_step, snap_step, intersections_step, renew_step;
+ApplyStep merge_step, largest_step, span_step, weld_step, clean_step, stitch_step, orient_step, manifold_step,
+    specks_step, caps_step, holes_step, thicken_step, snap_step, intersections_step, renew_step;
 
 }  // namespace kerf

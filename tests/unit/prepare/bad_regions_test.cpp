@@ -96,7 +96,7 @@ TEST(BadRegions, GapsOfAHundredthAreNoted) {
     for (const char* part : {"'bone'", "'cement'", "0.001", "--weld"})
         EXPECT_NE(input.notes[0].find(part), std::string::npos) << input.notes[0];
     InputOptions options;
-    options.weld_tolerance = Length(1.2e-3);
+    options.repairs.weld_tolerance = Length(1.2e-3);
     EXPECT_EQ(check_soup(soup, options).soup.region_names, (std::vector<std::string>{"bone", "cement"}));
     EXPECT_TRUE(check_soup(solids(bone(2), cement(1.5, 2))).diagnosis.defects.empty());
 }

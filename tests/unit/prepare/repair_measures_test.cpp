@@ -109,16 +109,16 @@ class Remedies : public testing::Test {
 
 TEST_F(Remedies, ALevelIsTriedBeforeItIsTold) {
     const Remedy found = remedy(test::cracked(test::box(), 1e-8, 1));
-    EXPECT_EQ(found.options.repair, "near");
+    EXPECT_EQ(found.options.repairs.plan, "near");
     EXPECT_TRUE(found.was_tried);
     EXPECT_LE(found.largest_move, 1e-3 * std::sqrt(3.0));
 }
 
 TEST_F(Remedies, WhatWasAskedForAlreadyIsNotTold) {
     InputOptions options;
-    options.repair = "full,no-weld,no-stitch,no-holes,no-intersections,no-manifold";
+    options.repairs.plan = "full,no-weld,no-stitch,no-holes,no-intersections,no-manifold";
     EXPECT_FALSE(remedy(test::cracked(test::box(), 1e-8, 1), options).options.wrap);
-    options.repair = "full,weld=1e-12,stitch=1e-12,holes=3";
+    options.repairs.plan = "full,weld=1e-12,stitch=1e-12,holes=3";
     EXPECT_TRUE(remedy(test::cracked(test::box(), 1e-4, 1), options).options.wrap);
 }
 
@@ -127,12 +127,12 @@ TEST_F(Remedies, AShellWithinAnotherIsAVoidBeforeItIsDeleted) {
     const Soup nested = test::join(test::box(Vec3::Zero(), Vec3::Constant(3), 1), test::box(Vec3::Ones(), {2, 2, 2}));
     const Remedy found = remedy(nested);
     EXPECT_EQ(found.options.voids, Voids::parity);
-    EXPECT_EQ(found.options.repair, "exact");
+    EXPECT_EQ(found.options.repairs.plan, "exact");
     EXPECT_TRUE(found.losses.empty());
 
     // What crosses the outer one as well is united; then the other goes, which parity alone would keep.
     InputOptions options;
-    options.repair = "exact";
+    options.repairs.plan = "exact";
     const Soup crossed = test::join(nested, test::box(Vec3(2.5, 0.5, 0.5), Vec3(3.5, 0.9, 0.9)));
     options.voids = Voids::parity;
     EXPECT_TRUE(remedy(crossed, options).losses.empty());
@@ -160,7 +160,7 @@ TEST_F(Remedies, FilesOfOneBodyAreNoRegions) {
     test::write_off(lids, ends.vertices, ends.facets);
     InputOptions options;
     options.more_files = {lids};
-    EXPECT_EQ(find_remedy(wall, options, check_input(wall, options)).value().options.repair, "near");
+    EXPECT_EQ(find_remedy(wall, options, check_input(wall, options)).value().options.repairs.plan, "near");
 }
 
 TEST_F(Remedies, EndsGetPatchesOfTheirOwnAndHolesAreFilled) {
@@ -176,7 +176,7 @@ TEST_F(Remedies, EndsGetPatchesOfTheirOwnAndHolesAreFilled) {
     holed.facets.pop_back();
     holed.patch.pop_back();
     EXPECT_EQ(remedy(holed).caps, 0) << "of three edges";
-    EXPECT_FALSE(remedy(holed).options.cap);
+    EXPECT_FALSE(remedy(holed).options.repairs.cap);
 }
 
 // Nothing but the caps is tried of so many facets.
@@ -185,7 +185,7 @@ TEST_F(Remedies, CapsOfLargeSurfacesAreOffered) {
     ASSERT_GT(large.facets.size(), most_tried);
     const Remedy found = remedy(large);
     EXPECT_FALSE(found.was_tried);
-    EXPECT_EQ(found.options.repair, "near");
+    EXPECT_EQ(found.options.repairs.plan, "near");
     EXPECT_EQ(found.caps, 2);
 }
 

@@ -13,8 +13,8 @@
 #include "surface/complex/mass_properties.h"
 #include "surface/diagnosis/open_loops.h"
 #include "surface/diagnosis/superfluous_facets.h"
-#include "surface/openings/hole_filling.h"
 #include "surface/regions/regions.h"
+#include "surface/repair/repair.h"
 
 namespace kerf {
 namespace {
@@ -224,11 +224,11 @@ TEST(WeldWithin, MendsSurfacesWhoseFacetsHaveVerticesThatAreNearlyEqual) {
             const Soup cracked = test::cracked(shape, 1e-9, seed);
             EXPECT_FALSE(check_soup(cracked).diagnosis.clean());
             InputOptions options;
-            options.weld_tolerance = 1e-6;
+            options.repairs.weld_tolerance = 1e-6;
             CheckedSoup checked = check_soup(cracked, options);
             EXPECT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup);
             EXPECT_EQ(checked.soup.vertices.size(), shape.vertices.size());
-            EXPECT_EQ(checked.repairs.merged_vertices,
+            EXPECT_EQ(checked.ladder.done_by(RepairKind::merge),
                       static_cast<std::int64_t>(cracked.vertices.size() - shape.vertices.size()));
             apply_repairs(checked);
             EXPECT_NEAR(enclosed_volume(checked.soup.vertices, checked.soup.facets) /
@@ -237,7 +237,7 @@ TEST(WeldWithin, MendsSurfacesWhoseFacetsHaveVerticesThatAreNearlyEqual) {
         }
 }
 
-TEST(HoleFilling, ClosesEverySmallHole) {
+TEST(SpannedHoles, CloseEverySmallHole) {
     for (const Soup& shape : whole_shapes())
         for (unsigned seed = 1; seed <= 10; ++seed) {
             SCOPED_TRACE(shape.patch_names.front() + ", seed " + std::to_string(seed));
@@ -245,12 +245,12 @@ TEST(HoleFilling, ClosesEverySmallHole) {
             const std::vector<OpenLoop> loops = find_open_loops(open.vertices, open.facets);
             ASSERT_FALSE(loops.empty());
             InputOptions options;
-            options.fill_hole_edges = 100;
+            options.repairs.fill_hole_edges = 100;
             CheckedSoup checked = check_soup(open, options);
-            EXPECT_EQ(checked.repairs.filled_holes, static_cast<std::int64_t>(loops.size()));
+            EXPECT_EQ(checked.ladder.done_by(RepairKind::span), static_cast<std::int64_t>(loops.size()));
             std::int64_t facets = 0;
             for (const OpenLoop& loop : loops) facets += static_cast<std::int64_t>(loop.vertices.size()) - 2;
-            EXPECT_EQ(checked.repairs.added_facets, facets);
+            EXPECT_EQ(checked.ladder.preparation(RepairKind::span).added_facets, facets);
             ASSERT_TRUE(checked.diagnosis.clean()) << checked.diagnosis.summary(checked.soup);
             EXPECT_EQ(checked.diagnosis.count(DefectKind::inconsistent_orientation), 0);
             EXPECT_EQ(checked.soup.patch_names.back(), "filled");
@@ -266,7 +266,7 @@ TEST(HoleFilling, ClosesEverySmallHole) {
         }
 }
 
-TEST(HoleFilling, LeavesLoopsOfMoreEdges) {
+TEST(SpannedHoles, LeaveLoopsOfMoreEdges) {
     Soup soup = test::icosphere(2);
     const Numbers fan = test::facets_with(soup, {5});
     std::vector<char> drop(soup.facets.size(), 0);
@@ -277,13 +277,18 @@ TEST(HoleFilling, LeavesLoopsOfMoreEdges) {
     drop_facets(soup, drop);
     drop_unused_vertices(soup);
     const auto rim = static_cast<std::int32_t>(fan.size());
+    const auto spanned = [](Soup& open, std::int32_t most_edges) {
+        RepairPlan plan;
+        plan.put({RepairKind::span, Length(most_edges)});
+        return repair(open, plan).done_by(RepairKind::span);
+    };
     Soup small = soup, none = soup;
-    EXPECT_EQ(fill_holes(none, 2).holes, 0);
+    EXPECT_EQ(spanned(none, 2), 0);
     EXPECT_EQ(none.facets, soup.facets);
     EXPECT_EQ(none.patch_names, soup.patch_names);
-    EXPECT_EQ(fill_holes(small, rim - 1).holes, 1);
+    EXPECT_EQ(spanned(small, rim - 1), 1);
     EXPECT_EQ(find_open_loops(small.vertices, small.facets).size(), 1u);
-    EXPECT_EQ(fill_holes(soup, rim).holes, 2);
+    EXPECT_EQ(spanned(soup, rim), 2);
     EXPECT_TRUE(find_open_loops(soup.vertices, soup.facets).empty());
 }
 

@@ -62,11 +62,32 @@ TEST(RepairPlan, WhatIsNoRepairIsRefusedWithTheWords) {
     }
 }
 
-TEST(RepairPlan, EveryStepIsNamedInTheWordsAndInOneLevelOrNone) {
-    for (const RepairStepRow& row : repair_step_rows()) {
+TEST(RepairPlan, EveryStepWithAWordIsNamedInTheWordsAndInOneLevelOrNone) {
+    for (const RepairStepRow& row : repair_step_rows())
+        EXPECT_EQ(&row, &repair_step_rows()[static_cast<std::size_t>(row.kind)]);
+    for (const RepairStepRow& row : rows_with_words()) {
+        EXPECT_FALSE(is_preparation(row.kind)) << row.name;
         EXPECT_NE(repair_words().find(row.name), std::string::npos) << row.name;
         EXPECT_EQ(steps_of(plan(row.name)), row.name);
-        EXPECT_EQ(&row, &repair_step_rows()[static_cast<std::size_t>(row.kind)]);
+    }
+}
+
+TEST(RepairPlan, PreparationsComeFirstAndHaveNoWords) {
+    RepairPlan near = plan("near");
+    const std::string others = steps_of(near);
+    near.put({RepairKind::span, Length(4)});
+    near.put({RepairKind::merge, Length(0.1)});
+    EXPECT_EQ(steps_of(near), "merge,span," + others);
+    EXPECT_FALSE(near.only_prepares());
+    RepairPlan only;
+    EXPECT_TRUE(only.only_prepares());
+    only.put({RepairKind::largest});
+    EXPECT_TRUE(only.only_prepares());
+    EXPECT_FALSE(only.empty());
+    for (const RepairStepRow& row : repair_step_rows()) {
+        if (is_preparation(row.kind)) {
+            EXPECT_THROW(plan(row.name), Error) << row.name;
+        }
     }
 }
 

@@ -56,7 +56,7 @@ TEST_F(FileDiagnosisTest, TheCommandHasAllFilesAndOptions) {
     EXPECT_EQ(json["command"], command);
     EXPECT_EQ(json["repair"], "full,snap,bodies=regions");
     found.remedy->options.wrap = true;
-    found.remedy->options.repair.clear();
+    found.remedy->options.repairs.plan.clear();
     EXPECT_EQ(command_of(*found.remedy, one), "kerf wrap " + one + " -o one_wrapped.obj --scale 0.001 --with " + other);
 }
 

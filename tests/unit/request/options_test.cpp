@@ -68,11 +68,11 @@ TEST(RunOptions, ValuesOutOfRangeAreNamed) {
     expect_refused("attempts", [](RunOptions& o) { o.attempts = 0; });
     for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
         expect_refused("scale", [&](RunOptions& o) { o.input_options.scale = bad; });
-        expect_refused("weld", [&](RunOptions& o) { o.input_options.weld_tolerance = bad; });
+        expect_refused("weld", [&](RunOptions& o) { o.input_options.repairs.weld_tolerance = bad; });
         expect_refused("feature-angle", [&](RunOptions& o) { o.input_options.feature_angle_deg = bad; });
     }
     expect_refused("feature-angle", [](RunOptions& o) { o.input_options.feature_angle_deg = 180; });
-    expect_refused("fill-holes", [](RunOptions& o) { o.input_options.fill_hole_edges = -1; });
+    expect_refused("fill-holes", [](RunOptions& o) { o.input_options.repairs.fill_hole_edges = -1; });
     expect_refused("optimise-surface", [](RunOptions& o) { o.input_options.optimisation_sweeps = -1; });
 }
 
@@ -104,6 +104,42 @@ TEST(OptionFields, ChoicesReachTheirValues) {
     EXPECT_EQ(options.decompose.cut.load.balance, Balance::work);
     EXPECT_EQ(options.decompose.cut.contour, ContourMethod::straight);
     EXPECT_EQ(options.input_options.voids, Voids::parity);
+}
+
+TEST(WithoutRepairs, LeavesNoStepWhicheverOptionAsksForIt) {
+    int spellings = 0;
+    InputOptions all;
+    for (const OptionField& field : input_option_fields(all)) {
+        InputOptions options;
+        for (const OptionField& own : input_option_fields(options)) {
+            if (own.name != field.name) continue;
+            if (auto* const* flag = std::get_if<bool*>(&own.value)) **flag = true;
+            if (own.is_number()) own.set_text("3");
+            if (own.name == "repair") own.set_text("exact");
+        }
+        const RepairPlan plan = repair_plan_of(options);
+        spellings += !plan.empty();
+        EXPECT_TRUE(repair_plan_of(without_repairs(options)).empty()) << field.name;
+        EXPECT_FALSE(without_repairs(options).wraps()) << field.name;
+    }
+    EXPECT_EQ(spellings, 6) << "weld, keep-largest, fill-holes, repair, cap and thicken";
+}
+
+TEST(RepairPlanOf, PutsTheStepOfEachSpellingInItsPlace) {
+    InputOptions options;
+    options.repairs.plan = "exact";
+    options.repairs.weld_tolerance = Length::percent(2);
+    options.repairs.fill_hole_edges = 7;
+    options.repairs.keep_largest = options.repairs.cap = true;
+    options.repairs.thicken = 0.5;
+    const RepairPlan plan = repair_plan_of(options);
+    EXPECT_EQ(plan.find(RepairKind::merge)->amount->of(50), 1);
+    EXPECT_EQ(plan.find(RepairKind::span)->amount->of(50), 7);
+    EXPECT_EQ(plan.find(RepairKind::thicken)->amount->of(50), 0.5);
+    EXPECT_FALSE(plan.find(RepairKind::caps)->amount);
+    EXPECT_NE(plan.find(RepairKind::clean), nullptr);
+    EXPECT_TRUE(std::is_sorted(plan.steps.begin(), plan.steps.end(),
+                               [](const RepairStep& a, const RepairStep& b) { return a.kind < b.kind; }));
 }
 
 TEST(OptionFields, TextGivesTheValueBack) {

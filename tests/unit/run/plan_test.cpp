@@ -82,7 +82,7 @@ TEST_F(PlanOnRanks, IsTheSameForAllWaysToAskForSizes) {
     expect_same_on_all(options);
     options.sizes.size = Length::percent(5);
     options.deviation = Length::percent(1);
-    options.input_options.weld_tolerance = 1e-9;
+    options.input_options.repairs.weld_tolerance = 1e-9;
     expect_same_on_all(options);
     options.sizes.inside = {"sphere:0,0,0,1=0.1"};
     options.sizes.growth = 0.3;

@@ -45,17 +45,6 @@ bool is_same_surface(const Soup& a, const Soup& b) {
 
 }  // namespace
 
-InputOptions without_repairs(InputOptions options) {
-    const InputOptions usual;
-    options.weld_tolerance = usual.weld_tolerance;
-    options.fill_hole_edges = usual.fill_hole_edges;
-    options.keep_largest = usual.keep_largest;
-    options.repair = usual.repair;
-    options.wrap = usual.wrap;
-    options.wrapping = usual.wrapping;
-    return options;
-}
-
 bool same_input(InputOptions a, InputOptions b) {
     const std::vector<OptionField> of_a = input_option_fields(a), of_b = input_option_fields(b);
     return a.wrap == b.wrap &&

@@ -33,9 +33,6 @@ struct CheckedSurface {
     std::string note;                            ///< note on its slivers; empty: there are none
 };
 
-/// Returns options that read the file in the same way, and leave the surface as it is read.
-InputOptions without_repairs(InputOptions options);
-
 /// Returns whether both options read and mend a surface in the same way.
 bool same_input(InputOptions a, InputOptions b);
 

@@ -20,7 +20,7 @@ class Repairs {
     /// Returns whether a surface is open that can be repaired: it came from a file, is checked, and nothing is under
     /// way.
     bool can_repair() const;
-    /// Checks the surface again, in the background, as other `options` mend it (InputOptions::repair and others), and
+    /// Checks the surface again, in the background, as other `options` mend it (InputOptions::repairs and others), and
     /// shows the result; Document::unrepaired is the surface of the file. Always starts from the file, so that a
     /// command with the same options does the same. A run that is shown is kept to compare with, as by
     /// Session::start_run().

@@ -1,6 +1,6 @@
 // A rim is triangulated in one of three ways. In its plane, by a constrained Delaunay triangulation, if it is planar,
 // or long and nearly planar. By dynamic programming over the largest angle between neighbours if it has at most 100
-// vertices (Liepa 2003, liepa2003; surface/openings/inside/hole_triangulation.h), which takes O(n^3). A longer one is
+// vertices (Liepa 2003, liepa2003; surface/openings/hole_triangulation.h), which takes O(n^3). A longer one is
 // divided at a short chord, and its halves are triangulated likewise; each half has a vertex of the other as the apex
 // beyond the chord, so that the two bend little there. Triangles name positions in the whole rim. A band between two
 // rims is made by a walk along both that takes the shorter diagonal each time.
@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "base/geometry/box.h"
-#include "surface/openings/inside/hole_triangulation.h"
+#include "surface/openings/hole_triangulation.h"
 #include "surface/soup/facet_triangulation.h"
 
 namespace kerf {

@@ -1,4 +1,4 @@
-#include "surface/openings/inside/hole_triangulation.h"
+#include "surface/openings/hole_triangulation.h"
 
 #include <algorithm>
 
