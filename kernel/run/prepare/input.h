@@ -89,10 +89,8 @@ struct InputRegion {
     double area = 0;
 };
 
-/// Surfaces ready to be cut, and the facts about them that reports tell.
-struct Input {
-    std::string path;
-    std::string file_hash;  ///< hash of the file's bytes, or of the arrays, see hash_text()
+/// Measures of the surfaces of an input.
+struct InputMeasures {
     std::int64_t vertices = 0;
     std::int64_t facets = 0;
     std::int64_t components = 0;       ///< shells of all regions
@@ -102,7 +100,13 @@ struct Input {
     double area = 0;                   ///< area of all facets, each once
     std::vector<InputRegion> regions;  ///< one for each of Complex::region_names(); empty if there is only one
     double largest_coordinate = 0;     ///< the largest absolute value of a coordinate
-    double diagonal = 0;               ///< diagonal of the bounding box
+};
+
+/// Surfaces ready to be cut, and the facts about them that reports tell.
+struct Input : InputMeasures {
+    std::string path;
+    std::string file_hash;  ///< hash of the file's bytes, or of the arrays, see hash_text()
+    double diagonal = 0;    ///< diagonal of the bounding box
     TidyCounts tidied;
     OrientationReport orientation;
     std::int64_t moved_vertices = 0;  ///< vertices moved by the optimisation of the surface
