@@ -22,7 +22,6 @@
 #include "surface/arrange/inside/facet_divider.h"
 #include "surface/arrange/inside/near_features.h"
 #include "surface/arrange/inside/plane_groups.h"
-#include "surface/arrange/inside/plane_overlaps.h"
 
 namespace kerf {
 

@@ -22,8 +22,9 @@ enum class HullFate : std::uint8_t {
 /// around a point more often than half a time (surface/arrange/winding_number.h). Facets may be there several times and
 /// in both directions, and may leave holes.
 ///
-/// Sides of facets are told to be inside or outside by find_inside_sides() (jacobson2013, zhou2016). Where facets
-/// close, winding numbers are whole, and the result closes, too; where they do not, as few edges as possible are open.
+/// Winding numbers above 1/2 vote for the inside of a side, weighted by areas, and sides that face each other around an
+/// edge should be alike: a minimum cut finds the labels that are least against votes and leave the fewest edges open
+/// (jacobson2013, zhou2016). Where facets close, winding numbers are whole, and the result closes, too.
 ///
 /// `facets`: in range and meeting only in the vertices and edges that they share, up to a few that do not; facets with
 /// a repeated vertex are outside. `check_cancelled`: called now and then, may throw. O(#F log #F), 3 s for a million

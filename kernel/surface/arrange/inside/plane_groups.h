@@ -1,7 +1,8 @@
-// Groups of facets that are divided together, because they lie on one another.
+// Facets that lie on one another up to roundings: pairs of them, and groups that are divided together.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "surface/arrange/inside/divided_facets.h"
 
 namespace kerf {
+
+/// Returns all pairs of facets that lie in one plane within `tolerance` and share area, and of which one is near,
+/// ascending. `is_near` (#F): facets of these pairs become near, too, and so on. Expected O(#F log #F).
+std::vector<FacetPair> plane_overlaps(const DividedFacets& divided, std::vector<char>& is_near, double tolerance,
+                                      const std::function<void()>& check_cancelled);
 
 struct PlaneGroups {
     std::vector<std::int32_t> facets;  ///< numbers of facets, group after group
