@@ -14,24 +14,24 @@ namespace {
 
 struct CapsReport {
     RepairAction capped{"opening capped", "openings capped", "edges"};
-    RepairAction few{"opening", "openings", "edges"};
-    RepairAction smooth{"opening", "openings", "edges"};
-    RepairAction sheets{"rim of a sheet", "rims of sheets", "edges"};
-    RepairAction unfit{"rim", "rims", "edges"};
-    RepairAction impossible{"opening", "openings", "edges"};
+    RepairAction few, smooth;
+    RepairAction sheets = refused_action("rim of a sheet", "rims of sheets", "edges",
+                                         "a lid would fold back onto the sheet; thicken makes it a wall");
+    RepairAction unfit = refused_action(
+        "rim", "rims", "edges", "it is no closed loop on a surface with two sides; orient and manifold may help");
+    RepairAction impossible = refused_opening("every lid crosses the surface");
 
-    explicit CapsReport(bool has_holes) {
-        few.refused_because =
-            has_holes ? "fewer edges than caps=N asks for; a hole" : "fewer edges than caps=N asks for; holes fills it";
-        smooth.refused_because = has_holes ? "the surface goes on over it; a hole, not an end"
-                                           : "the surface goes on over it; holes fills it";
-        sheets.refused_because = "a lid would fold back onto the sheet; thicken makes it a wall";
-        unfit.refused_because = "it is no closed loop on a surface with two sides; orient and manifold may help";
-        impossible.refused_because = "every lid crosses the surface";
-    }
+    explicit CapsReport(bool has_holes)
+        : few(refused_opening(has_holes ? "fewer edges than caps=N asks for; a hole"
+                                        : "fewer edges than caps=N asks for; holes fills it")),
+          smooth(refused_opening(has_holes ? "the surface goes on over it; a hole, not an end"
+                                           : "the surface goes on over it; holes fills it")) {}
     void add_to(StepReport& report) {
         for (RepairAction* action : {&capped, &few, &smooth, &sheets, &unfit, &impossible})
             report.actions.push_back(std::move(*action));
+    }
+    static RepairAction refused_opening(const char* because) {
+        return refused_action("opening", "openings", "edges", because);
     }
 };
 

@@ -17,24 +17,19 @@ struct HolesReport {
     RepairAction banded{"gap between two rims closed", "gaps between two rims closed", "edges"};
     RepairAction crossing{"hole filled across other facets", "holes filled across other facets", "edges"};
     RepairAction high{"filling leaves the plane of its rim", "fillings leave the planes of their rims", "at most"};
-    RepairAction long_ones{"hole", "holes", "edges"};
-    RepairAction chains{"open chain of edges", "open chains of edges", "edges"};
-    RepairAction one_sided{"rim of a surface with one side", "rims of surfaces with one side", "edges"};
-    RepairAction infinite{"hole", "holes", "edges"};
-    RepairAction sheets{"rim of a sheet", "rims of sheets", "edges"};
-    RepairAction lids{"hole", "holes", "edges"};
-    RepairAction impossible{"hole", "holes", "edges"};
+    RepairAction long_ones = refused_hole("more edges than holes=N allows");
+    RepairAction chains = refused_action("open chain of edges", "open chains of edges", "edges",
+                                         "it ends where more than two facets meet in an edge; manifold opens those");
+    RepairAction one_sided = refused_action("rim of a surface with one side", "rims of surfaces with one side", "edges",
+                                            "what fills it would have no outside; cut the surface, or thicken it");
+    RepairAction infinite = refused_hole("a vertex has no finite coordinates");
+    RepairAction sheets = refused_action("rim of a sheet", "rims of sheets", "edges",
+                                         "a filling would fold back onto the sheet; thicken makes it a wall");
+    RepairAction lids = refused_hole("it would need a lid, but sheets are to be thickened");
+    RepairAction impossible = refused_hole("every filling crosses the surface");
 
-    HolesReport() {
-        high.changes_surface = false;
-        long_ones.refused_because = "more edges than holes=N allows";
-        chains.refused_because = "it ends where more than two facets meet in an edge; manifold opens those";
-        one_sided.refused_because = "what fills it would have no outside; cut the surface, or thicken it";
-        infinite.refused_because = "a vertex has no finite coordinates";
-        sheets.refused_because = "a filling would fold back onto the sheet; thicken makes it a wall";
-        lids.refused_because = "it would need a lid, but sheets are to be thickened";
-        impossible.refused_because = "every filling crosses the surface";
-    }
+    HolesReport() { high.changes_surface = false; }
+    static RepairAction refused_hole(const char* because) { return refused_action("hole", "holes", "edges", because); }
     RepairAction& of(RimObstacle obstacle) {
         return obstacle == RimObstacle::no_loop ? chains : obstacle == RimObstacle::one_sided ? one_sided : infinite;
     }

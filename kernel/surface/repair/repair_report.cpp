@@ -14,6 +14,12 @@ void RepairAction::add(RepairPlace place) {
     if (places.size() < most_places) places.push_back(std::move(place));
 }
 
+RepairAction refused_action(const char* one, const char* many, const char* measure, const char* because) {
+    RepairAction action{one, many, measure};
+    action.refused_because = because;
+    return action;
+}
+
 bool StepReport::changed() const {
     return std::any_of(actions.begin(), actions.end(), [](const RepairAction& action) {
         return action.count > 0 && action.changes_surface && *action.refused_because == '\0';

@@ -32,6 +32,9 @@ struct RepairAction {
     void add(RepairPlace place);
 };
 
+/// Returns an action of which each place will be left as it is, for the same reason.
+RepairAction refused_action(const char* one, const char* many, const char* measure, const char* because);
+
 struct StepReport {
     RepairKind kind;
     std::vector<RepairAction> actions;  ///< actions with a count
