@@ -1,14 +1,47 @@
 #include "help/help_text.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <string_view>
 
-#include "help/inside/wrapped_text.h"
+#include <fmt/format.h>
 
 namespace kerf {
 
 namespace {
 
-constexpr std::size_t text_column = 24;
+constexpr std::size_t help_columns = 80, text_column = 24;
+
+std::string wrapped_line(std::string_view line, std::size_t indent) {
+    const std::string next_line = "\n" + std::string(indent, ' ');
+    std::string text;
+    std::size_t used = 0;
+    while (!line.empty()) {
+        const std::string_view word = line.substr(0, line.find(' '));
+        line.remove_prefix(std::min(line.size(), word.size() + 1));
+        if (used > 0 && indent + used + 1 + word.size() > help_columns) {
+            text += next_line;
+            used = 0;
+        }
+        if (used > 0) text += ' ';
+        text += word;
+        used += word.size() + (used > 0 ? 1 : 0);
+    }
+    return text;
+}
+
+// Returns `text` broken at spaces so that no line, with `indent` spaces before it, is longer than help_columns; a word
+// that is longer alone stays whole. Newlines stay, and lines that begin with a space are not broken. The first line
+// has no indent, the last one no newline.
+std::string wrapped(std::string_view text, std::size_t indent) {
+    std::string result;
+    for (bool first = true; first || !text.empty(); first = false) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        if (!first) result += "\n" + std::string(line.empty() ? 0 : indent, ' ');
+        result += line.starts_with(' ') ? std::string(line) : wrapped_line(line, indent);
+    }
+    return result;
+}
 
 // An entry of the help. Its text stands beside its heading, or below a long one.
 std::string entry(const std::string& heading, const std::string& text) {

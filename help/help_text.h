@@ -8,7 +8,7 @@
 
 namespace kerf {
 
-/// Returns the help of a command, at most help_columns wide: usage, description, options under their headings, the
+/// Returns the help of a command, at most 80 columns wide: usage, description, options under their headings, the
 /// footer.
 std::string help_text(const CommandHelp& command);
 

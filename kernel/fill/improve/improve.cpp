@@ -13,6 +13,7 @@
 
 #include "base/core/check.h"
 #include "base/core/error.h"
+#include "fill/improve/inside/best_place.h"
 #include "fill/improve/inside/edge_removal.h"
 #include "fill/improve/inside/vertex_insertion.h"
 

@@ -5,15 +5,18 @@
 // the shell alone; everything else, ghosts included, is cut out before points are added.
 #include "fill/shell/shell.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "base/core/error.h"
 #include "fill/delaunay/delaunay.h"
 #include "fill/delaunay/delaunay_flips.h"
-#include "fill/delaunay/enclosing_faces.h"
+#include "fill/delaunay/faces.h"
+#include "fill/improve/cell_shape.h"
 #include "fill/shell/inside/face_recovery.h"
-#include "fill/shell/inside/steiner_points.h"
-#include "fill/shell/inside/vertex_merging.h"
+#include "fill/shell/inside/vertex_star.h"
 
 namespace kerf {
 
@@ -62,6 +65,83 @@ RecoveredFaces recover(SpatialTriangulation& triangulation, const std::vector<Tr
                     fmt::format("{} of {} facets cannot be recovered.", found.lost.size(), triangles.size()));
     return found;
 }
+
+// --- vertices that recovery has added ---
+
+constexpr int most_visits = 3;
+constexpr double least_step = 1e-3;     // share of the way to the middle of the neighbours
+constexpr double good_enough_deg = 10;  // cells this good may always replace a vertex
+
+struct Place {
+    Vec3 at;
+    double badness;
+};
+
+// Returns the place towards the middle of a vertex's neighbours that makes the worst of its cells best.
+Place best_place(const VertexStar& star, const std::vector<Vec3>& points) {
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t u : star.neighbours()) middle += points[u];
+    middle /= static_cast<double>(star.neighbours().size());
+    const Vec3& from = star.at();
+    const Vec3 way = middle - from;
+    Place best{from, star.badness_at(from)};
+    for (double step = 1; step > least_step; step /= 2) {
+        const Vec3 p = from + step * way;
+        const double badness = star.badness_at(p);
+        if (badness < best.badness) best = {p, badness};
+    }
+    return best;
+}
+
+// Merges or moves a vertex; true if it is gone.
+bool settle(EditableTets& tets, std::int32_t v) {
+    VertexStar star(tets, v);
+    const Place place = best_place(star, tets.points());
+    const auto merged = star.best_merged(std::max(place.badness, square_from_degrees(good_enough_deg)));
+    if (merged.cells.empty())
+        star.move_to(place.at);
+    else
+        star.replace_by(merged);
+    return !merged.cells.empty();
+}
+
+// Merges each vertex from number `first` on with a neighbour where that leaves positive cells that are better than the
+// worst at it, and otherwise moves it to where the worst of its cells is best. None of them may lie on the boundary.
+// Returns how many are left. Deterministic. Linear.
+std::int64_t settle_steiner_points(EditableTets& tets, std::int32_t first) {
+    std::vector<std::int32_t> left(tets.points().size() - static_cast<std::size_t>(first));
+    std::iota(left.begin(), left.end(), first);
+    std::erase_if(left, [&](std::int32_t v) { return tets.cell_at(v) == EditableTets::none; });
+    for (int visit = 0; visit < most_visits; ++visit)
+        std::erase_if(left, [&](std::int32_t v) { return settle(tets, v); });
+    return static_cast<std::int64_t>(left.size());
+}
+
+// --- points where cells are smaller than wanted ---
+
+constexpr double least_merged_angle_deg = 12;
+constexpr double least_kept_edge_share = 0.7;  // share of the wanted length
+
+void merge_if_close(EditableTets& tets, std::int32_t v, const SizeField& size) {
+    VertexStar star(tets, v);
+    const double kept = least_kept_edge_share * size.at(star.at());
+    if (star.shortest_edge_sq() >= kept * kept) return;
+    const double worst = std::max(square_from_degrees(least_merged_angle_deg), star.badness_at(star.at()));
+    const auto merged =
+        star.best_merged(worst, [&](const std::array<Vec3, 4>& corners) { return !is_too_large(size, corners); });
+    if (!merged.cells.empty()) star.replace_by(merged);
+}
+
+// Merges vertices from number `first` on, none of which lies on the boundary, with a neighbour if an edge of theirs is
+// shorter than 0.7 times the wanted length, and no new cell is too large (is_too_large()), or is worse than both the
+// worst of those that are replaced and a cell of 12 degrees. Refinement of slender cells brings such vertices. Those
+// that are merged are left without cells. Deterministic.
+void merge_close_vertices(EditableTets& tets, std::int32_t first, const SizeField& size) {
+    for (std::int32_t v = first; v < static_cast<std::int32_t>(tets.points().size()); ++v)
+        if (tets.cell_at(v) != EditableTets::none) merge_if_close(tets, v, size);
+}
+
+// --- the whole ---
 
 // Drops vertices that merging has left without cells.
 void drop_unused_vertices(TetMesh& mesh) {

@@ -1,6 +1,8 @@
 // Meshers: from a closed surface to the tetrahedra inside.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -8,7 +10,6 @@
 #include "fill/improve/improve.h"
 #include "fill/mesh/tet_mesh.h"
 #include "fill/shell/facet_recovery_counts.h"
-#include "fill/volume/inside/tetgen_options.h"
 #include "surface/complex/surface.h"
 #include "surface/size/size_field.h"
 
@@ -16,6 +17,20 @@ namespace kerf {
 
 inline constexpr NumberRange radius_edge_range = {"0 (no refinement) or above 1", 1,
                                                   std::numeric_limits<double>::infinity(), true, true};
+
+/// The options of TetGen alone.
+struct TetgenOptions {
+    std::string switches;  ///< switches of an expert, which replace the bounds of MesherOptions; a volume is in units
+                           ///< of the input cubed
+    double tolerance = 0;  ///< relative tolerance for points that count as coplanar; 0: TetGen's own
+    std::uint32_t shuffle = 0;  ///< seed of a fixed shuffle of vertices and facets, the usual cure when TetGen fails;
+                                ///< 0: they are handed over as they are
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(switches, tolerance, shuffle);
+    }
+};
 
 struct MesherOptions {
     std::string name = "auto";  ///< name of the mesher, see meshers()

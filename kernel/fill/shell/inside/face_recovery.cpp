@@ -13,11 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 #include "fill/delaunay/enclosing_faces.h"
 #include "fill/shell/inside/boundary_splitting.h"
 #include "fill/shell/inside/flip_recovery.h"
-#include "fill/shell/inside/surface_edges.h"
+#include "fill/shell/inside/missing_triangles.h"
 
 namespace kerf {
 
@@ -54,6 +55,39 @@ std::vector<Triangle> without_opposites(std::vector<Triangle> triangles) {
             left.push_back(t);
     return left;
 }
+
+// The edges of a closed surface whose vertices are numbered from 0 to below `vertices`. 6 bytes a triangle and 4 a
+// vertex.
+class SurfaceEdges {
+ public:
+    SurfaceEdges() = default;
+    // Takes each edge in the direction in which it ascends: on a closed surface that is once.
+    SurfaceEdges(const std::vector<Triangle>& triangles, std::size_t vertices) : start_(vertices + 1) {
+        const auto for_each_ascending = [&](const auto& visit) {
+            for (const Triangle& t : triangles)
+                for (int i = 0; i < 3; ++i)
+                    if (t[i] < t[(i + 1) % 3]) visit(t[i], t[(i + 1) % 3]);
+        };
+        for_each_ascending([&](std::int32_t a, std::int32_t) { ++start_[a]; });
+        std::inclusive_scan(start_.begin(), start_.end(), start_.begin());
+        other_.resize(start_.back());
+        for_each_ascending([&](std::int32_t a, std::int32_t b) { other_[--start_[a]] = b; });
+    }
+
+    // Returns whether the surface has an edge, in either direction. Linear in the number of edges from its smaller
+    // vertex to greater ones.
+    bool contains(std::int32_t a, std::int32_t b) const {
+        if (a > b) std::swap(a, b);
+        if (a < 0 || static_cast<std::size_t>(a) + 1 >= start_.size()) return false;
+        return std::find(other_.begin() + start_[a], other_.begin() + start_[a + 1], b) !=
+               other_.begin() + start_[a + 1];
+    }
+
+ private:
+    // The greater ends of all edges, in a list by their smaller ends, and the place in it at which those of a vertex
+    // start.
+    std::vector<std::int32_t> start_, other_;
+};
 
 class FaceRecovery {
  public:
