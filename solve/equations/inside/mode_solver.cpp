@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/mixed_bits.h"
 #include "base/geometry/symmetric_axes.h"
 #include "solve/equations/inside/block_rows.h"
 
@@ -75,11 +76,11 @@ EigenProblem ModeSolver::equations() {
 // Returns fixed numbers that look like random ones, zero where a degree of freedom is held.
 Eigen::MatrixXd ModeSolver::start(int columns) const {
     Eigen::MatrixXd vectors(static_cast<Eigen::Index>(stiffness_.matrix.owned_size()), columns);
-    std::uint64_t state = 0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(problem_.space->first_row());
+    RandomSequence random(0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(problem_.space->first_row()));
     for (auto column : vectors.colwise())
         for (Eigen::Index dof = 0; dof < vectors.rows(); ++dof) {
-            state = state * 6364136223846793005 + 1442695040888963407;
-            column[dof] = problem_.is_held(dof) ? 0 : static_cast<double>(state >> 40) * 0x1p-24 - 0.5;
+            const double number = random.next_centred();  // drawn for held ones, too
+            column[dof] = problem_.is_held(dof) ? 0 : number;
         }
     return vectors;
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "base/core/mixed_bits.h"
 #include "solve/multigrid/dense.h"
 #include "solve/multigrid/level_matrix.h"
 
@@ -61,11 +62,8 @@ class ChebyshevSmoother {
         const MpiRanks& ranks = matrix_->exchange.ranks();
         const std::size_t size = matrix_->owned_size();
         std::vector<double> r(matrix_->size(), 0), z = r, p = r, q = r;
-        std::uint64_t state = 0x9e3779b97f4a7c15;
-        for (std::size_t i = 0; i < size; ++i) {
-            state = state * 6364136223846793005 + 1442695040888963407;
-            r[i] = static_cast<double>(state >> 40) * 0x1p-24 - 0.5;
-        }
+        RandomSequence random(0x9e3779b97f4a7c15);
+        for (std::size_t i = 0; i < size; ++i) r[i] = random.next_centred();
         std::vector<double> diagonal, beside;
         double rho = 0, alpha = 1;
         for (int k = 0; k < lanczos_steps; ++k) {

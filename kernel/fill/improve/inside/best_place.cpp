@@ -1,5 +1,7 @@
 #include "fill/improve/inside/best_place.h"
 
+#include "base/core/mixed_bits.h"
+
 namespace kerf {
 
 namespace {
@@ -8,10 +10,9 @@ constexpr int most_steps = 24, most_failures = 8;  // failures one after the oth
 constexpr double first_step = 0.3;                 // share of the distance to the nearest vertex
 constexpr double longer = 1.4, shorter = 0.8;
 
-// A linear congruential generator (constants of Knuth's MMIX): the same numbers everywhere.
 class Directions {
  public:
-    explicit Directions(std::int32_t seed) : state_(static_cast<std::uint64_t>(seed) * 2 + 1) {}
+    explicit Directions(std::int32_t seed) : numbers_(static_cast<std::uint64_t>(seed) * 2 + 1) {}
     // Returns a vector in the cube from -1 to 1.
     Vec3 next() {
         const double x = number(), y = number(), z = number();
@@ -19,11 +20,8 @@ class Directions {
     }
 
  private:
-    double number() {
-        state_ = state_ * 6364136223846793005 + 1442695040888963407;
-        return static_cast<double>(state_ >> 33) * 0x1p-30 - 1;
-    }
-    std::uint64_t state_;
+    double number() { return static_cast<double>(numbers_.next() >> 33) * 0x1p-30 - 1; }
+    RandomSequence numbers_;
 };
 
 }  // namespace
