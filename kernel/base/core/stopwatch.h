@@ -21,4 +21,15 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
+/// Returns the result of a stage, and adds its wall clock to `seconds`, also where it throws.
+template <class Stage>
+auto timed(double& seconds, Stage stage) {
+    struct AddAtEnd {
+        double& seconds;
+        Stopwatch stopwatch = {};
+        ~AddAtEnd() { seconds += stopwatch.seconds(); }
+    } timer{seconds};
+    return stage();
+}
+
 }  // namespace kerf

@@ -32,12 +32,12 @@ bool has_cell_without_volume(const TetMesh& mesh) {
 void replace_cells_without_volume(Filling& filling, const MesherOptions& options) {
     for (const double threshold_deg : {0.001, 1.0, ImproveOptions().threshold_deg}) {
         if (!has_cell_without_volume(filling.mesh)) return;
-        const Stopwatch stopwatch;
-        const Improvement again =
-            improve(filling.mesh,
-                    {.threshold_deg = threshold_deg, .max_size = options.size, .frozen_cells = filling.core_tets});
+        const Improvement again = timed(filling.improve_seconds, [&] {
+            return improve(
+                filling.mesh,
+                {.threshold_deg = threshold_deg, .max_size = options.size, .frozen_cells = filling.core_tets});
+        });
         filling.improvement.add_operations(again);
-        filling.improve_seconds += stopwatch.seconds();
     }
 }
 
@@ -45,12 +45,11 @@ void replace_cells_without_volume(Filling& filling, const MesherOptions& options
 
 void improve_filling(Filling& filling, const MesherOptions& options, double threshold_deg) {
     if (!options.improve || !options.tetgen.switches.empty()) return;
-    const Stopwatch stopwatch;
-    filling.improvement.add(
-        improve(filling.mesh, {.threshold_deg = threshold_deg,
-                               .max_size = options.size,
-                               .adds_vertices = options.radius_edge > 0 || !options.size.is_empty()}));
-    filling.improve_seconds += stopwatch.seconds();
+    filling.improvement.add(timed(filling.improve_seconds, [&] {
+        return improve(filling.mesh, {.threshold_deg = threshold_deg,
+                                      .max_size = options.size,
+                                      .adds_vertices = options.radius_edge > 0 || !options.size.is_empty()});
+    }));
 }
 
 Filling mesh_volume(const SurfaceArrays& surface, const MesherOptions& options) {

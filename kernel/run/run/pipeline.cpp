@@ -52,19 +52,19 @@ namespace kerf {
 
 namespace {
 
-// Wall clock of a stage, the longest over the ranks.
-double longest(Communicator& ranks, const Stopwatch& stopwatch) {
+// Returns the longest of the seconds of all ranks.
+double longest(Communicator& ranks, double seconds) {
     double most = 0;
-    for (double s : all_gather(ranks, stopwatch.seconds())) most = std::max(most, s);
+    for (double s : all_gather(ranks, seconds)) most = std::max(most, s);
     return most;
 }
 
-// Returns what a stage returns, and adds its wall clock.
+// Returns the result of a stage, and adds its wall clock, the longest over the ranks.
 template <class Stage>
 auto timed(Communicator& ranks, double& seconds, Stage stage) {
-    const Stopwatch stopwatch;
-    auto value = stage();
-    seconds += longest(ranks, stopwatch);
+    double own = 0;
+    auto value = timed(own, std::move(stage));
+    seconds += longest(ranks, own);
     return value;
 }
 
@@ -295,7 +295,7 @@ std::int64_t peak_memory(const RunContext& run, const std::vector<PartReport>& p
 void finish(const RunContext& run, std::optional<RunFolder>& folder, RunReport& report, const Stopwatch& whole) {
     report.peak_rss_bytes = peak_memory(run, report.parts);
     if (run.options.transient) {
-        report.seconds.wall = longest(run.ranks, whole);
+        report.seconds.wall = longest(run.ranks, whole.seconds());
         in_agreement(run.ranks, [&] {
             if (run.is_root() && !run.options.report_file.empty())
                 write_output_file(run.options.report_file, to_json(report));
@@ -311,7 +311,7 @@ void finish(const RunContext& run, std::optional<RunFolder>& folder, RunReport& 
             [&](std::size_t done, std::size_t total) { tell_progress(run.listener, "hash", done, total); });
     });
     if (!run.is_root()) folder.reset();  // nobody uses it when it moves
-    report.seconds.wall = longest(run.ranks, whole);
+    report.seconds.wall = longest(run.ranks, whole.seconds());
     in_agreement(run.ranks, [&] {
         if (!run.is_root()) return;
         const std::string json = to_json(report);
@@ -363,7 +363,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
     const RunContext run{options, ranks, input, listener, plan.found_size, plan.surface_nodes};
     RunReport report = empty_report(run);
     StageSeconds& seconds = report.seconds;
-    seconds.read = longest(ranks, whole);
+    seconds.read = longest(ranks, whole.seconds());
     const std::optional<Surface> whole_surface = surface_for_reference(run);
     std::optional<RunFolder> folder;  // none for a dry run
     try {

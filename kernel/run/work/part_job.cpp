@@ -25,17 +25,6 @@ namespace kerf {
 
 namespace {
 
-// Runs a stage and adds its wall clock to `seconds`.
-template <class Stage>
-auto timed(double& seconds, Stage stage) {
-    struct AddAtEnd {
-        double& seconds;
-        Stopwatch stopwatch = {};
-        ~AddAtEnd() { seconds += stopwatch.seconds(); }
-    } timer{seconds};
-    return stage();
-}
-
 PartQuality quality_of_part(const TetMesh& mesh, const PartJob& job) {
     std::vector<char> is_interface;
     is_interface.reserve(job.surface.facets.size());
