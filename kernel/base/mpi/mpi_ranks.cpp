@@ -3,9 +3,7 @@
 // part in its last broadcast, of its error, which later calls that wait or look for messages throw. A rank that waits
 // outside of a collective looks for a message with the tag `leave_tag` beside its own, and then joins that broadcast.
 // Room for a result is taken before data moves, and ranks agree on whether all have it, so that std::bad_alloc is
-// thrown on all or none. Counts of MPI have 32 bits: longer messages go in pieces. Memory of requests that nobody waits
-// for any more is kept until the process ends (`abandoned()`), since MPI may use it until then. Posted messages are
-// counted by receiver, so that drop_messages() knows how many are still under way.
+// thrown on all or none. Counts of MPI have 32 bits: longer messages go in pieces.
 #include "base/mpi/mpi_ranks.h"
 
 #include <algorithm>
@@ -23,6 +21,8 @@ namespace kerf {
 namespace {
 
 constexpr std::uint64_t has_left = ~std::uint64_t{0};
+// Tags beside those of exchanges and of posted messages.
+constexpr int send_tag = 2, leave_tag = 3, answer_tag = 4;
 
 void finalise_mpi() {
     int is_finalised = 0;
@@ -53,6 +53,26 @@ void initialise_mpi() {
                 "with threads, or run kerf without mpirun.");
 }
 
+MPI_Comm duplicate_of(MPI_Comm comm) {
+    initialise_mpi();
+    MPI_Comm duplicate = MPI_COMM_NULL;
+    check_mpi(MPI_Comm_dup(comm, &duplicate), "MPI_Comm_dup");
+    check_mpi(MPI_Comm_set_errhandler(duplicate, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    return duplicate;
+}
+
+int rank_in(MPI_Comm comm) {
+    int rank = 0;
+    check_mpi(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
+    return rank;
+}
+
+int size_of(MPI_Comm comm) {
+    int size = 1;
+    check_mpi(MPI_Comm_size(comm, &size), "MPI_Comm_size");
+    return size;
+}
+
 // Bytes of the largest piece of a message, since MPI's counts are 32-bit.
 constexpr std::size_t most_of_piece = std::size_t{1} << 30;
 
@@ -78,6 +98,29 @@ bool has_room_for(const Allocate& allocate) {
     return true;
 }
 
+// Takes room on every rank. Throws std::bad_alloc on all ranks if one has none.
+template <class Allocate>
+void take_room(const MpiRanks& ranks, const Allocate& allocate) {
+    if (!ranks.all_reduce(std::int32_t{has_room_for(allocate)}, Reduction::smallest)) throw std::bad_alloc();
+}
+
+void broadcast_bytes(std::span<char> bytes, int root, MPI_Comm comm) {
+    for_pieces(bytes,
+               [&](char* piece, int size) { check_mpi(MPI_Bcast(piece, size, MPI_BYTE, root, comm), "MPI_Bcast"); });
+}
+
+// Returns true when the message has left or arrived, false when a rank has left. Who waits for long leaves the
+// processor to others.
+bool is_done(MPI_Request& request, MPI_Comm comm) {
+    int is_over = 0, has_rank_left = 0;
+    for (Patience patience;; patience.pause()) {
+        check_mpi(MPI_Test(&request, &is_over, MPI_STATUS_IGNORE), "MPI_Test");
+        if (is_over) return true;
+        check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
+        if (has_rank_left) return false;
+    }
+}
+
 }  // namespace
 
 void check_mpi(int result, const char* call) {
@@ -87,13 +130,6 @@ void check_mpi(int result, const char* call) {
     MPI_Error_string(result, text.data(), &length);
     throw Error(ErrorCode::internal,
                 fmt::format("{} has failed: {}. Check the hosts and their network.", call, text.data()));
-}
-
-// Messages whose ends nobody waits for any more. They live until the process ends, since MPI may read or write them
-// until then.
-std::list<MpiRanks::OnTheWay>& MpiRanks::abandoned() {
-    static auto* const all = new std::list<OnTheWay>;
-    return *all;
 }
 
 // Messages of this rank while MPI sends or receives them. Those that are on their way when the object ends, because an
@@ -127,29 +163,17 @@ class MpiRanks::Transfer {
 
  private:
     std::list<OnTheWay> own_;
-    std::list<OnTheWay>& abandoned_ = abandoned();
+    std::list<OnTheWay>& abandoned_ = abandoned_messages();
 };
 
-MpiRanks::MpiRanks(MPI_Comm comm) {
-    initialise_mpi();
-    check_mpi(MPI_Comm_dup(comm, &comm_), "MPI_Comm_dup");
-    check_mpi(MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-    check_mpi(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
-    check_mpi(MPI_Comm_size(comm_, &size_), "MPI_Comm_size");
-    sent_to_.assign(static_cast<std::size_t>(size_), 0);
-    for (auto* of_ranks : {&sizes_, &sent_, &expected_}) of_ranks->resize(sent_to_.size());
-    leaving_.assign(sent_to_.size(), MPI_REQUEST_NULL);
+MpiRanks::MpiRanks(MPI_Comm comm)
+    : comm_(duplicate_of(comm)), rank_(rank_in(comm_)), size_(size_of(comm_)), posted_(comm_, size_) {
+    const auto ranks = static_cast<std::size_t>(size_);
+    for (auto* of_ranks : {&sizes_, &sent_, &expected_}) of_ranks->resize(ranks);
+    leaving_.assign(ranks, MPI_REQUEST_NULL);
 }
 
-MpiRanks::~MpiRanks() {
-    abandoned().splice(abandoned().end(), posted_);
-    MPI_Comm_free(&comm_);
-}
-
-MPI_Op MpiRanks::operation_of(Reduction reduction) {
-    if (reduction == Reduction::sum) return MPI_SUM;
-    return reduction == Reduction::smallest ? MPI_MIN : MPI_MAX;
-}
+MpiRanks::~MpiRanks() { MPI_Comm_free(&comm_); }
 
 // Begins a collective with a number of each rank: the bytes that it brings, or that it has left.
 void MpiRanks::begin_collective(std::uint64_t own_size) {
@@ -176,7 +200,7 @@ void MpiRanks::end_together(const StageStatus& why) {
             check_mpi(MPI_Recv(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
     check_mpi(MPI_Waitall(size_, leaving_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
     try {
-        drain_messages();
+        posted_.take_all();
     } catch (const std::bad_alloc&) {
         MPI_Abort(comm_, last_words_.code);
     }
@@ -202,7 +226,7 @@ std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
     std::vector<Bytes> all;
     Bytes together;
     std::vector<int> sizes, starts;
-    require_room(has_room_for([&] {
+    take_room(*this, [&] {
         for (const std::uint64_t size : sizes_) {
             starts.push_back(starts.empty() ? 0 : starts.back() + sizes.back());
             sizes.push_back(is_one_call ? static_cast<int>(size) : 0);
@@ -210,7 +234,7 @@ std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
         }
         if (is_one_call) together.resize(total);
         all[static_cast<std::size_t>(rank_)] = contribution;
-    }));
+    });
     if (is_one_call)
         check_mpi(MPI_Allgatherv(contribution.data(), static_cast<int>(contribution.size()), MPI_BYTE, together.data(),
                                  sizes.data(), starts.data(), MPI_BYTE, comm_),
@@ -219,26 +243,16 @@ std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
         if (is_one_call)
             std::copy_n(together.begin() + starts[r], sizes[r], all[r].begin());
         else
-            broadcast_bytes(all[r], static_cast<int>(r));
+            broadcast_bytes(all[r], static_cast<int>(r), comm_);
     return all;
-}
-
-// Throws std::bad_alloc on all ranks if one has no room.
-void MpiRanks::require_room(bool has_room) const {
-    if (!all_reduce(std::int32_t{has_room}, Reduction::smallest)) throw std::bad_alloc();
-}
-
-void MpiRanks::broadcast_bytes(std::span<char> bytes, int root) const {
-    for_pieces(bytes,
-               [&](char* piece, int size) { check_mpi(MPI_Bcast(piece, size, MPI_BYTE, root, comm_), "MPI_Bcast"); });
 }
 
 Bytes MpiRanks::broadcast(Bytes of_root, int root) {
     begin_collective(of_root.size());
-    require_room(has_room_for([&] {
+    take_room(*this, [&] {
         if (rank_ != root) of_root = Bytes(sizes_[static_cast<std::size_t>(root)]);
-    }));
-    broadcast_bytes(of_root, root);
+    });
+    broadcast_bytes(of_root, root, comm_);
     return of_root;
 }
 
@@ -248,7 +262,7 @@ std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
     for (std::size_t r = 0; r < sent_.size(); ++r) sent_[r] = r == own ? 0 : to_rank[r].size();
     check_mpi(MPI_Alltoall(sent_.data(), 1, MPI_UINT64_T, expected_.data(), 1, MPI_UINT64_T, comm_), "MPI_Alltoall");
     std::optional<Transfer> sent, got;
-    require_room(has_room_for([&] {
+    take_room(*this, [&] {
         std::vector<Bytes> from_rank;
         std::size_t pieces_sent = 0, pieces_expected = 0;
         for (std::size_t r = 0; r < sent_.size(); ++r) {
@@ -258,7 +272,7 @@ std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
         }
         sent.emplace(std::move(to_rank), pieces_sent);
         got.emplace(std::move(from_rank), pieces_expected);
-    }));
+    });
     got->messages()[own] = std::move(sent->messages()[own]);
     for (int step = 1; step < size_; ++step) {  // each rank begins with another one
         const int r = (rank_ + step) % size_;
@@ -281,18 +295,6 @@ void MpiRanks::sum(std::span<std::uint64_t> words) {
     });
 }
 
-// Returns true when the message has left or arrived, false when a rank has left. Who waits for long leaves the
-// processor to others.
-bool MpiRanks::is_done(MPI_Request& request) const {
-    int is_over = 0, has_rank_left = 0;
-    for (Patience patience;; patience.pause()) {
-        check_mpi(MPI_Test(&request, &is_over, MPI_STATUS_IGNORE), "MPI_Test");
-        if (is_over) return true;
-        check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, leave_tag, comm_, &has_rank_left, MPI_STATUS_IGNORE), "MPI_Iprobe");
-        if (has_rank_left) return false;
-    }
-}
-
 // Sends the message of `transfer`, piece by piece; receive() receives into it. A message that nobody receives any more
 // cannot be called back.
 void MpiRanks::send(Transfer& transfer, int rank, int tag) {
@@ -300,7 +302,7 @@ void MpiRanks::send(Transfer& transfer, int rank, int tag) {
         transfer.requests().clear();
         MPI_Request& request = transfer.new_request();
         check_mpi(MPI_Isend(piece, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Isend");
-        if (!is_done(request)) begin_collective(0);  // throws, when nobody receives any more
+        if (!is_done(request, comm_)) begin_collective(0);  // throws, when nobody receives any more
     });
 }
 
@@ -309,7 +311,7 @@ void MpiRanks::receive(Transfer& transfer, int rank, int tag) {
         transfer.requests().clear();
         MPI_Request& request = transfer.new_request();
         check_mpi(MPI_Irecv(piece, size, MPI_BYTE, rank, tag, comm_, &request), "MPI_Irecv");
-        if (is_done(request)) return;
+        if (is_done(request, comm_)) return;
         check_mpi(MPI_Cancel(&request), "MPI_Cancel");
         check_mpi(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
         begin_collective(0);  // throws
@@ -357,59 +359,19 @@ std::optional<Bytes> MpiRanks::receive_any() {
 
 void MpiRanks::post(int rank, const Bytes& message) {
     if (is_over_) return;
-    posted_.remove_if([](OnTheWay& posted) {
-        int left = 0;
-        check_mpi(MPI_Test(posted.requests.data(), &left, MPI_STATUS_IGNORE), "MPI_Test");
-        return left != 0;
-    });
-    OnTheWay& posted = posted_.emplace_back(OnTheWay{{message}, {MPI_REQUEST_NULL}});
-    check_mpi(MPI_Isend(posted.messages.front().data(), static_cast<int>(message.size()), MPI_BYTE, rank, post_tag,
-                        comm_, posted.requests.data()),
-              "MPI_Isend");
-    ++sent_to_[static_cast<std::size_t>(rank)];
-}
-
-Bytes MpiRanks::receive(const MPI_Status& announced) const {
-    int size = 0;
-    check_mpi(MPI_Get_count(&announced, MPI_BYTE, &size), "MPI_Get_count");
-    Bytes message(static_cast<std::size_t>(size));
-    check_mpi(MPI_Recv(message.data(), size, MPI_BYTE, announced.MPI_SOURCE, post_tag, comm_, MPI_STATUS_IGNORE),
-              "MPI_Recv");
-    return message;
+    posted_.post(rank, message);
 }
 
 std::optional<Bytes> MpiRanks::poll() {
-    int arrived = 0;
-    MPI_Status status;
-    check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, post_tag, comm_, &arrived, &status), "MPI_Iprobe");
-    if (!arrived) {
-        end_if_one_has_left();
-        return {};
-    }
-    Bytes message = receive(status);
-    ++received_;
+    std::optional<Bytes> message = posted_.check_cancelled();
+    if (!message) end_if_one_has_left();
     return message;
 }
 
 void MpiRanks::drop_messages() {
     if (is_over_) return;
     begin_collective(0);
-    drain_messages();
-}
-
-void MpiRanks::drain_messages() {
-    int expected = 0;
-    check_mpi(MPI_Reduce_scatter_block(sent_to_.data(), &expected, 1, MPI_INT, MPI_SUM, comm_),
-              "MPI_Reduce_scatter_block");
-    for (; received_ < expected; ++received_) {
-        MPI_Status status;
-        check_mpi(MPI_Probe(MPI_ANY_SOURCE, post_tag, comm_, &status), "MPI_Probe");
-        receive(status);
-    }
-    for (OnTheWay& posted : posted_) check_mpi(MPI_Wait(posted.requests.data(), MPI_STATUS_IGNORE), "MPI_Wait");
-    posted_.clear();
-    sent_to_.assign(sent_to_.size(), 0);
-    received_ = 0;
+    posted_.take_all();
 }
 
 std::vector<Bytes> MpiRanks::gather_on_host(const Bytes& contribution, std::size_t& own) const {

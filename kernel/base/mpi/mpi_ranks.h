@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cstdint>
-#include <list>
 #include <span>
 #include <vector>
 
 #include <mpi.h>
 
+#include "base/mpi/inside/posted_messages.h"
 #include "base/parallel/communicator.h"
 
 namespace kerf {
@@ -37,6 +37,11 @@ inline MPI_Datatype mpi_type<std::int64_t>() {
 }
 
 enum class Reduction { sum, smallest, largest };
+
+inline MPI_Op mpi_operation(Reduction reduction) {
+    if (reduction == Reduction::sum) return MPI_SUM;
+    return reduction == Reduction::smallest ? MPI_MIN : MPI_MAX;
+}
 
 /// Values for another rank, or from it.
 template <class T>
@@ -69,7 +74,7 @@ class MpiRanks : public Communicator {
     Bytes receive(int rank) override;
     std::optional<Bytes> receive_any() override;
     void post(int rank, const Bytes& message) override;
-    std::optional<Bytes> poll() override;
+    std::optional<Bytes> check_cancelled() override;
     void drop_messages() override;
     void leave(const StageStatus& why) override;
 
@@ -80,7 +85,7 @@ class MpiRanks : public Communicator {
     template <class T>
     void all_reduce(std::span<T> values, Reduction reduction) const {
         check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), mpi_type<T>(),
-                                operation_of(reduction), comm_),
+                                mpi_operation(reduction), comm_),
                   "MPI_Allreduce");
     }
     template <class T>
@@ -112,38 +117,23 @@ class MpiRanks : public Communicator {
     MPI_Comm handle() const { return comm_; }
 
  private:
-    static constexpr int post_tag = 0, exchange_tag = 1, send_tag = 2, leave_tag = 3, answer_tag = 4;
-    static MPI_Op operation_of(Reduction reduction);
-    Bytes receive(const MPI_Status& announced) const;
-    void broadcast_bytes(std::span<char> bytes, int root) const;
-    void require_room(bool has_room) const;
+    static constexpr int exchange_tag = 1;  // PostedMessages has 0
     void begin_collective(std::uint64_t own_size);
     void end_together(const StageStatus& why);
     [[noreturn]] void throw_last_words() const;
     void end_if_one_has_left();
-    void drain_messages();
-    bool is_done(MPI_Request& request) const;
     class Transfer;
     void send(Transfer& transfer, int rank, int tag);
     void receive(Transfer& transfer, int rank, int tag);
-
-    // Messages on their way, which MPI reads or writes until all requests are done.
-    struct OnTheWay {
-        std::vector<Bytes> messages;
-        std::vector<MPI_Request> requests;
-    };
-    static std::list<OnTheWay>& abandoned();
 
     // The words of a rank that leaves to the others, of a fixed size: there may be no memory for more.
     struct LastWords {
         std::int32_t code = static_cast<std::int32_t>(ErrorCode::internal);
         std::array<char, 1020> message{};
     };
-    MPI_Comm comm_ = MPI_COMM_NULL;
-    int rank_ = 0, size_ = 1;
-    std::list<OnTheWay> posted_;
-    std::vector<int> sent_to_;  // messages to each rank since drop_messages()
-    int received_ = 0;
+    MPI_Comm comm_;
+    int rank_, size_;
+    PostedMessages posted_;
     std::vector<std::uint64_t> sizes_;            // bytes that each rank brings to a collective
     std::vector<std::uint64_t> sent_, expected_;  // bytes to and from each rank in an exchange
     std::vector<MPI_Request> leaving_;            // messages to each rank that this one leaves
