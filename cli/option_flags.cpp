@@ -50,6 +50,10 @@ void heed_unit(CLI::App& app, InputOptions& options) {
     app.get_option("--unit")->each([&options](const std::string&) { options.cad.unit_is_asked = true; });
 }
 
+void add_surface_output(CLI::App& app, std::string& output) {
+    app.add_option("-o,--output", output, "Surface, .obj (with patches) or .stl.")->required()->type_name("FILE");
+}
+
 void add_run_options(CLI::App& app, RunOptions& options) {
     const std::vector<OptionField> fields = option_fields(options);
     for (const std::string_view group : option_group::all)

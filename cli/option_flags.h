@@ -22,6 +22,9 @@ void add_input_options(CLI::App& app, InputOptions& options);
 /// Makes `options` learn whether --unit is given, an option that the command has to have already.
 void heed_unit(CLI::App& app, InputOptions& options);
 
+/// Adds -o to a command that writes a surface.
+void add_surface_output(CLI::App& app, std::string& output);
+
 /// Adds all options that shape a mesh and its making (option_fields()), and --tetgen, another name of
 /// --tetgen-switches.
 void add_run_options(CLI::App& app, RunOptions& options);

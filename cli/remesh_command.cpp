@@ -60,9 +60,7 @@ void add_surface_command(CLI::App& kerf, int& exit_code, bool is_wrap) {
         ->required()
         ->type_name("INPUT");
     command->option_defaults()->group(option_group::output);
-    command->add_option("-o,--output", request->output, "Surface, .obj (with patches) or .stl.")
-        ->required()
-        ->type_name("FILE");
+    add_surface_output(*command, request->output);
     for (const OptionField& field : option_fields(request->options))
         if (shapes_surface(field.name)) add_option_field(*command, field);
     heed_unit(*command, request->options.input_options);

@@ -47,9 +47,7 @@ void add_repair_command(CLI::App& kerf, int& exit_code) {
         ->required()
         ->type_name("INPUT");
     command->option_defaults()->group(option_group::output);
-    command->add_option("-o,--output", request->output, "Surface, .obj (with patches) or .stl.")
-        ->required()
-        ->type_name("FILE");
+    add_surface_output(*command, request->output);
     add_input_options(*command, request->options);
     command->get_option("--repair")
         ->description(

@@ -121,14 +121,9 @@ std::vector<MesherCall> lattice_calls(const MesherOptions& wanted) {
 Reproducer lattice_reproducer(const SurfaceArrays& surface, const MesherOptions& options, const std::string& stem) {
     std::string command =
         fmt::format("kerf mesh {}.smesh -n 1 --mesher {} --radius-edge {:g}", stem, options.name, options.radius_edge);
-    std::string note;
     if (options.size.is_constant() && !options.size.is_empty())
         command += fmt::format(" --max-volume {:.17g}", options.size.reference_volume());
-    else if (!options.size.is_empty())
-        note =
-            "The wanted sizes differ from place to place: the command leaves them out, and may succeed where the run "
-            "did not.\n";
-    return {.ending = ".smesh", .bytes = smesh_text(surface), .command = std::move(command), .note = std::move(note)};
+    return smesh_reproducer(surface, options, std::move(command));
 }
 
 }  // namespace

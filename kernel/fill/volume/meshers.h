@@ -80,8 +80,9 @@ const Mesher& find_mesher(std::string_view name);
 void improve_filling(Filling& filling, const MesherOptions& options,
                      double threshold_deg = ImproveOptions().threshold_deg);
 
-/// Returns a closed surface with its hole points as a .smesh of TetGen, counted from 0, with 17 digits: Kerf reads it,
-/// too. There are no hole points where one cannot be found: that may be the very reason of a failure.
-std::string smesh_text(const SurfaceArrays& surface);
+/// Returns the reproducer of a call by a command that reads a .smesh of TetGen: the closed surface with its hole
+/// points, counted from 0, with 17 digits, which Kerf reads, too. There are no hole points where one cannot be found:
+/// that may be the very reason of a failure. The note tells of sizes that differ, which no command can express.
+Reproducer smesh_reproducer(const SurfaceArrays& surface, const MesherOptions& options, std::string command);
 
 }  // namespace kerf

@@ -15,8 +15,6 @@ std::vector<Vec3> hole_points_if_any(const SurfaceArrays& surface) {
     }
 }
 
-}  // namespace
-
 std::string smesh_text(const SurfaceArrays& surface) {
     std::string text = fmt::format("{} 3 0 0\n", surface.vertices.size());
     const auto add_point = [&](std::size_t i, const Vec3& p) {
@@ -29,6 +27,17 @@ std::string smesh_text(const SurfaceArrays& surface) {
     text += fmt::format("{}\n", holes.size());
     for (std::size_t i = 0; i < holes.size(); ++i) add_point(i + 1, holes[i]);
     return text;
+}
+
+}  // namespace
+
+Reproducer smesh_reproducer(const SurfaceArrays& surface, const MesherOptions& options, std::string command) {
+    Reproducer reproducer{.ending = ".smesh", .bytes = smesh_text(surface), .command = std::move(command), .note = ""};
+    if (!options.size.is_constant() && options.tetgen.switches.empty())
+        reproducer.note =
+            "The wanted sizes differ from place to place: the command leaves them out, and may succeed where the run "
+            "did not.\n";
+    return reproducer;
 }
 
 }  // namespace kerf

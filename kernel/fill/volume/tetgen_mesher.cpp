@@ -79,18 +79,8 @@ std::string command_line_switches(const MesherOptions& options) {
     return switches;
 }
 
-// Returns a note on sizes, which the command of tetgen cannot express.
-std::string note_on_sizes(const MesherOptions& options) {
-    if (options.size.is_constant() || !options.tetgen.switches.empty()) return "";
-    return "The wanted sizes differ from place to place: the command leaves them out, and may succeed where the run "
-           "did not.\n";
-}
-
 Reproducer tetgen_reproducer(const SurfaceArrays& surface, const MesherOptions& options, const std::string& stem) {
-    return {.ending = ".smesh",
-            .bytes = smesh_text(surface),
-            .command = fmt::format("tetgen -{} {}.smesh", command_line_switches(options), stem),
-            .note = note_on_sizes(options)};
+    return smesh_reproducer(surface, options, fmt::format("tetgen -{} {}.smesh", command_line_switches(options), stem));
 }
 
 }  // namespace

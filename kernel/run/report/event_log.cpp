@@ -86,11 +86,7 @@ void EventLog::on_part(const PartEvent& event) {
                  {"load_done", event.load_done},
                  {"tets_done", event.tets}};
     if (part.result.code) json["message"] = part.result.message;
-    if (!part.fallback.empty()) json["remedy"] = part.fallback;
-    if (!part.result.strategy.empty()) json["way"] = part.result.strategy;
-    if (!part.result.reason.empty()) json["reason"] = part.result.reason;
-    if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
-    if (part.result.recovery.missing) json["recovery"] = json_of_recovery(part.result.recovery);
+    add_way(part, json);
     write(std::move(json));
 }
 

@@ -173,11 +173,7 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
                  {"store_seconds", to_six_digits(part.result.store_seconds)},
                  {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
-    if (!part.fallback.empty()) json["remedy"] = part.fallback;
-    if (!part.result.strategy.empty()) json["way"] = part.result.strategy;
-    if (!part.result.reason.empty()) json["reason"] = part.result.reason;
-    if (part.result.core_tets) json["core_tets"] = part.result.core_tets;
-    if (part.result.recovery.missing) json["recovery"] = json_of_recovery(part.result.recovery);
+    add_way(part, json);
     if (part.result.angles.known())
         json["improvement"] =
             improvement_json(part.result.improvement, part.result.angles, part.result.improve_seconds);

@@ -54,6 +54,22 @@ struct SparseRow {
     }
 };
 
+// Returns the rows of the nodes of each neighbour as a message to it; fill(n, row) has the row of a node.
+template <int B, class Fill>
+std::vector<RankValues<double>> rows_for(const std::vector<GhostExchange::Neighbour>& neighbours, const Fill& fill) {
+    std::vector<RankValues<double>> messages;
+    SparseRow<B> row;
+    for (const GhostExchange::Neighbour& neighbour : neighbours) {
+        messages.push_back({neighbour.rank, {}});
+        for (const std::int32_t n : neighbour.nodes) {
+            row.clear();
+            fill(n, row);
+            row.append_to(messages.back().values);
+        }
+    }
+    return messages;
+}
+
 // Makes columns orthonormal (Gram and Schmidt, twice for the sake of rounding). Columns that depend on those before
 // become zero.
 void orthonormalise(Eigen::MatrixXd& columns, MotionBlock& factor) {
@@ -214,16 +230,8 @@ void Coarsening<B>::append_row(const SparseRow<B>& row) {
 // Makes the rows of owned nodes; the owner of a node adds the rows that other ranks have for it, in their order.
 template <int B>
 void Coarsening<B>::make_prolongation() {
-    std::vector<RankValues<double>> of_ghosts;
-    SparseRow<B> row;
-    for (const auto& neighbour : fine_.exchange.ghosts()) {
-        of_ghosts.push_back({neighbour.rank, {}});
-        for (const std::int32_t n : neighbour.nodes) {
-            row.clear();
-            multiply_tentative(n, row);
-            row.append_to(of_ghosts.back().values);
-        }
-    }
+    const std::vector<RankValues<double>> of_ghosts =
+        rows_for<B>(fine_.exchange.ghosts(), [&](std::int32_t n, SparseRow<B>& row) { multiply_tentative(n, row); });
     const auto received = exchange_lists(of_ghosts, fine_.exchange.owned(), ranks_);
     std::vector<std::vector<const double*>> added(fine_.owned);
     for (std::size_t r = 0; r < received.size(); ++r) {
@@ -234,6 +242,7 @@ void Coarsening<B>::make_prolongation() {
         }
     }
     const double damping = 4 / (3 * smoother_.largest_eigenvalue());
+    SparseRow<B> row;
     for (std::int32_t n = 0; n < fine_.owned; ++n) {
         row.clear();
         if (aggregate_of_[n] >= 0) {
@@ -249,16 +258,10 @@ void Coarsening<B>::make_prolongation() {
 
 template <int B>
 void Coarsening<B>::take_rows_of_ghosts() {
-    std::vector<RankValues<double>> of_owned;
-    SparseRow<B> row;
-    for (const auto& neighbour : fine_.exchange.owned()) {
-        of_owned.push_back({neighbour.rank, {}});
-        for (const std::int32_t n : neighbour.nodes) {
-            row.clear();
+    const std::vector<RankValues<double>> of_owned =
+        rows_for<B>(fine_.exchange.owned(), [&](std::int32_t n, SparseRow<B>& row) {
             for (std::int64_t i = result_.first[n]; i < result_.first[n + 1]; ++i) row.at(ids_[i]) = result_.block(i);
-            row.append_to(of_owned.back().values);
-        }
-    }
+        });
     const auto received = exchange_lists(of_owned, fine_.exchange.ghosts(), ranks_);
     std::vector<SparseRow<B>> rows(fine_.node_count() - fine_.owned);
     for (std::size_t r = 0; r < received.size(); ++r) {

@@ -11,7 +11,15 @@ namespace kerf::view {
 
 namespace {
 
-constexpr GLsizei log_size = 4096;
+// Returns the driver's words for a shader or a program, by glGetShaderInfoLog or glGetProgramInfoLog.
+template <class GetInfoLog>
+std::string log_of(GLuint id, GetInfoLog get_info_log) {
+    constexpr GLsizei log_size = 4096;
+    std::string log(log_size, '\0');
+    GLsizei length = 0;
+    get_info_log(id, log_size, &length, log.data());
+    return log.substr(0, length);
+}
 
 [[noreturn]] void refuse(const std::string& what, const std::string& log) {
     throw Error(ErrorCode::internal, fmt::format("The OpenGL driver refuses {}: {}", what, log));
@@ -29,11 +37,9 @@ class Shader {
         GLint good = 0;
         gl.GetShaderiv(id_, GL_COMPILE_STATUS, &good);
         if (good) return;
-        std::string log(log_size, '\0');
-        GLsizei length = 0;
-        gl.GetShaderInfoLog(id_, log_size, &length, log.data());
+        const std::string log = log_of(id_, gl.GetShaderInfoLog);
         gl.DeleteShader(id_);
-        refuse(path, log.substr(0, length));
+        refuse(path, log);
     }
     ~Shader() { gl_.DeleteShader(id_); }
     Shader(const Shader&) = delete;
@@ -68,11 +74,9 @@ ShaderProgram::ShaderProgram(const Gl& gl, const std::string& folder, const std:
     GLint good = 0;
     gl.GetProgramiv(id_, GL_LINK_STATUS, &good);
     if (good) return;
-    std::string log(log_size, '\0');
-    GLsizei length = 0;
-    gl.GetProgramInfoLog(id_, log_size, &length, log.data());
+    const std::string log = log_of(id_, gl.GetProgramInfoLog);
     gl.DeleteProgram(id_);
-    refuse(vertex_file + " with " + fragment_file, log.substr(0, length));
+    refuse(vertex_file + " with " + fragment_file, log);
 }
 
 ShaderProgram::~ShaderProgram() { gl_.DeleteProgram(id_); }
