@@ -118,7 +118,7 @@ TEST(Legend, ColoursAreThoseOfThePicture) {
             driver.state().step = step;
             const Image picture = driver.picture();
             const Rectangle body = body_area(driver.state(), driver.app().scene_area());
-            for (const LegendEntry& entry : driver.app().facts().categories) {
+            for (const LegendEntry& entry : driver.app().facts().legend.categories) {
                 explained.insert(entry.text);
                 // Glass has the colour of what is behind it, too; the centre shines through the body.
                 if (entry.color.a < 1 || entry.mark == LegendEntry::Mark::point) continue;
@@ -139,7 +139,7 @@ TEST(Legend, ListsOnlyWhatIsThere) {
     const auto texts = [&] {
         driver.settle();
         std::vector<std::string> all;
-        for (const LegendEntry& entry : driver.app().facts().categories) all.push_back(entry.text);
+        for (const LegendEntry& entry : driver.app().facts().legend.categories) all.push_back(entry.text);
         return all;
     };
     EXPECT_EQ(texts().size(), 4U);

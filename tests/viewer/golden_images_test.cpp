@@ -221,7 +221,7 @@ TEST(Colourings, OfSeveralRanksLevelsAndPatches) {
         driver.state().color = color;
         driver.state().clip = {color != ColorBy::patch, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
         EXPECT_TRUE(is_golden(std::string("color-") + name(color), driver));
-        EXPECT_EQ(std::ssize(driver.app().facts().categories), categories) << name(color);
+        EXPECT_EQ(std::ssize(driver.app().facts().legend.categories), categories) << name(color);
     }
 }
 
@@ -243,7 +243,7 @@ TEST(Colourings, OfCoreShellAndOtherMesher) {
     EXPECT_TRUE(is_golden("color-origin", driver));
     const auto legend = [&] {
         std::string words;
-        for (const auto& category : driver.app().facts().categories) words += category.text + "; ";
+        for (const auto& category : driver.app().facts().legend.categories) words += category.text + "; ";
         return words;
     };
     EXPECT_EQ(legend(), "core: stamped cells; shell around the core; TetGen; ");

@@ -82,7 +82,7 @@ TEST_F(NumberedBox, FacesThatAreSeenHaveThem) {
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(seen(), expected);
     for (const std::int32_t number : expected) {
-        const std::vector<LegendEntry>& entries = driver_->app().facts().categories;
+        const std::vector<LegendEntry>& entries = driver_->app().facts().legend.categories;
         const std::string& name = driver_->document().patch_names[static_cast<std::size_t>(number - 1)];
         const std::string text = fmt::format("{}: {}", number, name);
         EXPECT_TRUE(std::any_of(entries.begin(), entries.end(), [&](const LegendEntry& e) { return e.text == text; }))

@@ -84,14 +84,14 @@ TEST_F(RegionsShown, AreHiddenIsolatedAndShownByTheirButtons) {
     using Names = std::set<std::string>;
     state().color = ColorBy::region;
     EXPECT_EQ(regions_drawn(), (Names{"bone", "cement"}));
-    EXPECT_EQ(driver_->app().facts().categories.size(), 2u);
-    EXPECT_EQ(driver_->app().facts().categories[0].text, "bone");
+    EXPECT_EQ(driver_->app().facts().legend.categories.size(), 2u);
+    EXPECT_EQ(driver_->app().facts().legend.categories[0].text, "bone");
     for (const std::string region : regions) {
         const std::string other = region == "bone" ? "cement" : "bone";
         driver_->click("show region " + region);
         EXPECT_EQ(regions_drawn(), Names{other});
-        ASSERT_EQ(driver_->app().facts().categories.size(), 1u);
-        EXPECT_EQ(driver_->app().facts().categories[0].text, other);
+        ASSERT_EQ(driver_->app().facts().legend.categories.size(), 1u);
+        EXPECT_EQ(driver_->app().facts().legend.categories[0].text, other);
         driver_->click("show region " + region);
         EXPECT_EQ(regions_drawn().size(), 2u);
         driver_->click("isolate region " + region);

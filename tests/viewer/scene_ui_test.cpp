@@ -235,7 +235,7 @@ TEST(SceneUi, TheColourBarCanBeDragged) {
     state.step = {Stage::tetrahedra, -1};
     state.color = ColorBy::min_dihedral;
     driver.settle();
-    const ValueRange all = *driver.app().facts().values;
+    const ValueRange all = *driver.app().facts().legend.values;
     const float before = top_of(driver, "histogram");
     driver.drag_over("colour bar", 0.25f, 0.5f);
     ASSERT_TRUE(state.color_range);
@@ -310,7 +310,7 @@ TEST(SceneUi, ColoursAreThoseOfTheLegend) {
     state.color_range = ValueRange{-2, -1};  // all of them have the last colour
     state.edges = state.context = state.legend = false;
     driver.settle();
-    const Color legend = driver.app().facts().scale.back();
+    const Color legend = driver.app().facts().legend.scale.back();
     const Vec3 middle = driver.document().box.center();
     for (const auto& [angle, least] : {std::pair(0., 0.95), {70., 0.74}}) {
         Camera camera;

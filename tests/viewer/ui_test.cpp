@@ -398,9 +398,9 @@ TEST(Ui, RemeshesTheSurfaceAndShowsBoth) {
     EXPECT_EQ(driver.drawn(LayerKind::features).segments, 2 * 24);
     driver.state().color = ColorBy::deviation;
     driver.settle();
-    ASSERT_TRUE(driver.app().facts().values);
-    EXPECT_EQ(driver.app().facts().legend_title, title(ColorBy::deviation));
-    EXPECT_EQ(driver.app().facts().values->low, 0);
+    ASSERT_TRUE(driver.app().facts().legend.values);
+    EXPECT_EQ(driver.app().facts().legend.title, title(ColorBy::deviation));
+    EXPECT_EQ(driver.app().facts().legend.values->low, 0);
     const Rectangle scene = driver.app().scene_area();
     driver.click_at(scene.x + scene.width / 2, scene.y + scene.height / 2);
     driver.settle();

@@ -167,8 +167,8 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
             colors.dim);
     if (is_of_solution(state.color) && document.solution)
         add(fmt::format("{} in units of the case", title(state.color)), colors.dim);
-    if (context.facts.percentile < 100)
-        add(fmt::format("Colours span {:g} % of the values drawn", context.facts.percentile), colors.dim);
+    if (context.facts.legend.percentile < 100)
+        add(fmt::format("Colours span {:g} % of the values drawn", context.facts.legend.percentile), colors.dim);
     if (state.isolated) add("Only " + beginning_small(body_of(document, *state.isolated)), colors.dim);
     std::vector<std::string> hidden;
     for (const NodeId node : state.hidden) hidden.push_back(beginning_small(body_of(document, node)));

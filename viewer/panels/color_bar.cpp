@@ -41,7 +41,7 @@ class ColorBar {
 
     void draw_colors() const {
         ImDrawList& list = *ImGui::GetWindowDrawList();
-        const std::vector<Color>& scale = context_.facts.scale;
+        const std::vector<Color>& scale = context_.facts.legend.scale;
         const ImVec2 to = {from_.x + size_.x, from_.y + size_.y};
         const float low = x_of(colored_.low), high = x_of(colored_.high);
         list.AddRectFilled(from_, {low, to.y}, packed(scale.front()));
@@ -83,12 +83,12 @@ class ColorBar {
 
 void draw_color_bar(UiContext& context, ColorBarMemory& memory) {
     const ViewState& state = context.state;
-    const auto& values = context.facts.values;
+    const auto& values = context.facts.legend.values;
     const std::string of = fmt::format("{} of {}", name(state.color), context.session.document().path);
     if (memory.colored_of != of) memory.colored.reset();
     memory.colored_of = of;
     if (values && !state.color_range) memory.colored = values;
-    if (!values || context.facts.scale.size() < 2) return;
+    if (!values || context.facts.legend.scale.size() < 2) return;
     const ValueRange colored = state.color_range.value_or(*values);
     ValueRange extent = memory.colored.value_or(values_of_run(context));
     extent = {std::min(extent.low, colored.low), std::max(extent.high, colored.high)};

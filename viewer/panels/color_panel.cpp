@@ -53,9 +53,10 @@ void draw_range(UiContext& context, ColorMemory& memory) {
     ViewState& state = context.state;
     bool fixed = state.color_range.has_value();
     if (context.widgets.checkbox("Fixed range", &fixed, "The same colours for the same values, whatever is shown"))
-        state.color_range = fixed ? std::optional(context.facts.values.value_or(ValueRange{0, 1})) : std::nullopt;
+        state.color_range =
+            fixed ? std::optional(context.facts.legend.values.value_or(ValueRange{0, 1})) : std::nullopt;
     draw_color_bar(context, memory.bar);
-    const ValueRange shown = state.color_range.value_or(context.facts.values.value_or(ValueRange{0, 1}));
+    const ValueRange shown = state.color_range.value_or(context.facts.legend.values.value_or(ValueRange{0, 1}));
     ValueRange changed = shown;
     if (draw_limits(context.widgets, "Colours", {"Lowest", "Highest"}, shown, memory.range, changed))
         state.color_range = changed;
@@ -156,7 +157,7 @@ ValueRange values_of_run(const UiContext& context) {
     if (measure >= 0)
         if (const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)])
             return {histogram->min, histogram->max};
-    return context.facts.values.value_or(ValueRange{0, 1});
+    return context.facts.legend.values.value_or(ValueRange{0, 1});
 }
 
 void draw_worst_cells(UiContext& context, WorstCellsMemory& memory, ListKeys& keys) {
@@ -192,7 +193,7 @@ void draw_color(UiContext& context, ColorMemory& memory, ListKeys& keys) {
             context.widgets.checkbox("Numbers on faces", &context.state.numbers, "The numbers of the patches");
         if (const char* missing = why_without_values(context.session.document(), state.color))
             show_wrapped(missing, palette(state.theme).dim);
-        if (is_measure(state.color) || context.facts.values) draw_range(context, memory);
+        if (is_measure(state.color) || context.facts.legend.values) draw_range(context, memory);
         draw_solution(context);
         if (is_measure(state.color)) {
             draw_histogram(context, memory.histogram);

@@ -30,18 +30,18 @@ bool is_wide(const Rectangle& scene) { return scene.width > 1.25f * scene.height
 class LegendBox {
  public:
     LegendBox(const UiContext& context, const Rectangle& scene)
-        : context_(context), facts_(context.facts), scene_(scene), colors_(palette(context.state.theme)) {
+        : context_(context), legend_(context.facts.legend), scene_(scene), colors_(palette(context.state.theme)) {
         const float e = em();
         const Rectangle body = body_area(context.state, scene);
         widest_ = (is_wide(scene) ? scene.width - body.width : scene.width) - 2 * e;
         highest_ = (is_wide(scene) ? scene.height - 9 * e : scene.height - body.height) - 1.5f * e;
-        if (!facts_.legend_title.empty()) highest_ -= ImGui::GetTextLineHeight() + 0.4f * e;
+        if (!legend_.title.empty()) highest_ -= ImGui::GetTextLineHeight() + 0.4f * e;
     }
 
     // Draws title, scale (if colours are numbers) and entries from top to bottom.
     void draw() {
-        const bool has_scale = facts_.values && facts_.scale.size() >= 2;
-        if (!has_scale && facts_.categories.empty()) return;
+        const bool has_scale = legend_.values && legend_.scale.size() >= 2;
+        if (!has_scale && legend_.categories.empty()) return;
         if (has_scale) prepare_scale();
         prepare_entries();
         const float gap = has_scale && shown_ > 0 ? 0.6f * em() : 0;
@@ -56,7 +56,7 @@ class LegendBox {
     // title.
     ImVec2 begin(float height) {
         const float e = em(), line = ImGui::GetTextLineHeight();
-        const std::string& head = facts_.legend_title;
+        const std::string& head = legend_.title;
         std::string filter;
         if (filter_) filter = fmt::format("only {} to {}", rounded(filter_->low), rounded(filter_->high));
         const float width = std::min(std::max({width_, std::min(width_of(head), 9 * e), width_of(filter)}), widest_);
@@ -72,16 +72,16 @@ class LegendBox {
     }
 
     void prepare_scale() {
-        range_ = context_.state.color_range.value_or(*facts_.values);
+        range_ = context_.state.color_range.value_or(*legend_.values);
         if (is_measure(context_.state.color)) filter_ = context_.state.filter;
-        const float entries = line_height() * static_cast<float>(facts_.categories.size() + 2);
+        const float entries = line_height() * static_cast<float>(legend_.categories.size() + 2);
         bar_height_ = std::clamp(std::min(0.7f * highest_, highest_ - entries), 4.5f * em(), 11 * em());
         const float most_ticks = bar_height_ / (1.3f * ImGui::GetTextLineHeight());
         ticks_ = round_ticks(range_.low, range_.high, std::clamp(static_cast<int>(most_ticks), 2, 5));
         scale_height_ = bar_height_ + ImGui::GetTextLineHeight();  // room for the text of a tick at the very end
-        if (facts_.extremes) {
-            least_ = "least " + rounded(facts_.extremes->low);
-            largest_ = "largest " + rounded(facts_.extremes->high);
+        if (legend_.extremes) {
+            least_ = "least " + rounded(legend_.extremes->low);
+            largest_ = "largest " + rounded(legend_.extremes->high);
             scale_height_ += 2 * ImGui::GetTextLineHeight();
             width_ = std::max({width_, width_of(least_), width_of(largest_)});
         }
@@ -98,7 +98,7 @@ class LegendBox {
     }
 
     void draw_scale(const ImVec2& from) {
-        const float e = em(), bar = 1.1f * e, above = facts_.extremes ? ImGui::GetTextLineHeight() : 0;
+        const float e = em(), bar = 1.1f * e, above = legend_.extremes ? ImGui::GetTextLineHeight() : 0;
         const float bottom = from.y + above + ImGui::GetTextLineHeight() / 2 + bar_height_;
         draw_bar({from.x, bottom - bar_height_}, bar);
         draw_ends({from.x, bottom - bar_height_}, bar);
@@ -115,23 +115,23 @@ class LegendBox {
     // Draws pointed ends of the bar where values beyond it have its last colours. A solution has its extremes written
     // there instead.
     void draw_ends(const ImVec2& from, float width) {
-        if (facts_.extremes) return;
+        if (legend_.extremes) return;
         const float middle = from.x + width / 2, bottom = from.y + bar_height_, point = 0.4f * em();
-        if (facts_.goes_above)
+        if (legend_.goes_above)
             list_.AddTriangleFilled({from.x, from.y}, {from.x + width, from.y}, {middle, from.y - point},
-                                    packed(facts_.scale.back()));
-        if (facts_.goes_below)
+                                    packed(legend_.scale.back()));
+        if (legend_.goes_below)
             list_.AddTriangleFilled({from.x, bottom}, {from.x + width, bottom}, {middle, bottom + point},
-                                    packed(facts_.scale.front()));
+                                    packed(legend_.scale.front()));
     }
 
     // Writes the extremes above and below the bar, each with a mark at its colour.
     void draw_extremes(const ImVec2& from, float bottom) {
-        if (!facts_.extremes) return;
+        if (!legend_.extremes) return;
         const float half = 0.28f * em();
         list_.AddText(from, packed(colors_.text), largest_.c_str());
         list_.AddText({from.x, bottom + ImGui::GetTextLineHeight() / 2}, packed(colors_.text), least_.c_str());
-        for (const double value : {facts_.extremes->low, facts_.extremes->high}) {
+        for (const double value : {legend_.extremes->low, legend_.extremes->high}) {
             const float y = bottom - height_of(value);
             list_.AddTriangleFilled({from.x - 1.5f * half, y - half}, {from.x, y}, {from.x - 1.5f * half, y + half},
                                     packed(colors_.text));
@@ -143,7 +143,7 @@ class LegendBox {
     // Draws the bar, its highest value at the top. Values that a filter leaves out are veiled, as the picture does not
     // have their colours.
     void draw_bar(const ImVec2& from, float width) {
-        const std::vector<Color>& scale = facts_.scale;
+        const std::vector<Color>& scale = legend_.scale;
         const auto pieces = static_cast<float>(scale.size() - 1);
         for (std::size_t i = 0; i + 1 < scale.size(); ++i) {
             const float low = from.y + bar_height_ * (1 - static_cast<float>(i) / pieces);
@@ -167,7 +167,7 @@ class LegendBox {
 
     // Arranges the entries: one below the other at the right of the body, in columns below it.
     void prepare_entries() {
-        const auto& entries = facts_.categories;
+        const auto& entries = legend_.categories;
         const float e = em(), sample = sample_width() + 0.6f * e, room = highest_ - scale_height_;
         const auto rows = static_cast<std::size_t>(std::max(1.f, room / line_height()));
         const float longest = is_wide(scene_) ? widest_ - sample : 10 * e;
@@ -199,7 +199,7 @@ class LegendBox {
         };
         for (std::size_t i = 0; i < shown_; ++i) {
             const ImVec2 at = place(i);
-            draw_sample(facts_.categories[i], {at.x, at.y + ImGui::GetTextLineHeight() / 2});
+            draw_sample(legend_.categories[i], {at.x, at.y + ImGui::GetTextLineHeight() / 2});
             list_.AddText({at.x + left, at.y}, packed(colors_.text), names_[i].c_str());
         }
         if (more_.empty()) return;
@@ -227,7 +227,7 @@ class LegendBox {
     }
 
     const UiContext& context_;
-    const SceneFacts& facts_;
+    const Legend& legend_;
     const Rectangle& scene_;
     const Palette& colors_;
     ImDrawList& list_ = *ImGui::GetBackgroundDrawList();

@@ -241,7 +241,7 @@ const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId 
 }
 
 const Color* color_in_legend(const SceneFacts& facts, const std::string& text) {
-    for (const LegendEntry& entry : facts.categories)
+    for (const LegendEntry& entry : facts.legend.categories)
         if (entry.text == text) return &entry.color;
     return nullptr;
 }
