@@ -13,24 +13,24 @@ void tell_failed_parts(const RunReport& report) {
     std::size_t failed = 0;
     for (const PartReport& part : report.parts) {
         if (!part.result.code) continue;
-        const auto node = std::find_if(report.nodes.begin(), report.nodes.end(),
+        const auto node = std::find_if(report.cut.nodes.begin(), report.cut.nodes.end(),
                                        [&](const TreeNode& candidate) { return candidate.id == part.id; });
         const Vec3& place = node->mass.centroid;
         ++failed;
         tell(
             fmt::format("kerf: part {} around ({:.6g}, {:.6g}, {:.6g}) could not be meshed: {} How to repeat and to "
                         "look at it: {}/failed/{}.\n",
-                        part.id, place.x(), place.y(), place.z(), part.result.message, report.folder,
+                        part.id, place.x(), place.y(), place.z(), part.result.message, report.folder.path,
                         failed_part_file_name(part.id)));
     }
     if (failed > 0 && failed < report.parts.size())
         tell(
             fmt::format("kerf: the other {} parts are in {}; kerf mesh --resume {} tries the failed ones again, if "
                         "wanted with other --timeout or --memory.\n",
-                        report.parts.size() - failed, report.folder, report.options.output));
-    if (report.kept_valid_run)
+                        report.parts.size() - failed, report.folder.path, report.options.output));
+    if (report.folder.kept_valid_run)
         tell(fmt::format("kerf: {} keeps the older run, which is valid; this one is in {}.\n", report.options.output,
-                         report.folder));
+                         report.folder.path));
 }
 
 }  // namespace kerf

@@ -74,17 +74,18 @@ void merge_result(const MeshRequest& request, const RunReport& report, Communica
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
         try {
-            merge_run({.folder = report.folder,
+            merge_run({.folder = report.folder.path,
                        .output = request.merged_file,
                        .options = {},
                        .order = request.options.order});
         } catch (const Error& e) {
-            throw Error(e.code(),
-                        fmt::format("{} The mesh is whole in {}; kerf merge {} -o {} writes it.", e.what(),
-                                    report.folder, shell_word(report.folder), shell_word(request.merged_file)),
-                        e.elements());
+            throw Error(
+                e.code(),
+                fmt::format("{} The mesh is whole in {}; kerf merge {} -o {} writes it.", e.what(), report.folder.path,
+                            shell_word(report.folder.path), shell_word(request.merged_file)),
+                e.elements());
         }
-        remove_run_folder(report.folder);
+        remove_run_folder(report.folder.path);
     });
 }
 
@@ -111,7 +112,7 @@ std::string result_text(const MeshRequest& request, const RunReport& report) {
 }
 
 void tell_result(const MeshRequest& request, const RunReport& report) {
-    if (request.verbose || !report.options.volume) tell(tree_text(report.nodes, request.verbose) + "\n");
+    if (request.verbose || !report.options.volume) tell(tree_text(report.cut.nodes, request.verbose) + "\n");
     tell_report(to_text(report, request.verbose ? ReportDetail::all : ReportDetail::brief));
     if (report.exit_code == 0) tell_report(result_text(request, report));
     if (request.verbose && report.reference) tell(report.reference->comparison);

@@ -140,7 +140,7 @@ TEST_P(SliveredSurface, GetsUsefulCellsByDefault) {
     EXPECT_EQ(report.exit_code, 0);
     ASSERT_TRUE(report.input->remeshed);
     EXPECT_LE(report.input->facets, 12 * report.input->remeshed->facets_before);
-    const Distribution& angles = report.quality.all.measures[0];
+    const Distribution& angles = report.mesh.quality.all.measures[0];
     EXPECT_GE(angles.min(), 3);
     EXPECT_GE(angles.percentile(0.01), 20);
     const SurfaceArrays remeshed = remesh_where_asked(read_input(path), {}).complex.arrays();

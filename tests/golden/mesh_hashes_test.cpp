@@ -40,7 +40,7 @@ Hashes compute() {
     for (const auto& [asset, parts] : cases) {
         Input input;
         hashes[key(asset, parts)] =
-            test::run_parts(test::asset_path(asset), folder.file("out"), parts, input).mesh_hash;
+            test::run_parts(test::asset_path(asset), folder.file("out"), parts, input).mesh.hash;
     }
     return hashes;
 }
@@ -85,8 +85,8 @@ TEST(GoldenMeshes, ComparisonCanFail) {
 TEST(GoldenMeshes, AnotherMeshHasAnotherHash) {
     const test::TemporaryFolder folder;
     Input first, second;
-    EXPECT_NE(test::run_parts(test::asset_path("cube"), folder.file("out"), 2, first).mesh_hash,
-              test::run_parts(test::asset_path("cube"), folder.file("out"), 3, second).mesh_hash);
+    EXPECT_NE(test::run_parts(test::asset_path("cube"), folder.file("out"), 2, first).mesh.hash,
+              test::run_parts(test::asset_path("cube"), folder.file("out"), 3, second).mesh.hash);
 }
 
 }  // namespace

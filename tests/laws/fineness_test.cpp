@@ -24,7 +24,7 @@ class AnyFineness : public testing::Test {
         const RunReport report = test::run_parts(input, folder_.file("out"), 2, read, nullptr, options);
         EXPECT_EQ(report.exit_code, 0);
         EXPECT_TRUE(report.verification.passed);
-        return {report.tets, report.mesh_hash};
+        return {report.mesh.tets, report.mesh.hash};
     }
     std::string needles() const {
         const Soup soup = test::prism(48, 1, 3);

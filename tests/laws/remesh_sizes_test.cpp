@@ -147,11 +147,11 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
         const RunReport report = run(options, 2, rank, inputs.emplace_back());
         ASSERT_EQ(report.exit_code, 0);
         EXPECT_TRUE(report.verification.passed);
-        ASSERT_EQ(report.sizes.by_patch.size(), 1U);
-        EXPECT_GT(report.sizes.inside.share_obeyed(), 0.9);
-        EXPECT_GT(report.sizes.by_patch.front().edges.share_obeyed(), 0.9);
+        ASSERT_EQ(report.mesh.sizes.by_patch.size(), 1U);
+        EXPECT_GT(report.mesh.sizes.inside.share_obeyed(), 0.9);
+        EXPECT_GT(report.mesh.sizes.by_patch.front().edges.share_obeyed(), 0.9);
         if (parts > 1) {
-            EXPECT_GT(report.sizes.interfaces.share_obeyed(), 0.9);
+            EXPECT_GT(report.mesh.sizes.interfaces.share_obeyed(), 0.9);
         }
     }
     EXPECT_EQ(inputs[0].facets, inputs[1].facets);

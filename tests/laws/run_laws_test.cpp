@@ -34,12 +34,12 @@ TEST_P(AllAssets, ObeyEveryLawForAnyNumberOfParts) {
 TEST_P(AllAssets, HaveBetterCellsForTheImprovement) {
     const std::string asset = test::asset_path(GetParam());
     const FinishedRun raw = run_and_check(asset, 3, nullptr, false), better = run_and_check(asset, 3);
-    const Distribution &was = raw.report.quality.all.measures[0], &is = better.report.quality.all.measures[0];
+    const Distribution &was = raw.report.mesh.quality.all.measures[0], &is = better.report.mesh.quality.all.measures[0];
     EXPECT_GE(is.min(), was.min());
     EXPECT_GE(is.percentile(0.01), 1.5 * was.percentile(0.01));
-    EXPECT_EQ(better.report.improvement.smallest_before.count(), raw.report.tets);
-    EXPECT_TRUE(raw.report.improvement.is_empty());
-    EXPECT_EQ(better.report.vertices, raw.report.vertices + better.report.improvement.new_vertices);
+    EXPECT_EQ(better.report.mesh.improvement.smallest_before.count(), raw.report.mesh.tets);
+    EXPECT_TRUE(raw.report.mesh.improvement.is_empty());
+    EXPECT_EQ(better.report.mesh.vertices, raw.report.mesh.vertices + better.report.mesh.improvement.new_vertices);
 }
 
 class ManyParts : public testing::TestWithParam<std::string> {};
@@ -75,7 +75,7 @@ TEST(RunLaws, ListenerChangesNothing) {
         const FinishedRun without = run_and_check(test::asset_path(asset), 5);
         EXPECT_EQ(listener.cuts, 4);
         EXPECT_GT(listener.steps, 5);
-        EXPECT_EQ(with.report.mesh_hash, without.report.mesh_hash);
+        EXPECT_EQ(with.report.mesh.hash, without.report.mesh.hash);
     }
 }
 

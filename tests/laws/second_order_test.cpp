@@ -78,7 +78,7 @@ TEST_P(SecondOrder, NodesAreTheSameHoweverPartsAreWrittenReadAndJoined) {
     EXPECT_EQ(report.exit_code, 0);
     const RunParts of_run(folder_.file("vtu"));
     EXPECT_EQ(of_run.outline().order, 2);
-    EXPECT_EQ(of_run.outline().nodes(), report.mesh_nodes);
+    EXPECT_EQ(of_run.outline().nodes(), report.mesh.nodes);
     EXPECT_EQ(test::broken_edge_nodes(of_run), "");
     const NodesOfEdges nodes = nodes_of(of_run);
     for (const std::int32_t pieces : {1, 2, 3}) {
@@ -96,7 +96,7 @@ TEST_P(SecondOrder, NodesAreTheSameHoweverPartsAreWrittenReadAndJoined) {
     for (const char* name : {"vtu", "stored"}) {
         const FolderVerification found = verified(name);
         EXPECT_EQ(found.exit_code(), 0) << to_text(found, name, {});
-        EXPECT_EQ(found.nodes, report.mesh_nodes);
+        EXPECT_EQ(found.nodes, report.mesh.nodes);
         EXPECT_EQ(found.curved_nodes, 0);
     }
 }

@@ -52,8 +52,8 @@ inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, R
         tets += static_cast<std::int64_t>(part.mesh.tets.size());
         last_id = std::max(last_id, *std::max_element(part.global_id.begin(), part.global_id.end()));
     }
-    EXPECT_EQ(tets, run.report.tets);
-    EXPECT_EQ(last_id + 1, run.report.vertices);
+    EXPECT_EQ(tets, run.report.mesh.tets);
+    EXPECT_EQ(last_id + 1, run.report.mesh.vertices);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"out"});
     return run;
 }

@@ -200,7 +200,7 @@ void MpiRanks::end_together(const StageStatus& why) {
             check_mpi(MPI_Recv(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
     check_mpi(MPI_Waitall(size_, leaving_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
     try {
-        posted_.take_all();
+        posted_.drain();
     } catch (const std::bad_alloc&) {
         MPI_Abort(comm_, last_words_.code);
     }
@@ -363,7 +363,7 @@ void MpiRanks::post(int rank, const Bytes& message) {
 }
 
 std::optional<Bytes> MpiRanks::poll() {
-    std::optional<Bytes> message = posted_.check_cancelled();
+    std::optional<Bytes> message = posted_.poll();
     if (!message) end_if_one_has_left();
     return message;
 }
@@ -371,7 +371,7 @@ std::optional<Bytes> MpiRanks::poll() {
 void MpiRanks::drop_messages() {
     if (is_over_) return;
     begin_collective(0);
-    posted_.take_all();
+    posted_.drain();
 }
 
 std::vector<Bytes> MpiRanks::gather_on_host(const Bytes& contribution, std::size_t& own) const {

@@ -74,7 +74,7 @@ class MpiRanks : public Communicator {
     Bytes receive(int rank) override;
     std::optional<Bytes> receive_any() override;
     void post(int rank, const Bytes& message) override;
-    std::optional<Bytes> check_cancelled() override;
+    std::optional<Bytes> poll() override;
     void drop_messages() override;
     void leave(const StageStatus& why) override;
 

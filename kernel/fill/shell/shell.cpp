@@ -13,7 +13,7 @@
 #include "base/core/error.h"
 #include "fill/delaunay/delaunay.h"
 #include "fill/delaunay/delaunay_flips.h"
-#include "fill/delaunay/faces.h"
+#include "fill/delaunay/enclosing_faces.h"
 #include "fill/improve/cell_shape.h"
 #include "fill/shell/inside/face_recovery.h"
 #include "fill/shell/inside/vertex_star.h"

@@ -60,7 +60,7 @@ std::string fallbacks_text(const RunReport& report) {
 // Returns how many parts TetGen had to fill for Kerf's own mesher, and the reasons.
 std::string tetgen_text(const RunReport& report) {
     const MesherOptions& asked = report.options.mesher;
-    if (report.parts_by_tetgen == 0 || asked.name == "tetgen" || !asked.tetgen.switches.empty()) return "";
+    if (report.mesh.parts_by_tetgen == 0 || asked.name == "tetgen" || !asked.tetgen.switches.empty()) return "";
     const auto reason_of = [](const PartReport& part) {
         const PartResult& result = part.result;
         if (!result.is_by_tetgen()) return std::string();
@@ -69,13 +69,13 @@ std::string tetgen_text(const RunReport& report) {
         return text;
     };
     return fmt::format("has filled {} of {} parts, slower, since Kerf's own mesher has failed: {}",
-                       report.parts_by_tetgen, report.parts.size(), first_parts_text(report, reason_of));
+                       report.mesh.parts_by_tetgen, report.parts.size(), first_parts_text(report, reason_of));
 }
 
 // "7 core and shell, 1 shell alone".
 std::string ways_text(const RunReport& report) {
     std::string text;
-    for (const auto& [way, parts] : report.parts_by_way)
+    for (const auto& [way, parts] : report.mesh.parts_by_way)
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(parts), way);
     return text;
 }
@@ -115,10 +115,10 @@ std::string reference_text(const RunReport& report) {
 }
 
 std::string improvement_text(const RunReport& report) {
-    const ImprovedAngles angles(report.improvement, report.quality);
+    const ImprovedAngles angles(report.mesh.improvement, report.mesh.quality);
     return fmt::format("dihedral 1 % {:.1f} -> {:.1f}, min {:.1f} -> {:.1f} deg; {:.2f} s in all workers",
                        angles.p1_before_deg, angles.p1_after_deg, angles.min_before_deg, angles.min_after_deg,
-                       report.improve_seconds);
+                       report.mesh.improve_seconds);
 }
 
 // Returns the cells that the surface forces to be sharp, where these are of interest: always, or among the worst
@@ -271,11 +271,11 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
 
 void add_cuts(ReportLines& lines, const RunReport& report) {
     lines.add("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
-                                   strategies_text(report.nodes)));
-    if (report.split_facets > 0)
+                                   strategies_text(report.cut.nodes)));
+    if (report.cut.split_facets > 0)
         lines.add("split", fmt::format("{} facets, where no contour of edges exists (--surface keep forbids it)",
-                                       grouped(report.split_facets)));
-    const InterfaceTotals totals = interface_totals(report.nodes);
+                                       grouped(report.cut.split_facets)));
+    const InterfaceTotals totals = interface_totals(report.cut.nodes);
     if (totals.section_area > 0)
         lines.add("interfaces", fmt::format("area {:.6g}, {:.3f} of the plane sections; smallest angle {:.1f} deg",
                                             totals.area, totals.area / totals.section_area, totals.angle_deg));
@@ -302,22 +302,22 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     const std::string parts =
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
     const std::string nodes =
-        report.mesh_nodes > 0 ? fmt::format(", {} nodes of order 2", grouped(report.mesh_nodes)) : std::string();
-    lines.add("mesh", fmt::format("{} tetrahedra, {} vertices{}{}", grouped(report.tets), grouped(report.vertices),
-                                  nodes, parts));
+        report.mesh.nodes > 0 ? fmt::format(", {} nodes of order 2", grouped(report.mesh.nodes)) : std::string();
+    lines.add("mesh", fmt::format("{} tetrahedra, {} vertices{}{}", grouped(report.mesh.tets),
+                                  grouped(report.mesh.vertices), nodes, parts));
     lines.add("regions", regions_text(report));
     if (report.found_size) lines.add("cells", found_size_text(*report.found_size));
     if (all) lines.add("filled", ways_text(report));
-    if (all) lines.add("recovered", recovery_text(report.recovery));
-    if (all && !report.improvement.is_empty()) lines.add("improved", improvement_text(report));
-    if (all && !report.sizes.empty())
+    if (all) lines.add("recovered", recovery_text(report.mesh.recovery));
+    if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
+    if (all && !report.mesh.sizes.empty())
         lines.add("sizes",
-                  size_text(report.sizes, report.input->patch_names, !report.options.mesher.size.is_constant()));
-    const Distribution& dihedral = report.quality.all.measures[0];
-    const Distribution& ratio = report.quality.all.measures[2];
+                  size_text(report.mesh.sizes, report.input->patch_names, !report.options.mesher.size.is_constant()));
+    const Distribution& dihedral = report.mesh.quality.all.measures[0];
+    const Distribution& ratio = report.mesh.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                      dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
-    lines.add("forced", forced_text(report.quality.angles, all));
+    lines.add("forced", forced_text(report.mesh.quality.angles, all));
     lines.add("bounds", exceeded_text(told_bounds(report, all)));
     if (report.curve) lines.add("curved", curve_text(*report.curve));
 }
@@ -358,7 +358,7 @@ std::string to_text(const RunReport& report, ReportDetail detail) {
     lines.add("verified",
               fmt::format("{}; volume error {:.1e}", report.verification.passed ? "yes, every law holds" : "NO",
                           report.verification.volume_rel_error));
-    if (all) lines.add("mesh hash", report.mesh_hash);
+    if (all) lines.add("mesh hash", report.mesh.hash);
     return lines.text();
 }
 

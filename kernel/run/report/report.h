@@ -24,10 +24,10 @@ struct PartReport : PartOutcome {
     FileHash job_hash = {0, 0};
     FileHash surface_hash = {0, 0};  ///< hash of the file of its surface
     double surface_volume = 0;
-    double surface_volume_error = 0;                       ///< bound of its rounding (BoundedVolume)
-    double sized_volume = 0;                               ///< result of sized_volume()
-    double tets_at_facets = 0;                             ///< forecast of cells at the facets that are no interface
-    Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< corners of the box around its surface
+    double surface_volume_error = 0;                         ///< bound of its rounding (BoundedVolume)
+    double sized_volume = 0;                                 ///< result of sized_volume()
+    double tets_at_facets = 0;                               ///< forecast of cells at the facets that are no interface
+    Eigen::AlignedBox3d box = {Vec3::Zero(), Vec3::Zero()};  ///< box around its surface
     std::int64_t surface_vertices = 0, surface_facets = 0;
     std::int64_t interface_facets = 0;  ///< number of the facets on interfaces
     std::int64_t walls_of_others = 0;  ///< number of the facets that are walls which the part on their other side lists
@@ -39,13 +39,11 @@ struct PartReport : PartOutcome {
     /// Number of vertices and nodes on edges of a part of order 2; known to each rank once parts are written.
     std::int64_t mesh_nodes = 0;
 
-    Eigen::AlignedBox3d box() const { return {box_low, box_high}; }
-
     template <class Archive>
     void archive(Archive& a) {
         PartOutcome::archive(a);
         a(id, rank, resumed, load, job_hash, surface_hash, surface_volume, surface_volume_error, sized_volume,
-          tets_at_facets, box_low, box_high, surface_vertices, surface_facets, interface_facets, walls_of_others,
+          tets_at_facets, box.min(), box.max(), surface_vertices, surface_facets, interface_facets, walls_of_others,
           region, interface_area, interface_in_squared_edges, neighbours);
     }
 };
@@ -136,38 +134,52 @@ struct CurveReport {
     double volume_gain = 0;            ///< volume that curved edges add to the mesh of straight ones
 };
 
+/// The tree of cuts.
+struct CutReport {
+    std::vector<TreeNode> nodes;    ///< nodes of the tree, ascending by number
+    std::int64_t split_facets = 0;  ///< facets of the input that straight cuts have split
+};
+
+/// The whole mesh, added up over the parts.
+struct MeshReport {
+    std::int64_t vertices = 0;      ///< number of distinct vertices
+    std::int64_t nodes = 0;         ///< number of vertices and nodes on edges for order 2; 0 for order 1
+    std::int64_t curved_nodes = 0;  ///< number of the nodes that are on edges but not in their middle
+    std::int64_t tets = 0;
+    std::map<std::string, std::int64_t> parts_by_way;  ///< number of parts that were filled, by PartResult::way()
+    std::int64_t parts_by_tetgen = 0;                  ///< number of these that TetGen has filled, asked for or not
+    FacetRecoveryCounts recovery;
+    PartQuality quality;
+    Improvement improvement;
+    double improve_seconds = 0;  ///< seconds of the improvement in all workers
+    SizeRatios sizes;
+    std::string hash;
+};
+
+/// The folder of the result.
+struct FolderReport {
+    std::string path;
+    std::vector<RunFile> files;   ///< all files of the folder but the report, ascending
+    bool kept_valid_run = false;  ///< parts have failed, and an older run without failures has kept the folder's name
+};
+
 struct RunReport {
     const Input* input = nullptr;
     RunOptions options;
     std::optional<FoundSize> found_size;  ///< size that was found for the number of tetrahedra that was asked for
     int ranks = 1;
-    std::vector<TreeNode> nodes;    ///< nodes of the tree, ascending by number
+    CutReport cut;
     std::vector<PartReport> parts;  ///< all parts, in the order of the tree
     RunVerification verification;
-    std::int64_t split_facets = 0;  ///< facets of the input that straight cuts have split
     StageSeconds seconds;
     WorkerSeconds worker_seconds;
-    std::int64_t vertices = 0;      ///< number of distinct vertices of the whole mesh
-    std::int64_t mesh_nodes = 0;    ///< number of vertices and nodes on edges for order 2; 0 for order 1
-    std::int64_t curved_nodes = 0;  ///< number of the nodes that are on edges but not in their middle
-    std::int64_t tets = 0;
-    std::map<std::string, std::int64_t> parts_by_way;  ///< number of parts that were filled, by PartResult::way()
-    std::int64_t parts_by_tetgen = 0;                  ///< number of these that TetGen has filled, asked for or not
-    FacetRecoveryCounts recovery;                      ///< sum over the parts
-    double imbalance = 1;                              ///< largest over mean of the part seconds summed for each worker
+    MeshReport mesh;
+    double imbalance = 1;  ///< largest over mean of the part seconds summed for each worker
     /// Peak of resident memory: sum over the ranks, each with as many times that of the largest worker as it has
     /// workers.
     std::int64_t peak_rss_bytes = 0;
-    PartQuality quality;
-    Improvement improvement;  ///< sum over the parts, and so are its seconds
-    double improve_seconds = 0;
-    SizeRatios sizes;                    ///< sum over the parts
     std::optional<Reference> reference;  ///< mesh in one piece, on the root rank where it was asked for
-    std::string mesh_hash;
-    std::vector<RunFile> files;  ///< all files of the folder but the report, ascending
-    std::string folder;          ///< path of the result
-    /// True: parts have failed, and an older run without failures has kept the folder's name.
-    bool kept_valid_run = false;
+    FolderReport folder;
     int exit_code = 0;
     std::optional<CurveReport> curve = {};  ///< fate of edges, for order 2 unless they are to be straight
 };

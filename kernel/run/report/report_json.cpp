@@ -196,21 +196,21 @@ Json parts_json(const RunReport& report) {
 
 Json totals_json(const RunReport& report) {
     double interface_area = 0;
-    for (const TreeNode& node : report.nodes) interface_area += node.interface_area;
+    for (const TreeNode& node : report.cut.nodes) interface_area += node.interface_area;
     double volume = 0;
     for (const PartReport& part : report.parts)
         volume += report.options.volume ? part.result.laws.volume : part.surface_volume;
-    return {{"vertices", report.vertices},
+    return {{"vertices", report.mesh.vertices},
             {"order", report.options.order},
-            {"nodes", std::max(report.mesh_nodes, report.vertices)},
-            {"curved_nodes", report.curved_nodes},
-            {"tets", report.tets},
+            {"nodes", std::max(report.mesh.nodes, report.mesh.vertices)},
+            {"curved_nodes", report.mesh.curved_nodes},
+            {"tets", report.mesh.tets},
             {"volume", volume},
             {"interface_area", interface_area},
-            {"split_facets", report.split_facets},
-            {"parts_by_way", report.parts_by_way},
-            {"parts_by_tetgen", report.parts_by_tetgen},
-            {"recovery", json_of_recovery(report.recovery)},
+            {"split_facets", report.cut.split_facets},
+            {"parts_by_way", report.mesh.parts_by_way},
+            {"parts_by_tetgen", report.mesh.parts_by_tetgen},
+            {"recovery", json_of_recovery(report.mesh.recovery)},
             {"read_seconds", report.seconds.read},
             {"decompose_seconds", report.seconds.decompose},
             {"prepare_seconds", report.seconds.prepare},
@@ -235,7 +235,7 @@ Json ratios_json(const RatioCounts& ratios) {
 
 // The ratios of lengths that edges have to lengths that were asked for.
 Json sizes_json(const RunReport& report) {
-    const SizeRatios& ratios = report.sizes;
+    const SizeRatios& ratios = report.mesh.sizes;
     if (ratios.empty()) return nullptr;
     Json patches = Json::object();
     for (const auto& [patch, edges] : ratios.by_patch)
@@ -305,25 +305,26 @@ Json verification_json(const RunVerification& laws) {
 }  // namespace
 
 std::string to_json(const RunReport& report) {
-    Json json = {{"schema", 1},
-                 {"kerf", version},
-                 {"input", input_json(*report.input)},
-                 {"options", options_json(report.options)},
-                 {"tree", array_of(report.nodes, node_json)},
-                 {"parts", parts_json(report)},
-                 {"totals", totals_json(report)},
-                 {"quality", quality_json(report.quality)},
-                 {"forced", forced_json(report.quality.angles)},
-                 {"bounds", bounds_json(report)},
-                 {"improvement",
-                  improvement_json(report.improvement, {report.improvement, report.quality}, report.improve_seconds)},
-                 {"cells", cells_json(report)},
-                 {"sizes", sizes_json(report)},
-                 {"verification", verification_json(report.verification)},
-                 {"reference", reference_json(report)},
-                 {"mesh_hash", report.mesh_hash},
-                 {"files", array_of(report.files, file_json)},
-                 {"exit_code", report.exit_code}};
+    Json json = {
+        {"schema", 1},
+        {"kerf", version},
+        {"input", input_json(*report.input)},
+        {"options", options_json(report.options)},
+        {"tree", array_of(report.cut.nodes, node_json)},
+        {"parts", parts_json(report)},
+        {"totals", totals_json(report)},
+        {"quality", quality_json(report.mesh.quality)},
+        {"forced", forced_json(report.mesh.quality.angles)},
+        {"bounds", bounds_json(report)},
+        {"improvement", improvement_json(report.mesh.improvement, {report.mesh.improvement, report.mesh.quality},
+                                         report.mesh.improve_seconds)},
+        {"cells", cells_json(report)},
+        {"sizes", sizes_json(report)},
+        {"verification", verification_json(report.verification)},
+        {"reference", reference_json(report)},
+        {"mesh_hash", report.mesh.hash},
+        {"files", array_of(report.folder.files, file_json)},
+        {"exit_code", report.exit_code}};
     if (report.curve) json["curve"] = curve_json(*report.curve, report.seconds.curve);
     return sealed(text_with_rows(json));
 }

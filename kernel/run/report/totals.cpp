@@ -22,7 +22,7 @@ namespace {
 // less than 16 e times the largest coordinate (cut/cut/inside/facet_split.cpp), e = 2^-53, and so does each piece
 // beside its facet, once for each level of the tree.
 double error_of_splits(const RunReport& report) {
-    if (report.split_facets == 0) return 0;
+    if (report.cut.split_facets == 0) return 0;
     NodeId last = 1;
     for (const PartReport& part : report.parts) last = std::max(last, part.id);
     const auto levels = static_cast<double>(std::bit_width(static_cast<std::uint64_t>(last)));
@@ -116,17 +116,17 @@ int failure_code(const std::vector<PartReport>& parts) {
 void add_up_parts(RunReport& report) {
     std::vector<PartHash> hashes;
     for (const PartReport& part : report.parts) {
-        report.tets += part.result.tets;
-        report.sizes.add(part.result.sizes);
-        report.improve_seconds += part.result.improve_seconds;
-        report.recovery.add(part.result.recovery);
+        report.mesh.tets += part.result.tets;
+        report.mesh.sizes.add(part.result.sizes);
+        report.mesh.improve_seconds += part.result.improve_seconds;
+        report.mesh.recovery.add(part.result.recovery);
         if (report.options.volume && part.result.code == 0) {
-            ++report.parts_by_way[part.result.way()];
-            report.parts_by_tetgen += part.result.is_by_tetgen();
+            ++report.mesh.parts_by_way[part.result.way()];
+            report.mesh.parts_by_tetgen += part.result.is_by_tetgen();
         }
         hashes.push_back({part.id, part.result.hash});
     }
-    if (report.options.volume) report.mesh_hash = hash_of_parts(hashes);
+    if (report.options.volume) report.mesh.hash = hash_of_parts(hashes);
     report.verification = verify_parts(report);
     measure_workers(report);
     report.exit_code = failure_code(report.parts);

@@ -23,8 +23,8 @@ EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, 
 }
 
 void count_nodes(const SecondOrderParts& parts, RunReport& report) {
-    report.mesh_nodes = parts.outline().nodes();
-    report.curved_nodes = std::ssize(parts.curved().ids);
+    report.mesh.nodes = parts.outline().nodes();
+    report.mesh.curved_nodes = std::ssize(parts.curved().ids);
     std::vector<NodeId> ids;
     for (const PartReport& part : report.parts) ids.push_back(part.id);
     const PartIndices index(ids);

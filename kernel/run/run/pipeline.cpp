@@ -302,12 +302,12 @@ void finish(const RunContext& run, std::optional<RunFolder>& folder, RunReport& 
         });
         return;
     }
-    report.files = timed(run.ranks, report.seconds.hash, [&] {
+    report.folder.files = timed(run.ranks, report.seconds.hash, [&] {
         in_agreement(run.ranks, [&] {
             if (run.is_root() && run.options.volume) remove_stored_parts(run, *folder, report.exit_code);
         });
         return list_run_files(
-            run.ranks, *folder, report.parts, std::move(report.files),
+            run.ranks, *folder, report.parts, std::move(report.folder.files),
             [&](std::size_t done, std::size_t total) { tell_progress(run.listener, "hash", done, total); });
     });
     if (!run.is_root()) folder.reset();  // nobody uses it when it moves
@@ -316,8 +316,8 @@ void finish(const RunContext& run, std::optional<RunFolder>& folder, RunReport& 
         if (!run.is_root()) return;
         const std::string json = to_json(report);
         write_text_file(folder->file("report.json"), json);
-        report.folder = folder->commit(report.exit_code == 0);
-        report.kept_valid_run = report.folder != folder->final_path();
+        report.folder.path = folder->commit(report.exit_code == 0);
+        report.folder.kept_valid_run = report.folder.path != folder->final_path();
         if (!run.options.report_file.empty()) write_output_file(run.options.report_file, json);
     });
 }
@@ -349,7 +349,7 @@ RunReport empty_report(const RunContext& run) {
     report.options = run.options;
     report.ranks = run.ranks.size();
     report.found_size = run.found_size;
-    report.quality = PartQuality(run.input.diagonal);
+    report.mesh.quality = PartQuality(run.input.diagonal);
     return report;
 }
 
@@ -370,10 +370,10 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
         if (!options.dry_run) keep_folder(run, folder.emplace(open_folder(run)));
         Decomposition own =
             timed(ranks, seconds.decompose, [&] { return cut_surface(ranks, input, options, listener); });
-        report.split_facets = static_cast<std::int64_t>(own.divided_facets.size());
+        report.cut.split_facets = static_cast<std::int64_t>(own.divided_facets.size());
         PreparedParts prepared = timed(ranks, seconds.prepare, [&] {
-            report.nodes = gather_nodes(ranks, own.nodes, host_name());
-            return prepare_parts(ranks, input, report.nodes, std::move(own), options);
+            report.cut.nodes = gather_nodes(ranks, own.nodes, host_name());
+            return prepare_parts(ranks, input, report.cut.nodes, std::move(own), options);
         });
         report.verification.unmatched_interface_faces = prepared.unmatched_interface_facets;
         report.verification.input_faces_missing = prepared.missing_input_facets;
@@ -391,14 +391,15 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
         if (volume) {
             MeshedParts meshed = timed(ranks, seconds.mesh, [&] { return volume->mesh(report.parts); });
             report.parts = std::move(meshed.parts);
-            report.quality = std::move(meshed.quality);
-            report.improvement = std::move(meshed.improvement);
+            report.mesh.quality = std::move(meshed.quality);
+            report.mesh.improvement = std::move(meshed.improvement);
             const StoredParts stored = number_parts(run, *folder, report.parts, prepared.surface_vertices);
-            report.vertices = stored.outline().vertices;
+            report.mesh.vertices = stored.outline().vertices;
             report.reference = mesh_reference(run, *folder, report, whole_surface);
             const auto of_order_2 = timed(ranks, seconds.curve, [&] { return with_second_order(run, stored, report); });
-            report.files = timed(ranks, seconds.write,
-                                 [&] { return pass_on_meshes(run, *folder, stored, of_order_2.get(), report.parts); });
+            report.folder.files = timed(ranks, seconds.write, [&] {
+                return pass_on_meshes(run, *folder, stored, of_order_2.get(), report.parts);
+            });
         } else {
             join_surfaces(run, *folder, report.parts);
         }

@@ -40,9 +40,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
     part.region = job.region;
     part.surface_volume = volume;
     part.surface_volume_error = bounded_volume(job.surface.vertices, job.surface.facets).error;
-    const Box box = box_around(job.surface.vertices);
-    part.box_low = box.min();
-    part.box_high = box.max();
+    part.box = box_around(job.surface.vertices);
     part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
     part.surface_facets = static_cast<std::int64_t>(job.surface.facets.size());
     for (std::size_t f = 0; f < job.neighbour.size(); ++f) {

@@ -20,7 +20,7 @@ RunReport report_with(double max_volume, double radius_edge) {
     RunReport report;
     report.options.sizes.max_volume = max_volume;
     report.options.mesher.radius_edge = radius_edge;
-    report.quality = PartQuality(10);
+    report.mesh.quality = PartQuality(10);
     return report;
 }
 
@@ -35,7 +35,7 @@ TEST(ExceededBounds, CountCellsBeyondThem) {
         double largest = 0;
         for (int i = 0; i < 1000; ++i) {
             const double volume = factor(random), ratio = factor(random);
-            report.quality.all.add(quality_of(1e-2 * volume, 2 * ratio));
+            report.mesh.quality.all.add(quality_of(1e-2 * volume, 2 * ratio));
             large += volume > 1;
             sharp += ratio > 1;
             near_bound += std::abs(volume - 1) < 0.05 || std::abs(ratio - 1) < 0.05;
@@ -54,7 +54,7 @@ TEST(ExceededBounds, CountCellsBeyondThem) {
 
 TEST(ExceededBounds, NothingIsSaidOfBoundsThatHoldOrThatNobodyAskedFor) {
     RunReport report = report_with(1, 1.4);
-    report.quality.all.add(quality_of(0.5, 1));
+    report.mesh.quality.all.add(quality_of(0.5, 1));
     EXPECT_TRUE(exceeded_bounds(report).empty());
     RunReport none = report_with(0, 0);
     none.quality.all.add(quality_of(0.5, 100));

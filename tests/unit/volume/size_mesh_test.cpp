@@ -123,12 +123,12 @@ TEST(RunOfSizes, ObeysTheFieldInOnePartAndInMany) {
         ASSERT_EQ(report.exit_code, 0);
         EXPECT_EQ(report.parts.size(), static_cast<std::size_t>(parts));
         EXPECT_TRUE(report.verification.passed);
-        EXPECT_GT(report.sizes.inside.share_obeyed(), 0.9);
-        EXPECT_EQ(report.sizes.by_patch.size(), 1U);
+        EXPECT_GT(report.mesh.sizes.inside.share_obeyed(), 0.9);
+        EXPECT_EQ(report.mesh.sizes.by_patch.size(), 1U);
         if (parts > 1) {
-            EXPECT_GT(report.sizes.interfaces.share_obeyed(), 0.85);
+            EXPECT_GT(report.mesh.sizes.interfaces.share_obeyed(), 0.85);
         }
-        tets.push_back(report.tets);
+        tets.push_back(report.mesh.tets);
         const auto [least, most] =
             std::minmax_element(report.parts.begin(), report.parts.end(),
                                 [](const PartReport& a, const PartReport& b) { return a.result.tets < b.result.tets; });

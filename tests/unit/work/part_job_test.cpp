@@ -79,12 +79,12 @@ TEST(ReportOfParts, SaysWhatImprovementHasGained) {
     input.path = "ball.stl";
     RunReport report;
     report.input = &input;
-    report.quality = PartQuality(1);
+    report.mesh.quality = PartQuality(1);
     EXPECT_TRUE(nlohmann::json::parse(to_json(report)).at("improvement").is_null());
     report.parts.resize(2);
     report.parts[1].result = run_part_job(job_of(test::icosphere(3)), {}, folder.file("part"));
-    report.quality.add(report.parts[1].result.quality);
-    report.improvement.add(report.parts[1].result.improvement);
+    report.mesh.quality.add(report.parts[1].result.quality);
+    report.mesh.improvement.add(report.parts[1].result.improvement);
     const nlohmann::json json = nlohmann::json::parse(to_json(report));
     EXPECT_FALSE(json.at("parts")[0].contains("improvement"));
     const nlohmann::json &part = json.at("parts")[1].at("improvement"), &all = json.at("improvement");
@@ -105,7 +105,7 @@ TEST(ReportOfParts, SaysWhichCellsTheSurfaceForces) {
     RunReport report;
     report.input = &input;
     const auto told = [&](const Soup& body, ReportDetail detail) {
-        report.quality = run_part_job(job_of(body), {}, folder.file("part")).quality;
+        report.mesh.quality = run_part_job(job_of(body), {}, folder.file("part")).quality;
         return to_text(report, detail).find("forced      by the surface: ") != std::string::npos;
     };
     const Soup plate = test::box(Vec3(-5, -5, 0), Vec3(5, 5, 0.1), std::array{8, 8, 1});
@@ -318,7 +318,7 @@ TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
     RunReport report;
     report.input = &input;
     report.options.workers = 1;
-    report.quality = run_part_job(job_of(test::box()), {}, folder.file("part")).quality;
+    report.mesh.quality = run_part_job(job_of(test::box()), {}, folder.file("part")).quality;
     report.parts.resize(6);
     const auto set = [&](std::size_t i, const char* mesher, const std::string& strategy,
                          const FacetRecoveryCounts& recovery) {

@@ -50,7 +50,7 @@ std::optional<Bytes> PostedMessages::poll() {
     return receive(status);
 }
 
-void PostedMessages::take_all() {
+void PostedMessages::drain() {
     int expected = 0;
     check_mpi(MPI_Reduce_scatter_block(sent_to_.data(), &expected, 1, MPI_INT, MPI_SUM, comm_),
               "MPI_Reduce_scatter_block");

@@ -22,7 +22,7 @@ struct OnTheWay {
 std::list<OnTheWay>& abandoned_messages();
 
 /// The messages that a rank has posted, and those that were posted to it. They are counted by receiver, so that
-/// take_all() knows how many are still under way. Those that are on their way when the object ends are abandoned.
+/// drain() knows how many are still under way. Those that are on their way when the object ends are abandoned.
 class PostedMessages {
  public:
     PostedMessages(MPI_Comm comm, int ranks);
@@ -32,16 +32,16 @@ class PostedMessages {
 
     void post(int rank, const Bytes& message);
     /// Returns a message that was posted to this rank; nothing if none has arrived yet.
-    std::optional<Bytes> check_cancelled();
+    std::optional<Bytes> poll();
     /// Collective: takes all messages out of the way that were posted before and not polled.
-    void take_all();
+    void drain();
 
  private:
     Bytes receive(const MPI_Status& announced);
 
     MPI_Comm comm_;
     std::list<OnTheWay> posted_;
-    std::vector<int> sent_to_;  // messages to each rank since take_all()
+    std::vector<int> sent_to_;  // messages to each rank since drain()
     int received_ = 0;
 };
 

@@ -22,14 +22,14 @@ std::int64_t count_beyond(const Distribution& values, double bound) {
 std::vector<ExceededBound> exceeded_bounds(const RunReport& report) {
     constexpr std::size_t radius_edge = 2, volume = 5;  // numbers of these measures in quality_measures
     std::vector<ExceededBound> exceeded;
-    if (report.quality.all.measures.size() <= volume) return exceeded;  // nothing was meshed
+    if (report.mesh.quality.all.measures.size() <= volume) return exceeded;  // nothing was meshed
     const auto add = [&](const char* option, double bound, const Distribution& values) {
         if (bound <= 0 || values.count() == 0) return;
         if (const std::int64_t cells = count_beyond(values, bound); cells > 0)
             exceeded.push_back({option, bound, cells, values.max()});
     };
-    add("max-volume", report.options.sizes.max_volume, report.quality.all.measures[volume]);
-    add("radius-edge", report.options.mesher.radius_edge, report.quality.all.measures[radius_edge]);
+    add("max-volume", report.options.sizes.max_volume, report.mesh.quality.all.measures[volume]);
+    add("radius-edge", report.options.mesher.radius_edge, report.mesh.quality.all.measures[radius_edge]);
     return exceeded;
 }
 

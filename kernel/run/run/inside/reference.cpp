@@ -44,8 +44,8 @@ Reference compare_with_whole(const RunFolder& folder, const RunReport& report, P
     MeshQuality parts, one;
     parts.name = fmt::format("{} in {} parts", name, report.parts.size());
     parts.parts = static_cast<std::int64_t>(report.parts.size());
-    parts.vertices = report.vertices;
-    parts.cells = report.quality;
+    parts.vertices = report.mesh.vertices;
+    parts.cells = report.mesh.quality;
     one.name = name + " in one piece";
     one.vertices = whole.result.vertices;
     one.cells = whole.result.quality;

@@ -113,7 +113,7 @@ void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     if (plan_.options.transient) return write_job(folder_.job_file(part.id), job);
     const std::string vtu_file = folder_.part_file(part.id);
     MesherOptions mesher = plan_.options.mesher;
-    mesher.size = size_in(part.region).within(part.box());
+    mesher.size = size_in(part.region).within(part.box);
     part.job_hash = hash_of_job(job, mesher, plan_.options.attempts, plan_.worker_hash);
     std::error_code ignored;
     if (std::filesystem::exists(journal, ignored) && !std::filesystem::exists(file, ignored))
