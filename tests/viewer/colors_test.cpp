@@ -109,8 +109,8 @@ TEST(Legend, ColoursAreThoseOfThePicture) {
     Driver driver(wide_pictures());
     driver.show_panels(false);
     driver.open(asset_path("pipe_with_holes"));
-    driver.state().edges = false;
-    driver.state().explode = 0.5;
+    driver.state().look.edges = false;
+    driver.state().explosion.amount = 0.5;
     std::set<std::string> explained;
     for (const NodeId node : {1, 2})
         for (const Step& step : steps_of(driver.document(), node)) {
@@ -143,18 +143,18 @@ TEST(Legend, ListsOnlyWhatIsThere) {
         return all;
     };
     EXPECT_EQ(texts().size(), 4U);
-    driver.state().set_hidden(4, true);
+    driver.state().visibility.set_hidden(4, true);
     EXPECT_EQ(texts().size(), 3U);
-    driver.state().hidden.clear();
+    driver.state().visibility.hidden.clear();
     driver.state().clip = {true, ClipStyle::cells, driver.document().tree.find(1)->plane()->normal, 0.1, false};
     EXPECT_LT(texts().size(), 4U) << "parts beyond the plane";
     driver.state().clip.on = false;
-    driver.state().color = ColorBy::kind;
-    driver.state().explode = 0.5;
+    driver.state().coloring.by = ColorBy::kind;
+    driver.state().explosion.amount = 0.5;
     EXPECT_EQ(texts(), (std::vector<std::string>{"inner cells", "cells at an interface"}));
     driver.state() = {};
     driver.state().step = {Stage::input, -1};
-    driver.state().axes = false;
+    driver.state().look.axes = false;
     EXPECT_TRUE(texts().empty()) << "nothing but the surface";
 }
 

@@ -100,7 +100,7 @@ TEST(SearchBox, DoesWhatIsTyped) {
     driver.key(key_of('K'), true);
     driver.settle();
     driver.click("command Edges");
-    EXPECT_FALSE(driver.state().edges);
+    EXPECT_FALSE(driver.state().look.edges);
 }
 
 TEST(SearchBox, DoesNothingThatCannotBeDone) {

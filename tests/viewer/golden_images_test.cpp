@@ -128,7 +128,7 @@ TEST_F(Looks, ClipStylesOfASurface) {
 }
 
 TEST_F(Looks, Exploded) {
-    state().explode = 0.6;
+    state().explosion.amount = 0.6;
     expect_golden("explode");
     state().clip = {true, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
     expect_golden("explode-clip");
@@ -138,34 +138,35 @@ TEST_F(Looks, Exploded) {
 }
 
 TEST_F(Looks, Shrunk) {
-    state().shrink = 0.3;
+    state().explosion.shrink = 0.3;
     state().clip = {true, ClipStyle::cells, Vec3::UnitX(), 0.4, false};
     expect_golden("shrink");
 }
 
 TEST_F(Looks, EveryColouring) {
     for (int i = 0; i < color_by_count; ++i) {
-        state().color = static_cast<ColorBy>(i);
-        if (state().color == ColorBy::rank || state().color == ColorBy::level || state().color == ColorBy::patch ||
-            state().color == ColorBy::origin || is_of_surface(state().color) || is_of_solution(state().color))
+        state().coloring.by = static_cast<ColorBy>(i);
+        if (state().coloring.by == ColorBy::rank || state().coloring.by == ColorBy::level ||
+            state().coloring.by == ColorBy::patch || state().coloring.by == ColorBy::origin ||
+            is_of_surface(state().coloring.by) || is_of_solution(state().coloring.by))
             continue;  // of which this body has one, or none: see below, and solution_test.cpp
         state().clip = {true, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
-        expect_golden(std::string("color-") + name(state().color));
+        expect_golden(std::string("color-") + name(state().coloring.by));
     }
 }
 
 TEST_F(Looks, ColouredBoundary) {
-    state().color = ColorBy::min_dihedral;
+    state().coloring.by = ColorBy::min_dihedral;
     expect_golden("color-boundary");
-    state().filter = ValueRange{0, 25};
+    state().coloring.filter = ValueRange{0, 25};
     expect_golden("filter");
 }
 
 TEST_F(Looks, HiddenAndIsolated) {
-    state().hidden = {5};
+    state().visibility.hidden = {5};
     expect_golden("hidden");
-    state().hidden = {};
-    state().isolated = 3;
+    state().visibility.hidden = {};
+    state().visibility.isolated = 3;
     expect_golden("isolated");
 }
 
@@ -174,15 +175,15 @@ TEST_F(Looks, OfANodeBelow) {
     state().step = {Stage::contour, -1};
     expect_golden("node-3-contour");
     state().step = {Stage::input, -1};
-    state().shading = Shading::smooth;
-    state().edges = false;
+    state().look.shading = Shading::smooth;
+    state().look.edges = false;
     expect_golden("smooth-no-edges");
 }
 
 TEST_F(Looks, DarkAndSelected) {
     state().theme = Theme::dark;
     state().selection = {Selection::Kind::cell, 4, 17, Vec3::Zero()};
-    state().explode = 0.5;
+    state().explosion.amount = 0.5;
     expect_golden("dark-selection");
 }
 
@@ -218,7 +219,7 @@ TEST(Colourings, OfSeveralRanksLevelsAndPatches) {
     driver.state().step = {Stage::tetrahedra, -1};
     // The part of rank 1 lies beyond the clip plane.
     for (const auto& [color, categories] : {std::pair(ColorBy::rank, 2), {ColorBy::level, 2}, {ColorBy::patch, 7}}) {
-        driver.state().color = color;
+        driver.state().coloring.by = color;
         driver.state().clip = {color != ColorBy::patch, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
         EXPECT_TRUE(is_golden(std::string("color-") + name(color), driver));
         EXPECT_EQ(std::ssize(driver.app().facts().legend.categories), categories) << name(color);
@@ -238,7 +239,7 @@ TEST(Colourings, OfCoreShellAndOtherMesher) {
     driver.show_panels(false);
     driver.open(folder.file("run"));
     driver.state().step = {Stage::tetrahedra, -1};
-    driver.state().color = ColorBy::origin;
+    driver.state().coloring.by = ColorBy::origin;
     driver.state().clip = {true, ClipStyle::cells, Vec3::UnitY(), 0.5, true};
     EXPECT_TRUE(is_golden("color-origin", driver));
     const auto legend = [&] {
@@ -255,10 +256,10 @@ TEST(Colourings, OfCoreShellAndOtherMesher) {
     EXPECT_NE(description(2, 299).find("of the core"), std::string::npos);
     EXPECT_NE(description(2, 300).find("of the shell"), std::string::npos);
     EXPECT_EQ(description(3, 0).find("of the shell"), std::string::npos);
-    driver.state().isolated = 3;
+    driver.state().visibility.isolated = 3;
     driver.settle();
     EXPECT_EQ(legend(), "TetGen; ") << "only what is shown";
-    driver.state().isolated = 2;
+    driver.state().visibility.isolated = 2;
     driver.settle();
     EXPECT_EQ(legend(), "core: stamped cells; shell around the core; ");
 }
@@ -283,17 +284,17 @@ TEST(RemeshedSurface, LooksAsItShould) {
     driver.show_panels(false);
     driver.open(file);
     ViewState& state = driver.state();
-    state.features = true;
+    state.look.features = true;
     for (const Stage stage : {Stage::before_remeshing, Stage::input}) {
         state.step = {stage, -1};
         EXPECT_TRUE(is_golden(std::string("remeshing-") + name(stage), driver));
     }
-    state.color = ColorBy::size;
+    state.coloring.by = ColorBy::size;
     EXPECT_TRUE(is_golden("color-size", driver));
-    state.color = ColorBy::deviation;
+    state.coloring.by = ColorBy::deviation;
     EXPECT_TRUE(is_golden("color-deviation", driver));
     state.step = {Stage::split, -1};
-    state.explode = 0.5;
+    state.explosion.amount = 0.5;
     EXPECT_TRUE(is_golden("color-deviation-split", driver));
 }
 
@@ -314,7 +315,7 @@ TEST(Colourings, OfPatchesAreThoseOfTheFile) {
     Driver driver(small_pictures());
     driver.show_panels(false);
     driver.open(file);
-    driver.state().color = ColorBy::patch;
+    driver.state().coloring.by = ColorBy::patch;
     EXPECT_TRUE(is_golden("color-patch-of-file", driver));
     EXPECT_EQ(driver.app().scene().scene.palette.size(), 5u) << "equal ones are one";
 }
@@ -324,15 +325,15 @@ TEST(WholeWindow, EmptyOpenedAndAtAStage) {
     options.example_folder = asset_folder();
     Driver driver(options);
     expect_golden_window("ui-empty", driver);
-    driver.state().times = false;
+    driver.state().look.times = false;
     driver.open(asset_path("cylinder"));
-    driver.state().times = false;
+    driver.state().look.times = false;
     driver.state().node = 3;
     driver.state().step = {Stage::contour, -1};
     expect_golden_window("ui-contour", driver);
     driver.state().node = 1;
     driver.state().step = {Stage::tetrahedra, -1};
-    driver.state().color = ColorBy::min_dihedral;
+    driver.state().coloring.by = ColorBy::min_dihedral;
     driver.state().clip.on = true;
     driver.state().selection = {Selection::Kind::cell, 4, 100, Vec3::Zero()};
     expect_golden_window("ui-quality", driver);
@@ -377,12 +378,12 @@ TEST(GoldenComparison, FailsWhereItMust) {
     driver.open(asset_path("cube"));
     const Image picture = driver.picture();
     EXPECT_EQ(compare(picture, driver.picture()).largest, 0) << "two pictures of the same state";
-    driver.state().edges = false;
+    driver.state().look.edges = false;
     EXPECT_GT(compare(picture, driver.picture()).differing, 20 * most_differing) << "no edges";
-    driver.state().edges = true;
-    driver.state().axes = false;
+    driver.state().look.edges = true;
+    driver.state().look.axes = false;
     EXPECT_GT(compare(picture, driver.picture()).differing, 2 * most_differing) << "no axes";
-    driver.state().axes = true;
+    driver.state().look.axes = true;
     Camera camera = driver.app().camera();
     orbit(camera, 0.01, 0);
     driver.state().camera = camera;

@@ -19,12 +19,12 @@ TEST(TwoRegions, LookAsTheyShould) {
     driver.open_files({asset_path("bone"), asset_path("cement")});
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
-    state.color = ColorBy::region;
-    state.glass_regions = {"bone"};
+    state.coloring.by = ColorBy::region;
+    state.visibility.glass_regions = {"bone"};
     EXPECT_TRUE(is_golden("regions-glass", driver));
-    state.glass_regions.clear();
-    state.explode = 1;
-    state.explode_regions = true;
+    state.visibility.glass_regions.clear();
+    state.explosion.amount = 1;
+    state.explosion.regions = true;
     EXPECT_TRUE(is_golden("regions-apart", driver));
 }
 

@@ -48,7 +48,7 @@ Work work(const Driver::Options& options) {
     driver.settle();
     if (driver.state().selection.kind == Selection::Kind::facet) done.facet = driver.state().selection.index;
     driver.click("Edges");
-    done.edges = driver.state().edges;
+    done.edges = driver.state().look.edges;
     const float side = 0.2f * driver.app().scene_area().height;
     driver.drag(x, y, std::round(x + side), std::round(y + side));
     done.camera = driver.app().camera();
@@ -84,9 +84,9 @@ TEST(HiDpi, AWindowMovesBetweenScreens) {
         driver.move_to_screen(scale, scale);
         EXPECT_EQ(driver.picture().width, std::lround(scale * 1000));
         EXPECT_NEAR(ImGui::GetFontSize(), scale * letter, 0.6);
-        const bool edges = driver.state().edges;
+        const bool edges = driver.state().look.edges;
         driver.click("Edges");
-        EXPECT_NE(driver.state().edges, edges);
+        EXPECT_NE(driver.state().look.edges, edges);
     }
     driver.move_to_screen(1, 1);
     driver.move_to(1, 1);

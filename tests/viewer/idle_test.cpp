@@ -83,7 +83,7 @@ TEST(Idle, AFrameOfARunAsksNoFile) {
     expect_no_file_calls(of_two_parts(), [](Driver& driver) {
         driver.open(asset_path("cube"));
         driver.state().step = {Stage::tetrahedra, -1};
-        driver.state().color = ColorBy::min_dihedral;
+        driver.state().coloring.by = ColorBy::min_dihedral;
         driver.state().panels.display = false;
         driver.state().panels.parameters = driver.state().panels.quality = true;
         driver.settle();

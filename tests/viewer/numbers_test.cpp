@@ -51,7 +51,7 @@ class NumberedBox : public testing::Test {
         driver_ = std::make_unique<Driver>(options);
         driver_->show_panels(false);
         driver_->open(folder_.file("box.stl"));
-        driver_->state().color = ColorBy::patch;
+        driver_->state().coloring.by = ColorBy::patch;
         driver_->settle();
     }
     std::vector<std::int32_t> seen() {
@@ -91,12 +91,12 @@ TEST_F(NumberedBox, FacesThatAreSeenHaveThem) {
     std::vector<std::string> words = words_on_screen();
     for (const std::int32_t number : expected)
         EXPECT_EQ(std::count(words.begin(), words.end(), std::to_string(number)), 1) << number;
-    driver_->state().numbers = false;
+    driver_->state().look.numbers = false;
     EXPECT_TRUE(seen().empty());
-    driver_->state().numbers = true;
-    driver_->state().color = ColorBy::part;
+    driver_->state().look.numbers = true;
+    driver_->state().coloring.by = ColorBy::part;
     EXPECT_TRUE(seen().empty());
-    driver_->state().color = ColorBy::patch;
+    driver_->state().coloring.by = ColorBy::patch;
     EXPECT_EQ(seen(), expected);
     Camera camera = driver_->app().camera();
     look_from(camera, Vec3(0, 0, 1));

@@ -82,7 +82,7 @@ TEST_F(RegionsShown, TheRunIsOpenedWithItsTrace) {
 
 TEST_F(RegionsShown, AreHiddenIsolatedAndShownByTheirButtons) {
     using Names = std::set<std::string>;
-    state().color = ColorBy::region;
+    state().coloring.by = ColorBy::region;
     EXPECT_EQ(regions_drawn(), (Names{"bone", "cement"}));
     EXPECT_EQ(driver_->app().facts().legend.categories.size(), 2u);
     EXPECT_EQ(driver_->app().facts().legend.categories[0].text, "bone");
@@ -102,19 +102,19 @@ TEST_F(RegionsShown, AreHiddenIsolatedAndShownByTheirButtons) {
         driver_->click("Show all");
         EXPECT_EQ(regions_drawn().size(), 2u);
         driver_->click("glass region " + region);
-        EXPECT_EQ(state().glass_regions, std::vector<std::string>{region});
+        EXPECT_EQ(state().visibility.glass_regions, std::vector<std::string>{region});
         driver_->click("glass region " + region);
-        EXPECT_TRUE(state().glass_regions.empty());
+        EXPECT_TRUE(state().visibility.glass_regions.empty());
     }
     driver_->click("Walls alone");
-    EXPECT_TRUE(state().walls);
+    EXPECT_TRUE(state().visibility.walls);
     driver_->click("Explode as wholes");
-    EXPECT_TRUE(state().explode_regions);
+    EXPECT_TRUE(state().explosion.regions);
     // A state of another body changes nothing.
     state() = {};
     state().step = {Stage::tetrahedra, -1};
-    state().isolated_region = "skull";
-    state().hidden_regions = {"brain"};
+    state().visibility.isolated_region = "skull";
+    state().visibility.hidden_regions = {"brain"};
     EXPECT_EQ(regions_drawn().size(), 2u);
 }
 
@@ -140,8 +140,8 @@ TEST_F(RegionsShown, EachFacetIsDrawnOnceThroughGlassAndAsAWall) {
              {std::vector<std::string>{"bone", "cement"}, {"bone"}, {"cement"}, {}}) {
             if (!only_walls && glass.empty()) continue;
             SCOPED_TRACE(std::to_string(only_walls) + " " + (glass.empty() ? "" : glass.front()));
-            state().walls = only_walls;
-            state().glass_regions = glass;
+            state().visibility.walls = only_walls;
+            state().visibility.glass_regions = glass;
             driver_->settle();
             std::map<Place, int> drawn;
             std::int64_t of_glass = 0;
@@ -164,9 +164,9 @@ TEST_F(RegionsShown, EachFacetIsDrawnOnceThroughGlassAndAsAWall) {
 
 // Every part of a region moves as it does, and the two are as far apart as the holder is long.
 TEST_F(RegionsShown, MoveAsWholes) {
-    state().explode = 1;
+    state().explosion.amount = 1;
     for (const bool wholes : {true, false}) {
-        state().explode_regions = wholes;
+        state().explosion.regions = wholes;
         driver_->settle();
         std::map<std::string, std::set<std::array<float, 3>>> offsets;
         for (const Layer& layer : driver_->app().scene().scene.layers)

@@ -115,10 +115,10 @@ TEST_F(RepairPanel, ShowsOnePlaceBeforeAndAfter) {
     EXPECT_EQ(driver_->drawn(LayerKind::surface).triangles, std::ssize(soup_.facets) - 2);
     driver_->click("Colour by distance");
     driver_->settle();
-    EXPECT_EQ(driver_->state().color, ColorBy::deviation);
-    ASSERT_TRUE(driver_->app().facts().legend.values);
-    EXPECT_GT(driver_->app().facts().legend.values->high, 1e-4);
-    EXPECT_LT(driver_->app().facts().legend.values->high, 0.01);
+    EXPECT_EQ(driver_->state().coloring.by, ColorBy::deviation);
+    ASSERT_TRUE(driver_->app().facts().values);
+    EXPECT_GT(driver_->app().facts().values->high, 1e-4);
+    EXPECT_LT(driver_->app().facts().values->high, 0.01);
 }
 
 TEST_F(RepairPanel, FliesToThePlacesOfEachAction) {
@@ -181,7 +181,7 @@ TEST_F(RepairPanel, LooksAsItShould) {
     driver_->state().step = {Stage::before_repair, -1};
     EXPECT_TRUE(is_golden("repair-before", *driver_));
     driver_->state().step = {Stage::input, -1};
-    driver_->state().color = ColorBy::deviation;
+    driver_->state().coloring.by = ColorBy::deviation;
     EXPECT_TRUE(is_golden("repair-after", *driver_));
 }
 

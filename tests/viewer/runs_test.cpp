@@ -96,7 +96,7 @@ TEST(Runs, TheWorstCellsAreThoseOfAllParts) {
     ASSERT_EQ(::kill(run.process(), SIGSTOP), 0);
     Driver driver;
     driver.open(output);
-    driver.state().color = ColorBy::shape;
+    driver.state().coloring.by = ColorBy::shape;
     driver.state().panels.quality = true;
     driver.await("the first list", [&] { return driver.app().widgets().find("worst 1").has_value(); });
     EXPECT_TRUE(driver.document().progress.running);
@@ -124,7 +124,7 @@ TEST(Runs, ARowOfTheWorstCellsIsMarkedWithItsCell) {
     options.parts = 2;
     Driver driver(options);
     driver.open(asset_path("cube"));
-    driver.state().color = ColorBy::min_dihedral;
+    driver.state().coloring.by = ColorBy::min_dihedral;
     driver.state().step = {Stage::tetrahedra, -1};
     driver.click("Worst cells");
     driver.await("the list", [&] { return driver.app().widgets().find("worst 1").has_value(); });

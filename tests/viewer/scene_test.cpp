@@ -283,11 +283,11 @@ TEST(Layers, OfPartsThatAreTogetherDrawNoInside) {
     }
     EXPECT_GT(interfaces, 0);
     EXPECT_EQ(count_inside(), interfaces);
-    driver.state().explode = 1e-9;
+    driver.state().explosion.amount = 1e-9;
     EXPECT_EQ(count_inside(), 0);
     EXPECT_LT(compare(together, driver.picture()).differing, most_differing);
-    driver.state().explode = 0;
-    driver.state().set_hidden(2, true);
+    driver.state().explosion.amount = 0;
+    driver.state().visibility.set_hidden(2, true);
     EXPECT_EQ(count_inside(), 0) << "one looks at the insides";
 }
 
@@ -324,7 +324,7 @@ TEST(Edges, OfTinyTrianglesFade) {
         write_off(folder.file("box.off"), body.vertices, body.facets);
         driver.open(folder.file("box.off"));
         const auto brightness = [&](bool edges) {
-            driver.state().edges = edges;
+            driver.state().look.edges = edges;
             driver.settle();
             const Image picture = driver.picture();
             return std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) /
@@ -347,7 +347,7 @@ TEST(Clip, IsLookedAt) {
     driver.show_panels(false);
     driver.open(folder.file("box.off"));
     ViewState state;
-    state.context = false;
+    state.look.context = false;
     const auto camera = [&](const Vec3& normal, double position, bool flipped, bool faces_clip) {
         state.clip = {true, ClipStyle::smooth, normal, position, flipped};
         driver.app().show(state, {.faces_clip = faces_clip});

@@ -147,7 +147,7 @@ TEST(SceneUi, KeysWithinAFrameAllCount) {
     driver.keys_in_one_frame({{.key = key_up}, {.key = key_up, .repeat = true}});
     EXPECT_EQ(driver.state().node, order[0]);
     driver.keys_in_one_frame({{.key = key_of('E')}, {.key = key_of('E')}, {.key = key_of('E'), .repeat = true}});
-    EXPECT_TRUE(driver.state().edges) << "a held letter counts once";
+    EXPECT_TRUE(driver.state().look.edges) << "a held letter counts once";
     driver.keys_in_one_frame({{.key = key_of('Q'), .control = true}});
     EXPECT_TRUE(driver.app().wants_to_quit());
 }
@@ -164,7 +164,7 @@ TEST(SceneUi, EscapeClosesMenus) {
     driver.key(key_escape);
     EXPECT_FALSE(driver.app().widgets().find("Colour by: Patch"));
     driver.key(key_of('E'));
-    EXPECT_FALSE(driver.state().edges) << "keys are the scene's again";
+    EXPECT_FALSE(driver.state().look.edges) << "keys are the scene's again";
 }
 
 TEST(SceneUi, CtrlOTypesAPathAtOnce) {
@@ -200,7 +200,7 @@ TEST(SceneUi, AFilterMovesNothing) {
     driver.open(asset_path("cube"));
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
-    state.color = ColorBy::min_dihedral;
+    state.coloring.by = ColorBy::min_dihedral;
     state.panels.quality = true;
     driver.await("the worst cells", [&] { return driver.app().widgets().find("worst 1").has_value(); });
     driver.settle();
@@ -212,9 +212,9 @@ TEST(SceneUi, AFilterMovesNothing) {
     const double limit = std::ceil(histogram.median);
     driver.type(std::to_string(limit));
     driver.key(key_enter);
-    ASSERT_TRUE(state.filter);
-    EXPECT_EQ(state.filter->high, limit);
-    EXPECT_EQ(state.filter->low, histogram.min);
+    ASSERT_TRUE(state.coloring.filter);
+    EXPECT_EQ(state.coloring.filter->high, limit);
+    EXPECT_EQ(state.coloring.filter->low, histogram.min);
     driver.settle();
     EXPECT_EQ(top_of(driver, "Worst cells"), before);
 
@@ -222,7 +222,7 @@ TEST(SceneUi, AFilterMovesNothing) {
     EXPECT_GT(driver.drawn(LayerKind::outline).segments, 0);
     EXPECT_GT(driver.drawn(LayerKind::cells).triangles, 0);
     driver.click("Clear filter");
-    EXPECT_FALSE(state.filter);
+    EXPECT_FALSE(state.coloring.filter);
     EXPECT_EQ(top_of(driver, "Worst cells"), before);
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::outline).segments, 0);
@@ -233,26 +233,26 @@ TEST(SceneUi, TheColourBarCanBeDragged) {
     driver.open(asset_path("cube"));
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
-    state.color = ColorBy::min_dihedral;
+    state.coloring.by = ColorBy::min_dihedral;
     driver.settle();
     const ValueRange all = *driver.app().facts().legend.values;
     const float before = top_of(driver, "histogram");
     driver.drag_over("colour bar", 0.25f, 0.5f);
-    ASSERT_TRUE(state.color_range);
+    ASSERT_TRUE(state.coloring.range);
     const double length = all.high - all.low;
-    EXPECT_NEAR(state.color_range->low, all.low + 0.25 * length, 0.01 * length);
-    EXPECT_NEAR(state.color_range->high, all.low + 0.5 * length, 0.01 * length);
+    EXPECT_NEAR(state.coloring.range->low, all.low + 0.25 * length, 0.01 * length);
+    EXPECT_NEAR(state.coloring.range->high, all.low + 0.5 * length, 0.01 * length);
     driver.drag_over("colour bar", 0.5f, 0.75f);
-    EXPECT_NEAR(state.color_range->low, all.low + 0.25 * length, 0.01 * length) << "the upper end alone";
-    EXPECT_NEAR(state.color_range->high, all.low + 0.75 * length, 0.01 * length);
+    EXPECT_NEAR(state.coloring.range->low, all.low + 0.25 * length, 0.01 * length) << "the upper end alone";
+    EXPECT_NEAR(state.coloring.range->high, all.low + 0.75 * length, 0.01 * length);
     EXPECT_EQ(top_of(driver, "histogram"), before);
     driver.click("Lowest");
     driver.key(key_of('A'), true);
     driver.type("7.5");
     driver.key(key_enter);
-    EXPECT_EQ(state.color_range->low, 7.5);
+    EXPECT_EQ(state.coloring.range->low, 7.5);
     driver.click("Fixed range");
-    EXPECT_FALSE(state.color_range);
+    EXPECT_FALSE(state.coloring.range);
 }
 
 // The words of every choice, whole.
@@ -306,9 +306,9 @@ TEST(SceneUi, ColoursAreThoseOfTheLegend) {
     driver.open(asset_path("cube"));
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
-    state.color = ColorBy::min_dihedral;
-    state.color_range = ValueRange{-2, -1};  // all of them have the last colour
-    state.edges = state.context = state.legend = false;
+    state.coloring.by = ColorBy::min_dihedral;
+    state.coloring.range = ValueRange{-2, -1};  // all of them have the last colour
+    state.look.edges = state.look.context = state.look.legend = false;
     driver.settle();
     const Color legend = driver.app().facts().legend.scale.back();
     const Vec3 middle = driver.document().box.center();
@@ -337,12 +337,12 @@ TEST(SceneUi, NoGapShowsTheBackground) {
     driver.open(asset_path("cylinder"));
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
-    state.edges = state.context = state.legend = false;
+    state.look.edges = state.look.context = state.look.legend = false;
     const Image whole = driver.picture();
-    state.hidden = {1};
+    state.visibility.hidden = {1};
     const Image nothing = driver.picture();
-    state.hidden = {};
-    state.shrink = 0.3;
+    state.visibility.hidden = {};
+    state.explosion.shrink = 0.3;
     const Image gaps = driver.picture();
     int body = 0, holes = 0;
     for (int y = 0; y < whole.height; ++y)
@@ -388,7 +388,7 @@ TEST(SceneUi, ACellAndItsNeighbours) {
     EXPECT_LT(driver.app().scene().scene.find(LayerKind::part, 3)->opacity, 1);
 
     driver.click("Neighbours");
-    EXPECT_TRUE(state.neighbours);
+    EXPECT_TRUE(state.visibility.neighbours);
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::part).triangles, 0);
     EXPECT_GT(driver.drawn(LayerKind::outline).segments, 0);
@@ -411,7 +411,7 @@ TEST(SceneUi, ACellAndItsNeighbours) {
     EXPECT_EQ(driver.drawn(LayerKind::cells, 2).triangles, faces_of_ring(*own));
     EXPECT_EQ(driver.drawn(LayerKind::cells, 3).triangles, faces_of_ring(*other));
     driver.key(key_of('N'));
-    EXPECT_FALSE(state.neighbours);
+    EXPECT_FALSE(state.visibility.neighbours);
     driver.key(key_escape);
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::selected_cell).triangles, 0);
@@ -423,13 +423,13 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
     driver.open(asset_path("cylinder"));
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
-    state.color = ColorBy::min_dihedral;
+    state.coloring.by = ColorBy::min_dihedral;
     state.panels.quality = true;
     driver.await("the worst cells", [&] { return driver.app().widgets().find("worst 1").has_value(); });
-    state.color = ColorBy::radius_edge;  // the worst lie inside and at the surface
+    state.coloring.by = ColorBy::radius_edge;  // the worst lie inside and at the surface
     driver.await("the largest cells",
-                 [&] { return driver.app().session().fetched().worst_cells(state.color, 100) != nullptr; });
-    const auto worst = driver.app().session().fetched().worst_cells(state.color, 100);
+                 [&] { return driver.app().session().fetched().worst_cells(state.coloring.by, 100) != nullptr; });
+    const auto worst = driver.app().session().fetched().worst_cells(state.coloring.by, 100);
     driver.click("worst 1");
     EXPECT_EQ(state.selection.index, (*worst)[0].cell);
     driver.keys_in_one_frame({{.key = key_down}, {.key = key_down}});

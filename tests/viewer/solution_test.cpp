@@ -46,7 +46,7 @@ TEST_F(SolvedCube, IsSeenByItsStressUntilSomebodyChooses) {
     for (const bool is_solution : {false, true}) {
         driver_->open(folder_->file(is_solution ? "out" : "out/mesh"));
         driver_->settle();
-        EXPECT_EQ(driver_->state().color, is_solution ? ColorBy::von_mises : ColorBy::part);
+        EXPECT_EQ(driver_->state().coloring.by, is_solution ? ColorBy::von_mises : ColorBy::part);
         EXPECT_EQ(driver_->app().scene().legend.title.find("von Mises") != std::string::npos, is_solution)
             << driver_->app().scene().legend.title;
     }
@@ -57,27 +57,28 @@ TEST_F(SolvedCube, HasTheValuesOfItsVertices) {
     ViewState& state = driver_->state();
     for (const bool clipped : {false, true})
         for (int i = static_cast<int>(ColorBy::displacement); i < color_by_count; ++i) {
-            state.color = static_cast<ColorBy>(i);
+            state.coloring.by = static_cast<ColorBy>(i);
             state.clip = {clipped, ClipStyle::smooth, Vec3(1, 1, 1).normalized(), 0.5, false};
             driver_->settle();
-            const double slope = state.color <= ColorBy::von_mises ? 1 : i - static_cast<int>(ColorBy::stress_xx) + 1;
+            const double slope =
+                state.coloring.by <= ColorBy::von_mises ? 1 : i - static_cast<int>(ColorBy::stress_xx) + 1;
             std::int64_t corners = 0;
             for_corners([&](const Vec3& p, float value) {
-                EXPECT_NEAR(value, slope * p.x(), 1e-5) << name(state.color);
+                EXPECT_NEAR(value, slope * p.x(), 1e-5) << name(state.coloring.by);
                 ++corners;
             });
             EXPECT_GT(corners, 100);
         }
-    state.color = ColorBy::error;
+    state.coloring.by = ColorBy::error;
     driver_->settle();
     for_corners([&](const Vec3&, float value) { EXPECT_EQ(value, 1); });
 }
 
 TEST_F(SolvedCube, IsDrawnWhereItMoves) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::displacement;
-    state.deform = 0.5;
-    state.load_case = 1;
+    state.coloring.by = ColorBy::displacement;
+    state.deformation.factor = 0.5;
+    state.deformation.load_case = 1;
     for (const bool clipped : {false, true}) {
         state.clip = {clipped, ClipStyle::cells, Vec3::UnitY(), 0.5, false};
         driver_->settle();
@@ -94,9 +95,9 @@ TEST_F(SolvedCube, IsDrawnWhereItMoves) {
 
 TEST_F(SolvedCube, IsolinesAreWhereTheirValuesAre) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::von_mises;
-    state.isolines = true;
-    state.color_range = ValueRange{0, 1};
+    state.coloring.by = ColorBy::von_mises;
+    state.coloring.isolines = true;
+    state.coloring.range = ValueRange{0, 1};
     driver_->settle();
     const BuiltScene& built = driver_->app().scene();
     std::int64_t lines = 0;
@@ -109,7 +110,7 @@ TEST_F(SolvedCube, IsolinesAreWhereTheirValuesAre) {
             ++lines;
         }
     EXPECT_GT(lines, 100);
-    state.isolines = false;
+    state.coloring.isolines = false;
     driver_->settle();
     EXPECT_EQ(driver_->drawn(LayerKind::isolines).segments, 0);
 }
@@ -117,7 +118,7 @@ TEST_F(SolvedCube, IsolinesAreWhereTheirValuesAre) {
 // Colours end where nearly all values do; the legend says how far they go.
 TEST_F(SolvedCube, ColoursSpanMostOfTheStresses) {
     const auto legend = [&](ColorBy color) {
-        driver_->state().color = color;
+        driver_->state().coloring.by = color;
         driver_->settle();
         return driver_->app().scene().legend;
     };
@@ -140,29 +141,29 @@ TEST_F(SolvedCube, ColoursSpanMostOfTheStresses) {
     EXPECT_TRUE(is_said("Colours span 99 % of the values drawn"));
     EXPECT_TRUE(is_said("largest 1"));
     EXPECT_TRUE(is_said("least 0"));
-    driver_->state().percentile = 75;
+    driver_->state().coloring.percentile = 75;
     EXPECT_LT(legend(ColorBy::stress_xx).values->high, 0.9) << "at both ends";
     EXPECT_GT(legend(ColorBy::stress_xx).values->low, 0.1);
-    driver_->state().percentile = 100;
+    driver_->state().coloring.percentile = 100;
     EXPECT_EQ(legend(ColorBy::von_mises).values->high, 1);
     EXPECT_EQ(legend(ColorBy::von_mises).percentile, 100);
-    driver_->state().percentile = 99;
+    driver_->state().coloring.percentile = 99;
     EXPECT_EQ(legend(ColorBy::displacement).values->high, 1) << "it is smooth";
-    driver_->state().color_range = ValueRange{0, 0.5};
+    driver_->state().coloring.range = ValueRange{0, 0.5};
     EXPECT_EQ(legend(ColorBy::von_mises).extremes->high, 1) << "beyond a range that is given";
     EXPECT_FALSE(is_said("Colours span 99 % of the values drawn"));
     EXPECT_TRUE(legend(ColorBy::min_dihedral).goes_above) << "which no extremes say";
     EXPECT_FALSE(legend(ColorBy::min_dihedral).goes_below);
-    driver_->state().color_range = ValueRange{170, 180};
+    driver_->state().coloring.range = ValueRange{170, 180};
     EXPECT_TRUE(legend(ColorBy::min_dihedral).goes_below);
     EXPECT_FALSE(legend(ColorBy::min_dihedral).goes_above);
-    driver_->state().color_range = {};
+    driver_->state().coloring.range = {};
     EXPECT_FALSE(legend(ColorBy::min_dihedral).goes_above || legend(ColorBy::min_dihedral).goes_below);
 }
 
 TEST_F(SolvedCube, TellsWhatIsAtAPlace) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::von_mises;
+    state.coloring.by = ColorBy::von_mises;
     driver_->settle();
     const NodeId part = 2;
     const auto surface = driver_->app().session().fetched().part_surface(part);
@@ -175,10 +176,10 @@ TEST_F(SolvedCube, TellsWhatIsAtAPlace) {
 
 TEST_F(SolvedCube, LooksAsItShould) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::von_mises;
-    state.isolines = true;
-    state.deform = 0.3;
-    state.edges = false;
+    state.coloring.by = ColorBy::von_mises;
+    state.coloring.isolines = true;
+    state.deformation.factor = 0.3;
+    state.look.edges = false;
     EXPECT_TRUE(is_golden("solution", *driver_));
 }
 

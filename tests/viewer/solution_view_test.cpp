@@ -40,35 +40,35 @@ class SolvedCubeLookedAt : public SolvedCube {
 
 TEST_F(SolvedCubeLookedAt, AScaleThatIsGivenStays) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::displacement;
-    state.color_range = ValueRange{0, 1.5};
+    state.coloring.by = ColorBy::displacement;
+    state.coloring.range = ValueRange{0, 1.5};
     for (const int load_case : {0, 1, 2, 3, 0})
         for (const double deform : {0.0, 0.5}) {
-            state.load_case = load_case;
-            state.deform = deform;
+            state.deformation.load_case = load_case;
+            state.deformation.factor = deform;
             driver_->settle();
             EXPECT_EQ(scene().scene.scale.low, 0);
             EXPECT_EQ(scene().scene.scale.high, 1.5f);
         }
     driver_->open(folder_->file("out/solution"));
     driver_->settle();
-    EXPECT_EQ(driver_->state().color, ColorBy::displacement) << "of the next step, too";
-    EXPECT_EQ(driver_->state().color_range, (ValueRange{0, 1.5}));
+    EXPECT_EQ(driver_->state().coloring.by, ColorBy::displacement) << "of the next step, too";
+    EXPECT_EQ(driver_->state().coloring.range, (ValueRange{0, 1.5}));
     driver_->open(folder_->file("out/mesh"));
     driver_->settle();
-    EXPECT_EQ(driver_->state().color, ColorBy::part);
-    EXPECT_FALSE(driver_->state().color_range);
+    EXPECT_EQ(driver_->state().coloring.by, ColorBy::part);
+    EXPECT_FALSE(driver_->state().coloring.range);
     driver_->open(folder_->file("out"));
 }
 
 // Values are x, wherever they are cut.
 TEST_F(SolvedCubeLookedAt, TheLeastAndTheLargestValueAreMarkedWhereTheyAre) {
     ViewState& state = driver_->state();
-    state.extremes = true;
+    state.coloring.extremes = true;
     for (const ColorBy color : {ColorBy::displacement, ColorBy::von_mises, ColorBy::stress_xx})
         for (const auto& [clipped, explode] : {std::pair(false, 0.0), {true, 0.0}, {false, 0.5}}) {
-            state.color = color;
-            state.explode = explode;
+            state.coloring.by = color;
+            state.explosion.amount = explode;
             state.clip = {clipped, ClipStyle::smooth, Vec3::UnitX(), 0.375, false};
             driver_->settle();
             const std::vector<PlacedValue>& marked = scene().legend.marked;
@@ -80,21 +80,21 @@ TEST_F(SolvedCubeLookedAt, TheLeastAndTheLargestValueAreMarkedWhereTheyAre) {
             for (const PlacedValue& one : marked) EXPECT_NEAR(one.place.x(), one.value, 1e-5);
             EXPECT_EQ(driver_->drawn(LayerKind::extremes).points, 2);
         }
-    state.explode = 0;
+    state.explosion.amount = 0;
     state.clip.on = false;
     driver_->settle();
     const auto& labels = driver_->app().facts().labels;
     EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const ValueLabel& l) { return l.text == "largest 1"; }));
-    state.color = ColorBy::shape;
+    state.coloring.by = ColorBy::shape;
     driver_->settle();
     EXPECT_EQ(scene().legend.marked.size(), 2u) << "of cells, too";
 }
 
 TEST_F(SolvedCubeLookedAt, NumbersOnLinesAreTheirValues) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::von_mises;
-    state.isolines = true;
-    state.color_range = ValueRange{0, 1};
+    state.coloring.by = ColorBy::von_mises;
+    state.coloring.isolines = true;
+    state.coloring.range = ValueRange{0, 1};
     driver_->show_panels(true);
     driver_->settle();
     driver_->show_panels(false);
@@ -112,7 +112,7 @@ TEST_F(SolvedCubeLookedAt, NumbersOnLinesAreTheirValues) {
         ASSERT_TRUE(value);
         EXPECT_NEAR(*value, std::strtod(label.text.c_str(), nullptr), 0.01) << label.text;
     }
-    state.numbers = false;
+    state.look.numbers = false;
     driver_->settle();
     EXPECT_TRUE(driver_->app().facts().labels.empty());
     driver_->move_to(-1000, -1000);
@@ -158,8 +158,8 @@ TEST(NumbersOnLines, DoNotOverlapAndStayInside) {
 // Without a click, of what is drawn already.
 TEST_F(SolvedCubeLookedAt, TheMouseTellsTheValueUnderIt) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::displacement;
-    state.deform = 0.5;
+    state.coloring.by = ColorBy::displacement;
+    state.deformation.factor = 0.5;
     driver_->show_panels(true);
     for (bool* panel : {&state.panels.tree, &state.panels.display, &state.panels.timeline, &state.panels.problems})
         *panel = false;
@@ -203,12 +203,12 @@ TEST(Motion, GoesThereAndBack) {
 
 TEST_F(SolvedCubeLookedAt, ItsDeformationMoves) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::displacement;
-    state.deform = 0.5;
-    state.motion = Motion::swing;
+    state.coloring.by = ColorBy::displacement;
+    state.deformation.factor = 0.5;
+    state.deformation.motion = Motion::swing;
     std::optional<Eigen::AlignedBox3d> box;
     for (const double phase : {0.0, 0.125, 0.25, 0.5, 0.875}) {
-        state.phase = phase;
+        state.deformation.phase = phase;
         driver_->settle();
         double farthest = 0;
         for_corners([&](const Vec3& p, float) { farthest = std::max(farthest, p.x()); });
@@ -222,14 +222,14 @@ TEST_F(SolvedCubeLookedAt, ItsDeformationMoves) {
     driver_->click("Play");
     EXPECT_TRUE(driver_->app().facts().moving);
     EXPECT_FALSE(driver_->app().settled());
-    state.speed = 1;
+    state.deformation.speed = 1;
     for (int i = 0; i < 70; ++i) driver_->frame();
     const std::int64_t made = driver_->app().geometry_made();
-    const double before = state.phase;
+    const double before = state.deformation.phase;
     double change = 0;
     for (int i = 0; i < 70; ++i) {
         driver_->frame();
-        change = std::max(change, std::abs(state.phase - before));
+        change = std::max(change, std::abs(state.deformation.phase - before));
     }
     EXPECT_GT(change, 0.4);
     EXPECT_EQ(driver_->app().geometry_made(), made) << "each phase is made once";
@@ -244,11 +244,11 @@ TEST_F(SolvedCubeLookedAt, ModesAreChosenLikeCases) {
     EXPECT_EQ(solution->cases[1].title(), "fast");
     EXPECT_NEAR(solution->cases[3].largest_displacement, 2, 1e-6) << "of the files";
     ViewState& state = driver_->state();
-    state.color = ColorBy::displacement;
-    state.load_case = 3;
+    state.coloring.by = ColorBy::displacement;
+    state.deformation.load_case = 3;
     driver_->settle();
     for_corners([&](const Vec3& p, float value) { EXPECT_NEAR(value, 2 * p.x(), 1e-5); });
-    state.color = ColorBy::von_mises;
+    state.coloring.by = ColorBy::von_mises;
     driver_->settle();
     EXPECT_FALSE(scene().legend.values) << "a mode has none";
     EXPECT_FALSE(driver_->app().session().pending());
@@ -283,10 +283,10 @@ TEST_F(SolvedCubeLookedAt, APeriodIsPictures) {
 
 TEST_F(SolvedCubeLookedAt, ArrowsAreAsLongAsDisplacements) {
     ViewState& state = driver_->state();
-    state.color = ColorBy::displacement;
-    state.vectors = true;
+    state.coloring.by = ColorBy::displacement;
+    state.deformation.vectors = true;
     for (const int load_case : {0, 2}) {
-        state.load_case = load_case;
+        state.deformation.load_case = load_case;
         driver_->settle();
         const Layer* layer = scene().scene.find(LayerKind::vectors);
         ASSERT_TRUE(layer);

@@ -101,7 +101,7 @@ TEST(Tour, GoesThroughTheStagesAndBackToWhatWasSeen) {
     Driver driver(run_of(4, ContourMethod::min_cut, true));
     driver.open(asset_path("cube"));
     driver.state().node = 3;
-    driver.state().color = ColorBy::level;
+    driver.state().coloring.by = ColorBy::level;
     driver.settle();
     const ViewState before = driver.state();
     driver.key(key_of('T'));

@@ -96,8 +96,8 @@ TEST(Ui, ASession) {
     const ItemRect slider = *driver.app().widgets().find("Explode");
     const float y = (slider.top + slider.bottom) / 2;
     driver.drag(slider.left + 8, y, (slider.left + slider.right) / 2, y);
-    EXPECT_GT(state.explode, 0.2);
-    EXPECT_LT(state.explode, 0.8);
+    EXPECT_GT(state.explosion.amount, 0.2);
+    EXPECT_LT(state.explosion.amount, 0.8);
     const Image exploded = driver.picture();
     EXPECT_GT(changed(snapped, exploded), 0.05) << "parts are elsewhere";
 
@@ -127,7 +127,7 @@ TEST(Ui, ASession) {
     EXPECT_EQ(saved.width, options.width);
     const ViewState read = state_from_json(bytes_of_file(folder.file("kerf-001.json")), "kerf-001.json");
     EXPECT_EQ(read.node, state.node);
-    EXPECT_EQ(read.explode, state.explode);
+    EXPECT_EQ(read.explosion.amount, state.explosion.amount);
     ASSERT_TRUE(read.camera);
     EXPECT_LT((read.camera->target - driver.app().camera().target).norm(), 1e-12);
 }
@@ -140,7 +140,7 @@ TEST(Ui, ShowsSomeCellsAndTheWorst) {
     driver.open(asset_path("cube"));
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
-    state.color = ColorBy::min_dihedral;
+    state.coloring.by = ColorBy::min_dihedral;
     driver.click("Worst cells");
     ASSERT_TRUE(driver.document().histograms[0]);
     const MeasureHistogram& histogram = *driver.document().histograms[0];
@@ -151,17 +151,17 @@ TEST(Ui, ShowsSomeCellsAndTheWorst) {
     const auto last = histogram.all.rend() - std::find_if(histogram.all.rbegin(), histogram.all.rend(), is_used);
     const auto bins = static_cast<float>(last - first), middle = std::floor(bins / 2);
     driver.drag_over("histogram", 0.5f / bins, (middle + 0.5f) / bins);
-    ASSERT_TRUE(state.filter);
-    EXPECT_EQ(state.filter->low, histogram.edges[static_cast<std::size_t>(first)]);
-    EXPECT_EQ(state.filter->high,
+    ASSERT_TRUE(state.coloring.filter);
+    EXPECT_EQ(state.coloring.filter->low, histogram.edges[static_cast<std::size_t>(first)]);
+    EXPECT_EQ(state.coloring.filter->high,
               histogram.edges[static_cast<std::size_t>(first) + static_cast<std::size_t>(middle) + 1]);
     driver.settle();
     EXPECT_GT(driver.drawn(LayerKind::cells).triangles, 0);
     driver.click("Clear filter");
-    EXPECT_FALSE(state.filter);
+    EXPECT_FALSE(state.coloring.filter);
 
     driver.await("the worst cells", [&] { return driver.app().widgets().find("worst 1").has_value(); });
-    const WorstCell worst = driver.app().session().fetched().worst_cells(state.color, 100)->front();
+    const WorstCell worst = driver.app().session().fetched().worst_cells(state.coloring.by, 100)->front();
     EXPECT_NEAR(worst.value, histogram.min, 1e-4 * histogram.min);
     const double height = driver.app().camera().height;
     driver.click("worst 1");
@@ -184,16 +184,16 @@ TEST(Ui, HidesAndIsolatesFromTheTree) {
     const std::int64_t below = driver.document().tree.find(2)->facets, above = driver.document().tree.find(3)->facets;
     EXPECT_EQ(drawn_halves(), std::pair(below, above));
     driver.click("isolate 3");
-    EXPECT_EQ(state.isolated, 3);
+    EXPECT_EQ(state.visibility.isolated, 3);
     EXPECT_EQ(drawn_halves(), std::pair(std::int64_t{0}, above));
     driver.click("isolate 3");
-    EXPECT_FALSE(state.isolated);
+    EXPECT_FALSE(state.visibility.isolated);
     driver.click("show 3");
-    EXPECT_EQ(state.hidden, std::vector<NodeId>{3});
+    EXPECT_EQ(state.visibility.hidden, std::vector<NodeId>{3});
     EXPECT_EQ(drawn_halves(), std::pair(below, std::int64_t{0}));
     driver.click("isolate 2");
     driver.click("Show all");
-    EXPECT_TRUE(state.hidden.empty() && !state.isolated);
+    EXPECT_TRUE(state.visibility.hidden.empty() && !state.visibility.isolated);
     EXPECT_EQ(drawn_halves(), std::pair(below, above));
 }
 
@@ -396,7 +396,7 @@ TEST(Ui, RemeshesTheSurfaceAndShowsBoth) {
     driver.click("Features");
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::features).segments, 2 * 24);
-    driver.state().color = ColorBy::deviation;
+    driver.state().coloring.by = ColorBy::deviation;
     driver.settle();
     ASSERT_TRUE(driver.app().facts().legend.values);
     EXPECT_EQ(driver.app().facts().legend.title, title(ColorBy::deviation));

@@ -22,7 +22,7 @@ std::vector<ViewState> random_views(std::size_t count, unsigned seed) {
         ViewState view = views.back();
         view.camera.emplace().height = static_cast<double>(views.size());
         if (random() % 2 == 0) view.node = static_cast<NodeId>(1 + random() % 8);
-        if (random() % 2 == 0) view.edges = !view.edges;
+        if (random() % 2 == 0) view.look.edges = !view.look.edges;
         views.push_back(view);
     }
     return views;
@@ -84,11 +84,11 @@ TEST(ViewHistory, LeavesPanelsSelectionAndThemeAsTheyAre) {
     state.selection.kind = Selection::Kind::facet;
     history.note(state, "a.stl", 10);
     EXPECT_FALSE(history.has_earlier()) << "the view is the same";
-    state.edges = false;
+    state.look.edges = false;
     history.note(state, "a.stl", 20);
     ViewState back = history.go_back(state).value();
-    EXPECT_TRUE(back.edges);
-    back.edges = false;
+    EXPECT_TRUE(back.look.edges);
+    back.look.edges = false;
     EXPECT_EQ(back, state);
 }
 
@@ -114,7 +114,7 @@ TEST(ViewHistory, IsGoneThroughByKeys) {
     EXPECT_EQ(driver.state(), first);
     EXPECT_FALSE(driver.app().facts().has_earlier);
     for (int i = 0; i < 3; ++i) driver.key('U', false, true);
-    EXPECT_FALSE(driver.state().edges);
+    EXPECT_FALSE(driver.state().look.edges);
     EXPECT_EQ(driver.state().camera, dragged.camera);
     EXPECT_FALSE(driver.app().facts().has_later);
 }

@@ -27,29 +27,30 @@ ViewState unusual_state() {
     s.node = 13;
     s.step = {Stage::plane, 4};
     s.camera = Camera{{1, 2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 7, false};
-    s.shading = Shading::smooth;
-    s.edges = s.context = s.plane = s.axes = s.contour = s.surface = s.interfaces = s.legend = s.times = false;
-    s.numbers = false;
-    s.percentile = 95;
-    s.features = s.neighbours = true;
-    s.explode = 0.25;
-    s.shrink = 0.125;
+    s.look.shading = Shading::smooth;
+    s.look.edges = s.look.context = s.look.plane = s.look.axes = s.look.contour = s.look.surface = s.look.interfaces =
+        s.look.legend = s.look.times = false;
+    s.look.numbers = false;
+    s.coloring.percentile = 95;
+    s.look.features = s.visibility.neighbours = true;
+    s.explosion.amount = 0.25;
+    s.explosion.shrink = 0.125;
     s.clip = {true, ClipStyle::layer, Vec3(0.6, 0, 0.8), 0.3, true};
-    s.color = ColorBy::radius_edge;
-    s.color_range = ValueRange{0.5, 3};
-    s.filter = ValueRange{1, 2};
-    s.isolines = s.extremes = s.vectors = true;
-    s.load_case = 2;
-    s.deform = 2.5;
-    s.motion = Motion::rise;
-    s.phase = 0.75;
-    s.speed = 1.5;
-    s.hidden = {4, 11};
-    s.isolated = 3;
-    s.hidden_regions = {"bone", "cement \xe4"};
-    s.glass_regions = {"void_1"};
-    s.isolated_region = "cement";
-    s.walls = s.explode_regions = true;
+    s.coloring.by = ColorBy::radius_edge;
+    s.coloring.range = ValueRange{0.5, 3};
+    s.coloring.filter = ValueRange{1, 2};
+    s.coloring.isolines = s.coloring.extremes = s.deformation.vectors = true;
+    s.deformation.load_case = 2;
+    s.deformation.factor = 2.5;
+    s.deformation.motion = Motion::rise;
+    s.deformation.phase = 0.75;
+    s.deformation.speed = 1.5;
+    s.visibility.hidden = {4, 11};
+    s.visibility.isolated = 3;
+    s.visibility.hidden_regions = {"bone", "cement \xe4"};
+    s.visibility.glass_regions = {"void_1"};
+    s.visibility.isolated_region = "cement";
+    s.visibility.walls = s.explosion.regions = true;
     s.pick = PickMode::vertex;
     s.selection = {Selection::Kind::cell, 12, 34, {5, 6, 7}};
     s.theme = Theme::dark;
@@ -59,15 +60,32 @@ ViewState unusual_state() {
 
 // All fields: who adds one has to name it here, and to give it a value above.
 auto fields(const ViewState& s) {
-    const auto& [node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                 explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, extremes, vectors,
-                 load_case, deform, motion, phase, speed, legend, numbers, times, hidden, isolated, hidden_regions,
-                 glass_regions, isolated_region, walls, explode_regions, pick, selection, theme, panels] = s;
-    return std::tie(node, step, camera, shading, edges, context, plane, axes, contour, features, surface, interfaces,
-                    explode, shrink, clip, color, color_range, filter, neighbours, percentile, isolines, extremes,
-                    vectors, load_case, deform, motion, phase, speed, legend, numbers, times, hidden, isolated,
-                    hidden_regions, glass_regions, isolated_region, walls, explode_regions, pick, selection, theme,
-                    panels);
+    const auto& [node, step, camera, look, visibility, coloring, explosion, deformation, clip, pick, selection, theme,
+                 panels] = s;
+    return std::tie(node, step, camera, look, visibility, coloring, explosion, deformation, clip, pick, selection,
+                    theme, panels);
+}
+auto fields(const Look& l) {
+    const auto& [shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, numbers, times] =
+        l;
+    return std::tie(shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, numbers,
+                    times);
+}
+auto fields(const Visibility& v) {
+    const auto& [hidden, isolated, hidden_regions, glass_regions, isolated_region, walls, neighbours] = v;
+    return std::tie(hidden, isolated, hidden_regions, glass_regions, isolated_region, walls, neighbours);
+}
+auto fields(const Coloring& c) {
+    const auto& [by, range, filter, percentile, isolines, extremes] = c;
+    return std::tie(by, range, filter, percentile, isolines, extremes);
+}
+auto fields(const Explosion& e) {
+    const auto& [amount, regions, shrink] = e;
+    return std::tie(amount, regions, shrink);
+}
+auto fields(const Deformation& d) {
+    const auto& [load_case, factor, motion, phase, speed, vectors] = d;
+    return std::tie(load_case, factor, motion, phase, speed, vectors);
 }
 auto fields(const Camera& c) {
     const auto& [target, turn, height, perspective] = c;
@@ -137,6 +155,11 @@ TEST(ViewState, TheUnusualOneDiffersInEveryField) {
     const Camera usual_camera;
     expect_all_differ(fields(unusual), fields(usual));
     expect_all_differ(fields(*unusual.camera), fields(usual_camera));
+    expect_all_differ(fields(unusual.look), fields(usual.look));
+    expect_all_differ(fields(unusual.visibility), fields(usual.visibility));
+    expect_all_differ(fields(unusual.coloring), fields(usual.coloring));
+    expect_all_differ(fields(unusual.explosion), fields(usual.explosion));
+    expect_all_differ(fields(unusual.deformation), fields(usual.deformation));
     expect_all_differ(fields(unusual.clip), fields(usual.clip));
     expect_all_differ(fields(unusual.selection), fields(usual.selection));
     expect_all_differ(fields(unusual.panels), fields(usual.panels));
@@ -170,14 +193,14 @@ TEST(ViewState, RefusesWhatItDoesNotKnowAndNamesIt) {
 
 TEST(ViewState, ANodeIsHiddenWithWhatLiesAboveIt) {
     ViewState s;
-    s.set_hidden(5, true);
-    s.set_hidden(5, true);
-    EXPECT_TRUE(s.is_hidden(5));
-    EXPECT_TRUE(s.is_hidden(21));
-    EXPECT_FALSE(s.is_hidden(2));
-    EXPECT_FALSE(s.is_hidden(4));
-    s.set_hidden(5, false);
-    EXPECT_TRUE(s.hidden.empty());
+    s.visibility.set_hidden(5, true);
+    s.visibility.set_hidden(5, true);
+    EXPECT_TRUE(s.visibility.is_hidden(5));
+    EXPECT_TRUE(s.visibility.is_hidden(21));
+    EXPECT_FALSE(s.visibility.is_hidden(2));
+    EXPECT_FALSE(s.visibility.is_hidden(4));
+    s.visibility.set_hidden(5, false);
+    EXPECT_TRUE(s.visibility.hidden.empty());
 }
 
 TEST(Steps, HaveNamesThatReadBack) {
@@ -386,7 +409,7 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
     EXPECT_EQ(good.state.node, 5);
     EXPECT_EQ(name(good.state.step), "contour");
     EXPECT_TRUE(good.state.clip.on);
-    EXPECT_EQ(good.state.color, ColorBy::min_dihedral);
+    EXPECT_EQ(good.state.coloring.by, ColorBy::min_dihedral);
 }
 
 }  // namespace

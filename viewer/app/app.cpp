@@ -23,7 +23,7 @@ constexpr float nearby_pixels = 6;  // how far the hand may tremble at a double 
 ViewState of_scene(ViewState state) {
     state.camera.reset();
     state.panels = {};
-    state.speed = ViewState().speed;
+    state.deformation.speed = ViewState().deformation.speed;
     return state;
 }
 
@@ -38,7 +38,7 @@ App::~App() {
 
 void App::follow_session() {
     Session& session = view_.session;
-    if (session.poll()) {
+    if (session.check_cancelled()) {
         view_.session_changed = true;
         view_.wake();
     }
@@ -63,8 +63,17 @@ void App::build_scene() {
     built = builder_.build(shown, view_.session);
     ++view_.scenes_built;
     SceneFacts& facts = view_.facts;
-    facts.legend = built.legend;
-    facts.selection = describe_selection(view_.session, view_.state.selection, view_.state.load_case);
+    const Legend& legend = built.legend;
+    facts.legend_title = legend.title;
+    facts.values = legend.values;
+    facts.extremes = legend.extremes;
+    facts.marked = legend.marked;
+    facts.percentile = legend.percentile;
+    facts.categories = legend.categories;
+    facts.scale = legend.scale;
+    facts.goes_below = legend.goes_below;
+    facts.goes_above = legend.goes_above;
+    facts.selection = describe_selection(view_.session, view_.state.selection, view_.state.deformation.load_case);
     facts.pending = view_.session.pending();
     facts.triangles = facts.lines = 0;
     for (const Layer& layer : built.scene.layers) {

@@ -120,11 +120,11 @@ void apply_options(const SceneOptions& options, ViewCommand& command) {
     apply(options, command);
     if (command.screenshot && command.input.empty())
         throw Error(ErrorCode::usage, "Say what to draw: an INPUT, or a --state that knows what it was made of.");
-    read_run_config(options.config, command.run);
+    read_run_config(options.run.config, command.run);
     take_inputs(options.inputs, command.input, command.run.input_options);
-    if (!options.surface.empty()) set_options(command.run, {{"surface", options.surface}}, "The command line");
-    if (!options.repair.empty()) set_options(command.run, {{"repair", options.repair}}, "The command line");
-    if (!options.input_scale.empty()) set_options(command.run, {{"scale", options.input_scale}}, "The command line");
+    if (!options.run.surface.empty()) set_options(command.run, {{"surface", options.run.surface}}, "The command line");
+    if (!options.run.repair.empty()) set_options(command.run, {{"repair", options.run.repair}}, "The command line");
+    if (!options.run.scale.empty()) set_options(command.run, {{"scale", options.run.scale}}, "The command line");
     command.run.input_options.check();
 }
 
@@ -161,13 +161,13 @@ void apply_document(const ViewCommand& command, const Document& document, double
         if (found == cases.end())
             throw Error(ErrorCode::usage, fmt::format("The solution has no load case '{}'. It has '{}'.",
                                                       command.load_case, fmt::join(names, "', '")));
-        state.load_case = static_cast<int>(found - cases.begin());
+        state.deformation.load_case = static_cast<int>(found - cases.begin());
     }
-    const auto& chosen = cases.at(static_cast<std::size_t>(state.load_case));
-    if (chosen.is_mode() && !command.chosen.color) state.color = ColorBy::displacement;
-    if (command.frames > 0 && state.motion == Motion::still) state.motion = Motion::swing;
-    if (command.good_deformation || (command.frames > 0 && state.deform == 0))
-        state.deform = good_deformation(chosen.largest_displacement, document.box.diagonal().norm());
+    const auto& chosen = cases.at(static_cast<std::size_t>(state.deformation.load_case));
+    if (chosen.is_mode() && !command.chosen.color) state.coloring.by = ColorBy::displacement;
+    if (command.frames > 0 && state.deformation.motion == Motion::still) state.deformation.motion = Motion::swing;
+    if (command.good_deformation || (command.frames > 0 && state.deformation.factor == 0))
+        state.deformation.factor = good_deformation(chosen.largest_displacement, document.box.diagonal().norm());
     fit_to_body(state, command.origin, document.box, aspect);  // once, when nothing is refused any more
 }
 

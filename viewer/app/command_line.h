@@ -25,7 +25,7 @@ struct ViewCommand {
     std::optional<Theme> theme;     ///< the theme, if one was asked for
     std::string clip;               ///< the clip plane as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
     std::string load_case;          ///< name of the load case; empty: the first one
-    bool good_deformation = false;  ///< ViewState::deform is to be that of good_deformation()
+    bool good_deformation = false;  ///< Deformation::factor is to be that of good_deformation()
     int frames = 0;                 ///< number of pictures of a period of the motion; 0: one picture
     double timeout_seconds = 600;
     RunOptions run;

@@ -48,7 +48,7 @@ void Labels::place_numbers() {
     const auto has_numbers = [](const Layer& layer) { return layer.patch != nullptr; };
     const std::vector<Layer>& layers = view_.built.scene.layers;
     view_.facts.numbers.clear();
-    if (!view_.state.numbers || std::none_of(layers.begin(), layers.end(), has_numbers)) return;
+    if (!view_.state.look.numbers || std::none_of(layers.begin(), layers.end(), has_numbers)) return;
     const float least_room = 0.7f * ImGui::GetFontSize();
     for (const NumberPlace& place : view_.renderer.places_of_patches(view_.built.scene, view_.projection))
         if (static_cast<float>(place.room) >= least_room)
@@ -59,7 +59,7 @@ void Labels::place_numbers() {
 void Labels::place_line_values() {
     const auto has_lines = [](const Layer& layer) { return !layer.geometry->origins.empty(); };
     const std::vector<Layer>& layers = view_.built.scene.layers;
-    if (!view_.state.numbers || std::none_of(layers.begin(), layers.end(), has_lines)) return;
+    if (!view_.state.look.numbers || std::none_of(layers.begin(), layers.end(), has_lines)) return;
     const auto size = [](float value) {
         const ImVec2 extent = ImGui::CalcTextSize(rounded(static_cast<double>(value)).c_str());
         return Eigen::Vector2f(extent.x, extent.y);
@@ -108,9 +108,9 @@ void Labels::probe(bool wanted) {
     const auto hit = view_.pick(io.MousePos.x, io.MousePos.y);
     if (!hit || std::isnan(hit->value)) return;
     const Vec3 place = view_.built.frame.to_file(hit->rest.cast<double>());
-    view_.facts.probe = ValueLabel{
-        fmt::format("{} {}\n{}", title(view_.state.color), rounded(static_cast<double>(hit->value)), place_text(place)),
-        io.MousePos.x, io.MousePos.y, true};
+    view_.facts.probe = ValueLabel{fmt::format("{} {}\n{}", title(view_.state.coloring.by),
+                                               rounded(static_cast<double>(hit->value)), place_text(place)),
+                                   io.MousePos.x, io.MousePos.y, true};
 }
 
 }  // namespace kerf::view

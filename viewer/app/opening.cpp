@@ -12,7 +12,7 @@ namespace kerf::view {
 
 namespace {
 
-constexpr double usual_explosion = 0.4;  // ViewState::explode of parts that are nothing but surfaces
+constexpr double usual_explosion = 0.4;  // Explosion::amount of parts that are nothing but surfaces
 
 }  // namespace
 
@@ -25,11 +25,11 @@ void Opening::open_files(const std::vector<std::string>& paths) {
     save_settings(view_.options.config_folder, view_.settings);
     const ViewState before = view_.state;
     // The next step of an analysis is seen in the same colours.
-    kept_scale_ = {before.color, is_of_solution(before.color) ? before.color_range : std::nullopt};
+    kept_scale_ = {before.coloring.by, is_of_solution(before.coloring.by) ? before.coloring.range : std::nullopt};
     view_.state = {};
     view_.state.theme = before.theme;
     view_.state.panels = before.panels;
-    view_.state.shading = before.shading;
+    view_.state.look.shading = before.look.shading;
     view_.chosen = {};
     is_view_complete_ = false;
     await_document();
@@ -138,18 +138,19 @@ void Opening::choose_view() {
     is_view_complete_ = true;
     if (document.solution && !view_.chosen.color && !view_.chosen.stage) {
         const auto& cases = document.solution->cases;
-        view_.state.color = !cases.empty() && cases.front().is_mode() ? ColorBy::displacement : ColorBy::von_mises;
+        view_.state.coloring.by =
+            !cases.empty() && cases.front().is_mode() ? ColorBy::displacement : ColorBy::von_mises;
         if (kept_scale_.range) {
-            view_.state.color = kept_scale_.color;
-            view_.state.color_range = kept_scale_.range;
+            view_.state.coloring.by = kept_scale_.color;
+            view_.state.coloring.range = kept_scale_.range;
         }
         view_.state.step.stage = Stage::tetrahedra;
     }
     if (view_.chosen.faces_clip && !view_.chosen.stage && has_cells(document, view_.state.node))
         view_.state.step = {Stage::tetrahedra, -1};
-    if (!document.has_surfaces_alone() || view_.chosen.stage || is_of_cells(view_.state.color)) return;
+    if (!document.has_surfaces_alone() || view_.chosen.stage || is_of_cells(view_.state.coloring.by)) return;
     view_.state.step = {Stage::parts, -1};
-    if (!view_.chosen.explode) view_.state.explode = usual_explosion;
+    if (!view_.chosen.explode) view_.state.explosion.amount = usual_explosion;
 }
 
 void Opening::follow() {

@@ -23,8 +23,9 @@ void Playing::toggle_play() {
 
 void Playing::toggle_motion() {
     view_.facts.moving = !view_.facts.moving;
-    if (view_.state.motion == Motion::still) view_.state.motion = Motion::swing;
-    motion_ = view_.state.phase;
+    Deformation& deformation = view_.state.deformation;
+    if (deformation.motion == Motion::still) deformation.motion = Motion::swing;
+    motion_ = deformation.phase;
 }
 
 void Playing::move_step(int direction) {
@@ -42,11 +43,12 @@ void Playing::move_node(int direction) {
 
 // Moves the deformation to its present phase.
 void Playing::move() {
-    view_.facts.moving &= view_.state.motion != Motion::still && view_.state.deform != 0;
+    Deformation& deformation = view_.state.deformation;
+    view_.facts.moving &= deformation.motion != Motion::still && deformation.factor != 0;
     if (!view_.facts.moving) return;
-    motion_ += view_.state.speed * static_cast<double>(ImGui::GetIO().DeltaTime);
+    motion_ += deformation.speed * static_cast<double>(ImGui::GetIO().DeltaTime);
     motion_ -= std::floor(motion_);
-    view_.state.phase = std::floor(motion_ * pictures_per_period) / pictures_per_period;
+    deformation.phase = std::floor(motion_ * pictures_per_period) / pictures_per_period;
 }
 
 // Goes through the steps of the node, then on to the next node.

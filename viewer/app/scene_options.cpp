@@ -3,7 +3,7 @@
 // every single option wins over the file, so that an option may only write if it was given. Options that only cells can
 // show (a measure, a filter, a deformation) choose the stage of tetrahedra unless --stage is given, lest they be asked
 // for in vain. ChosenView records which members somebody has chosen; the app fills the others by the document. A new
-// option of the scene is a member of SceneOptions, a line in an add_...() and one in apply().
+// option of the scene is a member of a group of SceneOptions, a line in an add_...() and one in apply().
 #include "viewer/app/scene_options.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ std::string names_of_colors() {
     return names;
 }
 
-void add_side_options(CLI::App& app, SceneOptions& options) {
+void add_side_options(CLI::App& app, SideOptions& options) {
     app.option_defaults()->group("Scene");
     app.add_option("--state", options.state_file, "Read the whole view from a JSON file; other options win.")
         ->type_name("FILE");
@@ -80,7 +80,7 @@ void add_side_options(CLI::App& app, SceneOptions& options) {
         ->excludes("--camera");
 }
 
-void add_look_options(CLI::App& app, SceneOptions& options) {
+void add_look_options(CLI::App& app, LookOptions& options) {
     app.option_defaults()->group("Scene");
     app.add_flag("--features", options.features, "With sharp edges and the borders of patches as lines.");
     app.add_flag("--smooth", options.smooth, "Smooth shading instead of flat facets.");
@@ -94,9 +94,9 @@ void add_look_options(CLI::App& app, SceneOptions& options) {
         ->check(one_of("light,dark"));
 }
 
-void add_color_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+void add_color_options(CLI::App& app, ViewCommand& command, ColorOptions& options) {
     app.option_defaults()->group("Colours");
-    app.add_option("--color", options.color,
+    app.add_option("--color", options.by,
                    "part, rank, level, region, patch, deviation, size, kind, origin (core, shell or other mesher), "
                    "min-dihedral, "
                    "radius-edge, aspect, shape, volume or edge-length; of a solution error, displacement, von-mises, "
@@ -125,13 +125,13 @@ void add_color_options(CLI::App& app, ViewCommand& command, SceneOptions& option
         ->type_name("LOW HIGH");
 }
 
-void add_clip_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+void add_clip_options(CLI::App& app, ViewCommand& command, ClipOptions& options) {
     app.option_defaults()->group("Clipping and moving");
     app.add_option("--clip", command.clip,
                    "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut). Without a camera "
                    "it is looked at.")
         ->type_name("PLANE");
-    app.add_option("--clip-style", options.clip_style, "cells (whole ones, default), smooth, or layer (at the plane).")
+    app.add_option("--clip-style", options.style, "cells (whole ones, default), smooth, or layer (at the plane).")
         ->type_name("")
         ->check(suggest("cells,smooth,layer"));
     add_number(app, "--explode", options.explode, {"0 to 1e6; 1 is much", 0, 1e6},
@@ -148,17 +148,17 @@ void add_names(CLI::App& app, const char* option, std::vector<std::string>& name
         ->type_name("NAME");
 }
 
-void add_region_options(CLI::App& app, SceneOptions& options) {
+void add_region_options(CLI::App& app, RegionOptions& options) {
     app.option_defaults()->group("Regions");
-    add_names(app, "--hide-region", options.hidden_regions, "Region that is not shown. Repeatable.");
-    app.add_option("--isolate-region", options.isolated_region, "Only this region.")->type_name("NAME");
-    add_names(app, "--glass-region", options.glass_regions,
+    add_names(app, "--hide-region", options.hidden, "Region that is not shown. Repeatable.");
+    app.add_option("--isolate-region", options.isolated, "Only this region.")->type_name("NAME");
+    add_names(app, "--glass-region", options.glass,
               "Region that is translucent, so that what it holds is seen. Repeatable.");
     app.add_flag("--walls", options.walls, "Only facets between two regions.");
-    app.add_flag("--explode-regions", options.explode_regions, "--explode moves regions as wholes.");
+    app.add_flag("--explode-regions", options.explode, "--explode moves regions as wholes.");
 }
 
-void add_run_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
+void add_run_options(CLI::App& app, ViewCommand& command, SurfaceRunOptions& options) {
     app.option_defaults()->group("Run");
     add_number(app, "-n,--parts", command.run.decompose.parts, {"a whole number, 1 or more, at most 2147483647", 1},
                "Number of parts, if INPUT is a surface.")
@@ -169,7 +169,7 @@ void add_run_options(CLI::App& app, ViewCommand& command, SceneOptions& options)
     app.add_option("--repair", options.repair,
                    "Repair a surface first, as kerf repair does: exact, near, full, or steps by name.")
         ->type_name("LEVEL");
-    app.add_option("--scale", options.input_scale, "Multiply all coordinates of a surface by this. Default 1.")
+    app.add_option("--scale", options.scale, "Multiply all coordinates of a surface by this. Default 1.")
         ->type_name("F");
     app.add_option("--config", options.config, "Other options of that run: a file of kerf mesh --print-config.")
         ->type_name("FILE");
@@ -196,7 +196,7 @@ void take_origin(ViewCommand& command) {
 }
 
 // Turns the camera to the side that is named; its place follows from the scene.
-void apply_view(const SceneOptions& options, ViewCommand& command) {
+void apply_view(const SideOptions& options, ViewCommand& command) {
     if (options.view.empty() && options.up.empty()) return;
     const auto* name = std::find(view_names.begin(), view_names.end(), options.view.empty() ? "iso" : options.view);
     Camera camera;
@@ -205,95 +205,94 @@ void apply_view(const SceneOptions& options, ViewCommand& command) {
     command.state.camera.reset();
 }
 
-bool is_of_regions(const SceneOptions& options) {
-    return options.walls || options.explode_regions || !options.isolated_region.empty() ||
-           !options.hidden_regions.empty() || !options.glass_regions.empty();
+void apply_look(const LookOptions& options, Look& look) {
+    if (options.features) look.features = true;
+    if (options.smooth) look.shading = Shading::smooth;
+    if (options.no_edges) look.edges = false;
+    if (options.no_context) look.context = false;
+    if (options.no_legend) look.legend = false;
+    if (options.no_numbers) look.numbers = false;
 }
 
-void apply_regions(const SceneOptions& options, ViewState& state) {
-    for (const std::string& region : options.hidden_regions) set_member(state.hidden_regions, region, true);
-    for (const std::string& region : options.glass_regions) set_member(state.glass_regions, region, true);
-    if (!options.isolated_region.empty()) state.isolated_region = options.isolated_region;
-    if (options.walls) state.walls = true;
-    if (options.explode_regions) state.explode_regions = true;
+void apply_regions(const RegionOptions& options, ViewState& state) {
+    for (const std::string& region : options.hidden) set_member(state.visibility.hidden_regions, region, true);
+    for (const std::string& region : options.glass) set_member(state.visibility.glass_regions, region, true);
+    if (!options.isolated.empty()) state.visibility.isolated_region = options.isolated;
+    if (options.walls) state.visibility.walls = true;
+    if (options.explode) state.explosion.regions = true;
 }
 
-void apply_colors(const SceneOptions& options, ViewCommand& command) {
+void apply_colors(const ColorOptions& options, ViewCommand& command) {
     ViewState& state = command.state;
     if (!options.filter.empty()) {
-        state.filter = ValueRange{options.filter[0], options.filter[1]};
-        if (!(state.filter->low <= state.filter->high) || !is_measure(state.color))
+        state.coloring.filter = ValueRange{options.filter[0], options.filter[1]};
+        if (!(state.coloring.filter->low <= state.coloring.filter->high) || !is_measure(state.coloring.by))
             throw Error(ErrorCode::usage,
                         "--filter needs LOW <= HIGH and a --color with values, such as min-dihedral.");
     }
     if (!options.range.empty()) {
-        state.color_range = ValueRange{options.range[0], options.range[1]};
+        state.coloring.range = ValueRange{options.range[0], options.range[1]};
         if (!(options.range[0] < options.range[1])) throw Error(ErrorCode::usage, "--range needs LOW < HIGH.");
     }
-    if (options.percentile >= 0) state.percentile = options.percentile;
-    if (options.isolines) state.isolines = true;
-    if (options.extremes) state.extremes = true;
-    if (options.vectors) state.vectors = true;
-    if (!options.motion.empty()) state.motion = motion_from_name(options.motion);
+    if (options.percentile >= 0) state.coloring.percentile = options.percentile;
+    if (options.isolines) state.coloring.isolines = true;
+    if (options.extremes) state.coloring.extremes = true;
+    if (options.vectors) state.deformation.vectors = true;
+    if (!options.motion.empty()) state.deformation.motion = motion_from_name(options.motion);
     command.good_deformation = options.deform == "auto";
     if (options.deform.empty() || command.good_deformation) return;
     const std::optional<double> factor = number_in<double>(options.deform);
     if (!factor)
         throw Error(ErrorCode::usage,
                     fmt::format("--deform is '{}', but it must be a number or auto.", options.deform));
-    state.deform = *factor;
+    state.deformation.factor = *factor;
 }
 
 }  // namespace
 
 void add_scene_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
-    add_side_options(app, options);
-    add_look_options(app, options);
-    add_color_options(app, command, options);
-    add_clip_options(app, command, options);
-    add_region_options(app, options);
-    add_run_options(app, command, options);
+    add_side_options(app, options.side);
+    add_look_options(app, options.look);
+    add_color_options(app, command, options.colors);
+    add_clip_options(app, command, options.clip);
+    add_region_options(app, options.regions);
+    add_run_options(app, command, options.run);
 }
 
 void apply(const SceneOptions& options, ViewCommand& command) {
     ViewState& state = command.state;
-    if (!options.state_file.empty()) {
-        state = state_from_json(read_file(options.state_file), options.state_file, &command.origin);
+    if (!options.side.state_file.empty()) {
+        state = state_from_json(read_file(options.side.state_file), options.side.state_file, &command.origin);
         take_origin(command);
     }
-    if (!options.camera_file.empty())
-        state.camera = camera_from_json(read_file(options.camera_file), options.camera_file);
-    apply_view(options, command);
-    if (options.node > 0) state.node = options.node;
+    if (!options.side.camera_file.empty())
+        state.camera = camera_from_json(read_file(options.side.camera_file), options.side.camera_file);
+    apply_view(options.side, command);
+    if (options.side.node > 0) state.node = options.side.node;
     // Values that only cells have are not to be asked for in vain.
-    const bool is_of_cells = !options.color.empty() || options.explode > 0 || options.shrink > 0 ||
-                             !options.filter.empty() || !options.deform.empty() || options.vectors;
-    if (!options.stage.empty())
-        state.step = step_from_name(options.stage);
-    else if (options.state_file.empty() &&
-             (is_of_regions(options) || (is_of_cells && !is_seen_on_surfaces(options.color))))
+    const bool is_of_cells = !options.colors.by.empty() || options.clip.explode > 0 || options.clip.shrink > 0 ||
+                             !options.colors.filter.empty() || !options.colors.deform.empty() || options.colors.vectors;
+    if (!options.side.stage.empty())
+        state.step = step_from_name(options.side.stage);
+    else if (options.side.state_file.empty() &&
+             (options.regions.any() || (is_of_cells && !is_seen_on_surfaces(options.colors.by))))
         state.step.stage = Stage::tetrahedra;
-    if (!options.color.empty()) state.color = color_by_from_name(options.color);
-    const bool is_whole = !options.state_file.empty();
-    command.chosen.color = is_whole || !options.color.empty();
-    command.chosen.stage = is_whole || !options.stage.empty();
-    command.chosen.explode = is_whole || options.explode >= 0;
+    if (!options.colors.by.empty()) state.coloring.by = color_by_from_name(options.colors.by);
+    const bool is_whole = !options.side.state_file.empty();
+    command.chosen.color = is_whole || !options.colors.by.empty();
+    command.chosen.stage = is_whole || !options.side.stage.empty();
+    command.chosen.explode = is_whole || options.clip.explode >= 0;
     command.chosen.faces_clip = !command.clip.empty();
-    if (!options.clip_style.empty()) state.clip.style = clip_style_from_name(options.clip_style);
-    apply_colors(options, command);
-    if (options.explode >= 0) state.explode = options.explode;
-    if (options.shrink >= 0) state.shrink = options.shrink;
-    for (const NodeId node : options.hidden) state.set_hidden(node, true);
-    if (options.isolated > 0) state.isolated = options.isolated;
-    apply_regions(options, state);
-    if (options.features) state.features = true;
-    if (options.smooth) state.shading = Shading::smooth;
-    if (options.no_edges) state.edges = false;
-    if (options.no_context) state.context = false;
-    if (options.no_legend) state.legend = false;
-    if (options.no_numbers) state.numbers = false;
-    if (!options.state_file.empty()) command.theme = state.theme;
-    if (!options.theme.empty()) command.theme = options.theme == "dark" ? Theme::dark : Theme::light;
+    if (!options.clip.style.empty()) state.clip.style = clip_style_from_name(options.clip.style);
+    apply_colors(options.colors, command);
+    if (options.clip.explode >= 0) state.explosion.amount = options.clip.explode;
+    if (options.clip.shrink >= 0) state.explosion.shrink = options.clip.shrink;
+    for (const NodeId node : options.side.hidden) state.visibility.set_hidden(node, true);
+    if (options.side.isolated > 0) state.visibility.isolated = options.side.isolated;
+    apply_regions(options.regions, state);
+    apply_look(options.look, state.look);
+    if (!options.side.state_file.empty()) command.theme = state.theme;
+    if (!options.look.theme.empty()) command.theme = options.look.theme == "dark" ? Theme::dark : Theme::light;
     state.theme = command.theme.value_or(state.theme);
     if (!options.resolution.empty()) {
         parse_resolution(options.resolution, command);

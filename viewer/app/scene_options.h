@@ -12,21 +12,57 @@ class App;
 
 namespace kerf::view {
 
-/// The values of these options as they are given, in the order in which they are applied.
-struct SceneOptions {
-    std::string state_file, camera_file, view, up, stage, color, clip_style, resolution, theme, surface, repair,
-        input_scale, config, deform, motion;
-    std::vector<std::string> inputs;
-    std::vector<NodeId> hidden;
+/// The options for the node, the step and the camera, and the file with a whole view.
+struct SideOptions {
+    std::string state_file, camera_file, view, up, stage;
     NodeId node = 0, isolated = 0;
-    double explode = -1, shrink = -1, percentile = -1;
-    bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false;
-    bool no_numbers = false;
+    std::vector<NodeId> hidden;
+};
+
+/// The options for the layers that are drawn.
+struct LookOptions {
+    bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false, no_numbers = false;
+    std::string theme;
+};
+
+/// The options for colours, and for what is drawn of a solution.
+struct ColorOptions {
+    std::string by, deform, motion;
+    std::vector<double> range, filter;
+    double percentile = -1;
     bool isolines = false, extremes = false, vectors = false;
-    bool walls = false, explode_regions = false;
-    std::string isolated_region;
-    std::vector<std::string> hidden_regions, glass_regions;
-    std::vector<double> filter, range;
+};
+
+/// The options for the clip plane, and for parts and cells that are pulled apart.
+struct ClipOptions {
+    std::string style;
+    double explode = -1, shrink = -1;
+};
+
+/// The options for regions.
+struct RegionOptions {
+    std::vector<std::string> hidden, glass;
+    std::string isolated;
+    bool walls = false, explode = false;
+
+    bool any() const { return walls || explode || !isolated.empty() || !hidden.empty() || !glass.empty(); }
+};
+
+/// The options for the run of a surface.
+struct SurfaceRunOptions {
+    std::string surface, repair, scale, config;
+};
+
+/// The values of these options as they are given, by the groups of their help.
+struct SceneOptions {
+    std::vector<std::string> inputs;
+    std::string resolution;
+    SideOptions side;
+    LookOptions look;
+    ColorOptions colors;
+    ClipOptions clip;
+    RegionOptions regions;
+    SurfaceRunOptions run;
 };
 
 /// Adds the options to a parser. Values go into `options` and `command`, which have to live as long as the parser.

@@ -43,7 +43,8 @@ class Deadline {
 bool needs_run(const Document& document, const ViewState& state) {
     const bool is_repaired = document.unrepaired != nullptr;
     const bool is_there = state.step == Step{} || (is_repaired && state.step == Step{Stage::before_repair, -1});
-    const bool needs_values = is_of_surface(state.color) && !(is_repaired && state.color == ColorBy::deviation);
+    const bool needs_values =
+        is_of_surface(state.coloring.by) && !(is_repaired && state.coloring.by == ColorBy::deviation);
     return state.node != 1 || !is_there || needs_values;
 }
 
@@ -85,11 +86,11 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
 }
 
 void check_regions(const Document& document, const ViewState& state) {
-    std::vector<std::string> wanted = state.hidden_regions;
-    wanted.insert(wanted.end(), state.glass_regions.begin(), state.glass_regions.end());
-    if (state.isolated_region) wanted.push_back(*state.isolated_region);
+    std::vector<std::string> wanted = state.visibility.hidden_regions;
+    wanted.insert(wanted.end(), state.visibility.glass_regions.begin(), state.visibility.glass_regions.end());
+    if (state.visibility.isolated_region) wanted.push_back(*state.visibility.isolated_region);
     const std::vector<std::string>& names = document.region_names;
-    if (names.empty() && (!wanted.empty() || state.walls || state.explode_regions))
+    if (names.empty() && (!wanted.empty() || state.visibility.walls || state.explosion.regions))
         refuse(document, fmt::format("{} has one region, not several.", document.path));
     constexpr std::size_t most = 20;
     const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
@@ -109,19 +110,19 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
                     fmt::format("{} cannot be meshed as it is, so that there is only its stage 'input'. "
                                 "Run kerf check on it.",
                                 document.path));
-    std::vector<NodeId> nodes = state.hidden;
+    std::vector<NodeId> nodes = state.visibility.hidden;
     nodes.push_back(state.node);
-    if (state.isolated) nodes.push_back(*state.isolated);
+    if (state.visibility.isolated) nodes.push_back(*state.visibility.isolated);
     for (const NodeId node : nodes)
         if (!document.tree.find(node))
             refuse(document, fmt::format("The tree of {} has no node {}.", document.path, node));
     check_regions(document, state);
-    if (const char* why = why_without_values(document, state.color)) refuse(document, why);
-    if (document.has_surfaces_alone() && is_of_cells(state.color))
+    if (const char* why = why_without_values(document, state.coloring.by)) refuse(document, why);
+    if (document.has_surfaces_alone() && is_of_cells(state.coloring.by))
         refuse(document,
                fmt::format("{} is a folder of kerf decompose, whose parts have no cells to colour by {}. kerf "
                            "mesh makes them.",
-                           document.path, name(state.color)));
+                           document.path, name(state.coloring.by)));
     const std::vector<Step> steps = steps_of(document, state.node);
     if (steps[nearest_step(steps, state.step)] == state.step) return;
     std::vector<std::string> names;
@@ -162,7 +163,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
                             .scale = command.scale * static_cast<float>(command.antialias)};
     const std::vector<std::string> files = command.pictures();
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (command.frames > 0) app.state().phase = static_cast<double>(i) / command.frames;
+        if (command.frames > 0) app.state().deformation.phase = static_cast<double>(i) / command.frames;
         app.wake();
         do {
             deadline.check();

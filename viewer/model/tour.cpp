@@ -226,7 +226,7 @@ TourView view_of_stop(const Document& document, NodeId node, Stage stage, const 
     ViewState& state = view.state;
     state.theme = before.theme;
     state.panels = before.panels;
-    state.times = before.times;
+    state.look.times = before.look.times;
     state.node = node;
     state.step = {stage, -1};
     const Vec3 &normal = cut.plane.normal, aside = across(normal), up = aside.cross(normal);
@@ -235,7 +235,7 @@ TourView view_of_stop(const Document& document, NodeId node, Stage stage, const 
     view.back = (0.6 * normal + 0.7 * aside + 0.4 * up).normalized();
     if (stage == Stage::triangulation || stage == Stage::interface)
         view.back = (0.85 * normal + 0.45 * aside + 0.3 * up).normalized();
-    if (stage == Stage::split || stage == Stage::parts) state.explode = tour_explosion;
+    if (stage == Stage::split || stage == Stage::parts) state.explosion.amount = tour_explosion;
     if (stage == Stage::tetrahedra) {
         snap_to(state.clip, Plane(body.center(), aside), document.box);
         view.back = (0.25 * normal + 0.9 * aside + 0.35 * up).normalized();

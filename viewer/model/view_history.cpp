@@ -10,7 +10,7 @@ ViewState with_rest_of(ViewState view, const ViewState& rest) {
     view.panels = rest.panels;
     view.theme = rest.theme;
     view.selection = rest.selection;
-    view.phase = rest.phase;
+    view.deformation.phase = rest.deformation.phase;
     return view;
 }
 

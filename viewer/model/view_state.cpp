@@ -163,23 +163,23 @@ Selection selection_from(const OrderedJson& json, const std::string& source) {
 
 // The switches of a value, by name; writing and reading use the same list.
 std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
-    return {{"edges", &s.edges},
-            {"context", &s.context},
-            {"plane", &s.plane},
-            {"axes", &s.axes},
-            {"contour", &s.contour},
-            {"surface", &s.surface},
-            {"interfaces", &s.interfaces},
-            {"legend", &s.legend},
-            {"features", &s.features},
-            {"times", &s.times},
-            {"isolines", &s.isolines},
-            {"extremes", &s.extremes},
-            {"vectors", &s.vectors},
-            {"neighbours", &s.neighbours},
-            {"numbers", &s.numbers},
-            {"walls", &s.walls},
-            {"explode_regions", &s.explode_regions}};
+    return {{"edges", &s.look.edges},
+            {"context", &s.look.context},
+            {"plane", &s.look.plane},
+            {"axes", &s.look.axes},
+            {"contour", &s.look.contour},
+            {"surface", &s.look.surface},
+            {"interfaces", &s.look.interfaces},
+            {"legend", &s.look.legend},
+            {"features", &s.look.features},
+            {"times", &s.look.times},
+            {"isolines", &s.coloring.isolines},
+            {"extremes", &s.coloring.extremes},
+            {"vectors", &s.deformation.vectors},
+            {"neighbours", &s.visibility.neighbours},
+            {"numbers", &s.look.numbers},
+            {"walls", &s.visibility.walls},
+            {"explode_regions", &s.explosion.regions}};
 }
 std::vector<std::pair<const char*, bool*>> switches(Panels& p) {
     return {{"tree", &p.tree},        {"display", &p.display},       {"timeline", &p.timeline},
@@ -267,25 +267,25 @@ std::string to_json(const ViewState& state, const ViewOrigin& origin) {
     json["node"] = state.node;
     json["stage"] = name(state.step);
     if (state.camera) json["camera"] = write(*state.camera);
-    json["shading"] = shading_names[static_cast<std::size_t>(state.shading)];
+    json["shading"] = shading_names[static_cast<std::size_t>(state.look.shading)];
     json.update(write_switches(state));
-    json["explode"] = state.explode;
-    json["shrink"] = state.shrink;
+    json["explode"] = state.explosion.amount;
+    json["shrink"] = state.explosion.shrink;
     json["clip"] = write(state.clip);
-    json["color"] = name(state.color);
-    if (state.color_range) json["color_range"] = write(*state.color_range);
-    if (state.filter) json["filter"] = write(*state.filter);
-    json["percentile"] = state.percentile;
-    json["load_case"] = state.load_case;
-    json["deform"] = state.deform;
-    json["motion"] = name(state.motion);
-    json["phase"] = state.phase;
-    json["speed"] = state.speed;
-    json["hidden"] = state.hidden;
-    if (state.isolated) json["isolated"] = *state.isolated;
-    json["hidden_regions"] = write_names(state.hidden_regions);
-    json["glass_regions"] = write_names(state.glass_regions);
-    if (state.isolated_region) json["isolated_region"] = path_text(*state.isolated_region);
+    json["color"] = name(state.coloring.by);
+    if (state.coloring.range) json["color_range"] = write(*state.coloring.range);
+    if (state.coloring.filter) json["filter"] = write(*state.coloring.filter);
+    json["percentile"] = state.coloring.percentile;
+    json["load_case"] = state.deformation.load_case;
+    json["deform"] = state.deformation.factor;
+    json["motion"] = name(state.deformation.motion);
+    json["phase"] = state.deformation.phase;
+    json["speed"] = state.deformation.speed;
+    json["hidden"] = state.visibility.hidden;
+    if (state.visibility.isolated) json["isolated"] = *state.visibility.isolated;
+    json["hidden_regions"] = write_names(state.visibility.hidden_regions);
+    json["glass_regions"] = write_names(state.visibility.glass_regions);
+    if (state.visibility.isolated_region) json["isolated_region"] = path_text(*state.visibility.isolated_region);
     json["pick"] = pick_names[static_cast<std::size_t>(state.pick)];
     json["selection"] = write(state.selection);
     json["theme"] = theme_names[static_cast<std::size_t>(state.theme)];
@@ -309,37 +309,38 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
         {"camera", [&](const OrderedJson& j) { s.camera = camera_from(j, source); }},
         {"shading",
          [&](const OrderedJson& j) {
-             s.shading = static_cast<Shading>(index_of(shading_names, j.get<std::string>(), "shading"));
+             s.look.shading = static_cast<Shading>(index_of(shading_names, j.get<std::string>(), "shading"));
          }},
-        {"explode", [&](const OrderedJson& j) { s.explode = std::max(0.0, j.get<double>()); }},
-        {"shrink", [&](const OrderedJson& j) { s.shrink = unit("shrink", j); }},
+        {"explode", [&](const OrderedJson& j) { s.explosion.amount = std::max(0.0, j.get<double>()); }},
+        {"shrink", [&](const OrderedJson& j) { s.explosion.shrink = unit("shrink", j); }},
         {"clip", [&](const OrderedJson& j) { s.clip = clip_from(j, source); }},
-        {"color", [&](const OrderedJson& j) { s.color = color_by_from_name(j.get<std::string>()); }},
-        {"color_range", [&](const OrderedJson& j) { s.color_range = range_from(j); }},
-        {"filter", [&](const OrderedJson& j) { s.filter = range_from(j); }},
+        {"color", [&](const OrderedJson& j) { s.coloring.by = color_by_from_name(j.get<std::string>()); }},
+        {"color_range", [&](const OrderedJson& j) { s.coloring.range = range_from(j); }},
+        {"filter", [&](const OrderedJson& j) { s.coloring.filter = range_from(j); }},
         {"percentile",
          [&](const OrderedJson& j) {
-             s.percentile = j.get<double>();
-             if (!(s.percentile >= least_percentile && s.percentile <= 100))
+             s.coloring.percentile = j.get<double>();
+             if (!(s.coloring.percentile >= least_percentile && s.coloring.percentile <= 100))
                  throw Error(ErrorCode::usage, fmt::format("{}: 'percentile' is {}, but it must be in [{}, 100].",
-                                                           source, s.percentile, least_percentile));
+                                                           source, s.coloring.percentile, least_percentile));
          }},
-        {"load_case", [&](const OrderedJson& j) { s.load_case = std::max(0, j.get<int>()); }},
-        {"deform", [&](const OrderedJson& j) { s.deform = j.get<double>(); }},
+        {"load_case", [&](const OrderedJson& j) { s.deformation.load_case = std::max(0, j.get<int>()); }},
+        {"deform", [&](const OrderedJson& j) { s.deformation.factor = j.get<double>(); }},
         {"motion",
          [&](const OrderedJson& j) {
-             s.motion = static_cast<Motion>(index_of(motion_names, j.get<std::string>(), "motion"));
+             s.deformation.motion = static_cast<Motion>(index_of(motion_names, j.get<std::string>(), "motion"));
          }},
-        {"phase", [&](const OrderedJson& j) { s.phase = unit("phase", j); }},
-        {"speed", [&](const OrderedJson& j) { s.speed = std::max(0.0, j.get<double>()); }},
+        {"phase", [&](const OrderedJson& j) { s.deformation.phase = unit("phase", j); }},
+        {"speed", [&](const OrderedJson& j) { s.deformation.speed = std::max(0.0, j.get<double>()); }},
         {"hidden",
          [&](const OrderedJson& j) {
-             for (const NodeId node : j.get<std::vector<NodeId>>()) s.set_hidden(node, true);
+             for (const NodeId node : j.get<std::vector<NodeId>>()) s.visibility.set_hidden(node, true);
          }},
-        {"isolated", [&](const OrderedJson& j) { s.isolated = j.get<NodeId>(); }},
-        {"hidden_regions", [&](const OrderedJson& j) { read_names(j, s.hidden_regions); }},
-        {"glass_regions", [&](const OrderedJson& j) { read_names(j, s.glass_regions); }},
-        {"isolated_region", [&](const OrderedJson& j) { s.isolated_region = path_of_text(j.get<std::string>()); }},
+        {"isolated", [&](const OrderedJson& j) { s.visibility.isolated = j.get<NodeId>(); }},
+        {"hidden_regions", [&](const OrderedJson& j) { read_names(j, s.visibility.hidden_regions); }},
+        {"glass_regions", [&](const OrderedJson& j) { read_names(j, s.visibility.glass_regions); }},
+        {"isolated_region",
+         [&](const OrderedJson& j) { s.visibility.isolated_region = path_of_text(j.get<std::string>()); }},
         {"pick",
          [&](const OrderedJson& j) {
              s.pick = static_cast<PickMode>(index_of(pick_names, j.get<std::string>(), "pick mode"));

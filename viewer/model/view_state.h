@@ -86,7 +86,7 @@ constexpr bool is_of_cells(ColorBy color) { return is_measure(color) || is_kind(
 /// Returns whether surfaces, those of parts included, have the values, and cells have none.
 constexpr bool is_of_surface(ColorBy color) { return color == ColorBy::deviation || color == ColorBy::size; }
 
-/// The motion of the deformation of a solution, once around while ViewState::phase goes from 0 to 1.
+/// The motion of the deformation of a solution, once around while Deformation::phase goes from 0 to 1.
 enum class Motion {
     still,  ///< the whole deformation at every phase
     swing,  ///< to both sides, as the cosine of the phase: 1 to -1 to 1
@@ -95,7 +95,7 @@ enum class Motion {
 /// Returns the share of the whole deformation that is drawn at a phase, in [-1, 1].
 double share_of_motion(Motion motion, double phase);
 
-inline constexpr double least_percentile = 60;  ///< the least value of ViewState::percentile
+inline constexpr double least_percentile = 60;  ///< the least value of Coloring::percentile
 
 enum class Theme { light, dark };
 
@@ -128,11 +128,8 @@ struct Panels {
     bool operator==(const Panels&) const = default;
 };
 
-/// All that a view shows, apart from the document.
-struct ViewState {
-    NodeId node = 1;
-    Step step;
-    std::optional<Camera> camera;  ///< none: everything fits, seen from the corner
+/// The layers of the scene that are drawn, and the look of facets.
+struct Look {
     Shading shading = Shading::flat;
     bool edges = true;    ///< edges of triangles are drawn
     bool context = true;  ///< the rest of the body, translucent
@@ -142,42 +139,83 @@ struct ViewState {
     bool features = false;  ///< sharp edges and borders of patches
     bool surface = true;
     bool interfaces = true;
-    double explode = 0;  ///< 0: together; 1: as far apart as the parts are large
-    double shrink = 0;   ///< of cells about their centres; 0: none, 1: to points
-    Clip clip;
-    ColorBy color = ColorBy::part;
-    std::optional<ValueRange> color_range;  ///< none: the range of the values that are shown
-    std::optional<ValueRange> filter;       ///< only cells with a value of `color` in it
+    bool legend = true;
+    bool numbers = true;  ///< numbers of patches on the faces that are coloured by them; values on isolines
+    bool times = true;    ///< seconds in the tree
+
+    bool operator==(const Look&) const = default;
+};
+
+/// The parts, regions and cells that are shown of the node. Names of regions are ascending; a document without such a
+/// region shows all it has.
+struct Visibility {
+    std::vector<NodeId> hidden;      ///< nodes, ascending; parts below them are not shown
+    std::optional<NodeId> isolated;  ///< the only node below which parts are shown
+    std::vector<std::string> hidden_regions;
+    std::vector<std::string> glass_regions;      ///< translucent, so that regions inside of them are seen
+    std::optional<std::string> isolated_region;  ///< the only region that is shown, where there is one of this name
+    bool walls = false;                          ///< only those facets of parts are shown that lie between two regions
     bool neighbours = false;  ///< only a selected cell is shown, and the cells that share a vertex with it
+
+    bool is_hidden(NodeId node) const;
+    void set_hidden(NodeId node, bool hide) { set_member(hidden, node, hide); }
+
+    bool operator==(const Visibility&) const = default;
+};
+
+/// The meaning of the colours, and the values that they span.
+struct Coloring {
+    ColorBy by = ColorBy::part;
+    std::optional<ValueRange> range;   ///< none: the range of the values that are shown
+    std::optional<ValueRange> filter;  ///< only cells with a value of `by` in it
     /// Per cent of the drawn values that the colours of stresses span where no range is given: single vertices at
     /// corners have far larger values than all others.
     double percentile = 99;
     bool isolines = false;  ///< lines on which values at vertices are alike
     bool extremes = false;  ///< the places of the least and the largest value are marked
-    bool vectors = false;   ///< displacements of a solution as arrows
-    int load_case = 0;      ///< case of a solution, from 0; modes follow the loads
-    double deform = 0;      ///< displacements of a solution are drawn so many times as long
+
+    bool operator==(const Coloring&) const = default;
+};
+
+/// The pulling apart of parts and cells.
+struct Explosion {
+    double amount = 0;     ///< 0: together; 1: as far apart as the parts are large
+    bool regions = false;  ///< `amount` moves regions as wholes
+    double shrink = 0;     ///< of cells about their centres; 0: none, 1: to points
+
+    bool operator==(const Explosion&) const = default;
+};
+
+/// The displacements of a solution as they are drawn.
+struct Deformation {
+    int load_case = 0;  ///< case of the solution, from 0; modes follow the loads
+    double factor = 0;  ///< displacements are drawn so many times as long
     Motion motion = Motion::still;
-    double phase = 0;    ///< phase of the motion, in [0, 1]
-    double speed = 0.5;  ///< speed of the motion while it plays, in periods a second
-    bool legend = true;
-    bool numbers = true;         ///< numbers of patches on the faces that are coloured by them; values on isolines
-    bool times = true;           ///< seconds in the tree
-    std::vector<NodeId> hidden;  ///< nodes, ascending; parts below them are not shown
-    std::optional<NodeId> isolated;
-    std::vector<std::string> hidden_regions;  ///< names, ascending; a document without them shows all it has
-    std::vector<std::string> glass_regions;  ///< names, ascending; translucent, so that regions inside of them are seen
-    std::optional<std::string> isolated_region;  ///< the only region that is shown, where there is one of this name
-    bool walls = false;                          ///< only those facets of parts are shown that lie between two regions
-    bool explode_regions = false;                ///< `explode` moves regions as wholes
+    double phase = 0;      ///< phase of the motion, in [0, 1]
+    double speed = 0.5;    ///< speed of the motion while it plays, in periods a second
+    bool vectors = false;  ///< displacements as arrows
+
+    double drawn() const { return factor * share_of_motion(motion, phase); }  ///< returns the factor at the phase
+
+    bool operator==(const Deformation&) const = default;
+};
+
+/// All that a view shows, apart from the document. In its JSON the fields of Look, Visibility, Coloring, Explosion and
+/// Deformation are fields of the state.
+struct ViewState {
+    NodeId node = 1;
+    Step step;
+    std::optional<Camera> camera;  ///< none: everything fits, seen from the corner
+    Look look;
+    Visibility visibility;
+    Coloring coloring;
+    Explosion explosion;
+    Deformation deformation;
+    Clip clip;
     PickMode pick = PickMode::facet;
     Selection selection;
     Theme theme = Theme::light;
     Panels panels;
-
-    bool is_hidden(NodeId node) const;
-    double drawn_deformation() const { return deform * share_of_motion(motion, phase); }  ///< factor at the phase
-    void set_hidden(NodeId changed, bool hide) { set_member(hidden, changed, hide); }
 
     bool operator==(const ViewState&) const = default;
 };

@@ -120,11 +120,11 @@ std::string size_text(const Eigen::AlignedBox3d& box) {
 std::vector<std::string> region_lines(const Document& document, const ViewState& state) {
     std::vector<std::string> lines, glass, hidden;
     for (const std::string& region : document.region_names) {
-        if (state.isolated_region == region) lines.push_back("Only region " + region);
+        if (state.visibility.isolated_region == region) lines.push_back("Only region " + region);
         if (is_hidden(state, region)) hidden.push_back(region);
         if (is_glass(state, region)) glass.push_back(region);
     }
-    if (state.walls) lines.emplace_back("Only walls between regions");
+    if (state.visibility.walls) lines.emplace_back("Only walls between regions");
     const auto add = [&](const char* what, const std::vector<std::string>& names) {
         constexpr std::size_t most = 6;
         if (names.size() > most)
@@ -161,17 +161,18 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
         if (width_of(size_text(document.box)) <= room) add(size_text(document.box), colors.dim);
         if (state.clip.on) add(clip_text(state.clip, document.box), colors.dim);
     }
-    if (state.filter && is_measure(state.color))
-        add(fmt::format("Only cells with {} of {} to {}", beginning_small(title(state.color)),
-                        rounded(state.filter->low), rounded(state.filter->high)),
+    if (state.coloring.filter && is_measure(state.coloring.by))
+        add(fmt::format("Only cells with {} of {} to {}", beginning_small(title(state.coloring.by)),
+                        rounded(state.coloring.filter->low), rounded(state.coloring.filter->high)),
             colors.dim);
-    if (is_of_solution(state.color) && document.solution)
-        add(fmt::format("{} in units of the case", title(state.color)), colors.dim);
-    if (context.facts.legend.percentile < 100)
-        add(fmt::format("Colours span {:g} % of the values drawn", context.facts.legend.percentile), colors.dim);
-    if (state.isolated) add("Only " + beginning_small(body_of(document, *state.isolated)), colors.dim);
+    if (is_of_solution(state.coloring.by) && document.solution)
+        add(fmt::format("{} in units of the case", title(state.coloring.by)), colors.dim);
+    if (context.facts.percentile < 100)
+        add(fmt::format("Colours span {:g} % of the values drawn", context.facts.percentile), colors.dim);
+    if (state.visibility.isolated)
+        add("Only " + beginning_small(body_of(document, *state.visibility.isolated)), colors.dim);
     std::vector<std::string> hidden;
-    for (const NodeId node : state.hidden) hidden.push_back(beginning_small(body_of(document, node)));
+    for (const NodeId node : state.visibility.hidden) hidden.push_back(beginning_small(body_of(document, node)));
     if (!hidden.empty()) add(fmt::format("Without {}", fmt::join(hidden, ", ")), colors.dim);
     if (document.region_names.size() > 1 && shows_parts(state.step.stage))
         for (const std::string& line : region_lines(document, state)) add(line, colors.dim);

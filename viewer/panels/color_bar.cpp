@@ -70,7 +70,7 @@ class ColorBar {
     void drag_to(double value) {
         const double least = 1e-3 * length();  // else there would be no colours between
         if (std::abs(value - memory_.drag_from) < least) return;
-        context_.state.color_range = {std::min(value, memory_.drag_from), std::max(value, memory_.drag_from)};
+        context_.state.coloring.range = {std::min(value, memory_.drag_from), std::max(value, memory_.drag_from)};
     }
 
     UiContext& context_;
@@ -83,13 +83,13 @@ class ColorBar {
 
 void draw_color_bar(UiContext& context, ColorBarMemory& memory) {
     const ViewState& state = context.state;
-    const auto& values = context.facts.legend.values;
-    const std::string of = fmt::format("{} of {}", name(state.color), context.session.document().path);
+    const auto& values = context.facts.values;
+    const std::string of = fmt::format("{} of {}", name(state.coloring.by), context.session.document().path);
     if (memory.colored_of != of) memory.colored.reset();
     memory.colored_of = of;
-    if (values && !state.color_range) memory.colored = values;
-    if (!values || context.facts.legend.scale.size() < 2) return;
-    const ValueRange colored = state.color_range.value_or(*values);
+    if (values && !state.coloring.range) memory.colored = values;
+    if (!values || context.facts.scale.size() < 2) return;
+    const ValueRange colored = state.coloring.range.value_or(*values);
     ValueRange extent = memory.colored.value_or(values_of_run(context));
     extent = {std::min(extent.low, colored.low), std::max(extent.high, colored.high)};
     if (extent.high > extent.low) ColorBar(context, memory, colored, extent).draw();

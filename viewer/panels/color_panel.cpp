@@ -25,11 +25,11 @@ void draw_choice(UiContext& context) {
         for (int i = 0; i < color_by_count; ++i) all.emplace_back(title(static_cast<ColorBy>(i)));
         return all;
     }();
-    int index = static_cast<int>(context.state.color);
+    int index = static_cast<int>(context.state.coloring.by);
     if (!context.widgets.combo("Colour by", &index, titles)) return;
-    context.state.color = static_cast<ColorBy>(index);
-    context.state.filter.reset();  // these limits were for other values
-    context.state.color_range.reset();
+    context.state.coloring.by = static_cast<ColorBy>(index);
+    context.state.coloring.filter.reset();  // these limits were for other values
+    context.state.coloring.range.reset();
 }
 
 // Draws a title and two fields in a row, and returns whether one of them was changed.
@@ -50,34 +50,32 @@ bool draw_limits(Widgets& widgets, const char* title, const std::array<const cha
 
 // Draws the range of the colours. It is always there, so that nothing below moves when it is used.
 void draw_range(UiContext& context, ColorMemory& memory) {
-    ViewState& state = context.state;
-    bool fixed = state.color_range.has_value();
+    Coloring& coloring = context.state.coloring;
+    bool fixed = coloring.range.has_value();
     if (context.widgets.checkbox("Fixed range", &fixed, "The same colours for the same values, whatever is shown"))
-        state.color_range =
-            fixed ? std::optional(context.facts.legend.values.value_or(ValueRange{0, 1})) : std::nullopt;
+        coloring.range = fixed ? std::optional(context.facts.values.value_or(ValueRange{0, 1})) : std::nullopt;
     draw_color_bar(context, memory.bar);
-    const ValueRange shown = state.color_range.value_or(context.facts.legend.values.value_or(ValueRange{0, 1}));
+    const ValueRange shown = coloring.range.value_or(context.facts.values.value_or(ValueRange{0, 1}));
     ValueRange changed = shown;
     if (draw_limits(context.widgets, "Colours", {"Lowest", "Highest"}, shown, memory.range, changed))
-        state.color_range = changed;
-    context.widgets.checkbox("Mark extremes", &state.extremes, "Where the least and the largest value are");
+        coloring.range = changed;
+    context.widgets.checkbox("Mark extremes", &coloring.extremes, "Where the least and the largest value are");
 }
 
 // Draws the limits of the filter. They are always there, so that nothing below moves when a filter begins.
 void draw_filter(UiContext& context, ColorMemory& memory) {
-    ViewState& state = context.state;
+    std::optional<ValueRange>& filter = context.state.coloring.filter;
+    const Palette& colors = palette(context.state.theme);
     const ValueRange all = values_of_run(context);
-    const ValueRange shown = state.filter.value_or(all);
+    const ValueRange shown = filter.value_or(all);
     ValueRange changed = shown;
-    if (draw_limits(context.widgets, "Only", {"Only from", "Only to"}, shown, memory.filter, changed))
-        state.filter = changed;
-    ImGui::BeginDisabled(!state.filter);
-    if (context.widgets.button("Clear filter", "Shows cells of all values again")) state.filter.reset();
+    if (draw_limits(context.widgets, "Only", {"Only from", "Only to"}, shown, memory.filter, changed)) filter = changed;
+    ImGui::BeginDisabled(!filter);
+    if (context.widgets.button("Clear filter", "Shows cells of all values again")) filter.reset();
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    show(state.filter ? "Only some cells are shown." : "Cells of all values are shown.",
-         state.filter ? palette(state.theme).accent : palette(state.theme).dim);
+    show(filter ? "Only some cells are shown." : "Cells of all values are shown.", filter ? colors.accent : colors.dim);
 }
 
 void fly_to_cell(UiContext& context, const WorstCell& cell) {
@@ -153,7 +151,7 @@ void draw_worst_table(UiContext& context, WorstCellsMemory& memory, ListKeys& ke
 }  // namespace
 
 ValueRange values_of_run(const UiContext& context) {
-    const int measure = histogram_number(context.state.color);
+    const int measure = histogram_number(context.state.coloring.by);
     if (measure >= 0)
         if (const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)])
             return {histogram->min, histogram->max};
@@ -166,10 +164,10 @@ void draw_worst_cells(UiContext& context, WorstCellsMemory& memory, ListKeys& ke
     const Palette& colors = palette(context.state.theme);
     if (context.session.document().folder.empty())
         return show_wrapped("There are no cells: open the folder of a run.", colors.dim);
-    if (!is_measure(context.state.color))
+    if (!is_measure(context.state.coloring.by))
         return show_wrapped("Choose a measure of cells under Colour, for example the minimum dihedral angle.",
                             colors.dim);
-    const auto cells = context.session.fetched().worst_cells(context.state.color, 100);
+    const auto cells = context.session.fetched().worst_cells(context.state.coloring.by, 100);
     if (!cells) return show("Reading the cells...", colors.dim);
     if (cells->empty()) return show("No cells have been written yet.", colors.dim);
     draw_worst_table(context, memory, keys, *cells);
@@ -179,8 +177,8 @@ void draw_color(UiContext& context, ColorMemory& memory, ListKeys& keys) {
     if (context.widgets.header("Colour", true)) {
         const ViewState& state = context.state;
         draw_choice(context);
-        const bool needs_cells = is_measure(state.color) || is_kind(state.color) ||
-                                 (is_of_solution(state.color) && context.session.document().solution);
+        const bool needs_cells = is_measure(state.coloring.by) || is_kind(state.coloring.by) ||
+                                 (is_of_solution(state.coloring.by) && context.session.document().solution);
         if (needs_cells && context.session.document().folder.empty())
             show_wrapped("Needs tetrahedra, which only the folder of a run has.", palette(state.theme).warning);
         else if (needs_cells && context.session.document().has_surfaces_alone())
@@ -189,13 +187,13 @@ void draw_color(UiContext& context, ColorMemory& memory, ListKeys& keys) {
             show_wrapped("Only tetrahedra have it.", palette(state.theme).dim);
             if (context.widgets.button("Show the tetrahedra")) context.state.step = {Stage::tetrahedra, -1};
         }
-        if (state.color == ColorBy::patch)
-            context.widgets.checkbox("Numbers on faces", &context.state.numbers, "The numbers of the patches");
-        if (const char* missing = why_without_values(context.session.document(), state.color))
+        if (state.coloring.by == ColorBy::patch)
+            context.widgets.checkbox("Numbers on faces", &context.state.look.numbers, "The numbers of the patches");
+        if (const char* missing = why_without_values(context.session.document(), state.coloring.by))
             show_wrapped(missing, palette(state.theme).dim);
-        if (is_measure(state.color) || context.facts.legend.values) draw_range(context, memory);
+        if (is_measure(state.coloring.by) || context.facts.values) draw_range(context, memory);
         draw_solution(context);
-        if (is_measure(state.color)) {
+        if (is_measure(state.coloring.by)) {
             draw_histogram(context, memory.histogram);
             draw_filter(context, memory);
         }

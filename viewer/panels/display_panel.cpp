@@ -48,7 +48,7 @@ void draw_explode(UiContext& context) {
     const bool has_pieces = document.tree.rows.size() > 1 && step.refused_try < 0 &&
                             (step.stage == Stage::split || shows_parts(step.stage));
     ImGui::BeginDisabled(!has_pieces);
-    context.widgets.slider("Explode", &context.state.explode, 0, 1);
+    context.widgets.slider("Explode", &context.state.explosion.amount, 0, 1);
     ImGui::EndDisabled();
     explain(has_pieces                       ? "Pulls the pieces apart across the planes of the cuts"
             : document.tree.rows.size() <= 1 ? "There is one piece: cut the surface first"
@@ -154,10 +154,10 @@ void draw_display(UiContext& context) {
     ViewState& state = context.state;
     draw_switches(context);
     ImGui::Spacing();
-    draw_choice(context.widgets, "Shading", {"Flat", "Smooth"}, state.shading);
+    draw_choice(context.widgets, "Shading", {"Flat", "Smooth"}, state.look.shading);
     draw_choice(context.widgets, "Pick", {"Facet", "Cell", "Vertex"}, state.pick);
     draw_explode(context);
-    context.widgets.slider("Shrink cells", &state.shrink, 0, 0.9);
+    context.widgets.slider("Shrink cells", &state.explosion.shrink, 0, 0.9);
     ImGui::Spacing();
 }
 

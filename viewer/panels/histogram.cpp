@@ -47,7 +47,7 @@ class HistogramView {
         ImDrawList& list = *ImGui::GetWindowDrawList();
         list.AddRectFilled(from_, {from_.x + size_.x, from_.y + size_.y}, packed(colors_.frame), 0.2f * e);
         for (std::size_t bin = span_.first; bin < span_.last; ++bin) draw_bin(list, bin, hovered);
-        if (context_.state.filter) draw_filter(list);
+        if (context_.state.coloring.filter) draw_filter(list);
         if (active) brush();
         if (hovered && !active) explain_bin(bin_at(ImGui::GetIO().MousePos.x));
         draw_axis();
@@ -82,7 +82,7 @@ class HistogramView {
 
     // Draws a veil over the values that the filter leaves out.
     void draw_filter(ImDrawList& list) const {
-        const ValueRange& filter = *context_.state.filter;
+        const ValueRange& filter = *context_.state.coloring.filter;
         const float left = std::clamp(x_of(place_of(filter.low)), from_.x, from_.x + size_.x);
         const float right = std::clamp(x_of(place_of(filter.high)), from_.x, from_.x + size_.x);
         const ImVec2 end = {from_.x + size_.x, from_.y + size_.y};
@@ -110,7 +110,8 @@ class HistogramView {
         if (std::abs(io.MousePos.x - io.MouseClickedPos[0].x) < 3) return;
         const auto start = static_cast<std::size_t>(memory_.brush_from);
         const std::size_t here = bin_at(io.MousePos.x);
-        context_.state.filter = {histogram_.edges[std::min(start, here)], histogram_.edges[std::max(start, here) + 1]};
+        context_.state.coloring.filter = {histogram_.edges[std::min(start, here)],
+                                          histogram_.edges[std::max(start, here) + 1]};
     }
 
     void explain_bin(std::size_t bin) const {
@@ -174,7 +175,7 @@ int histogram_number(ColorBy color) {
 }
 
 void draw_histogram(UiContext& context, HistogramMemory& memory) {
-    const int measure = histogram_number(context.state.color);
+    const int measure = histogram_number(context.state.coloring.by);
     if (measure < 0) return;
     const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)];
     const Palette& colors = palette(context.state.theme);

@@ -72,9 +72,9 @@ class LegendBox {
     }
 
     void prepare_scale() {
-        range_ = context_.state.color_range.value_or(*legend_.values);
-        if (is_measure(context_.state.color)) filter_ = context_.state.filter;
-        const float entries = line_height() * static_cast<float>(legend_.categories.size() + 2);
+        range_ = context_.state.coloring.range.value_or(*facts_.values);
+        if (is_measure(context_.state.coloring.by)) filter_ = context_.state.coloring.filter;
+        const float entries = line_height() * static_cast<float>(facts_.categories.size() + 2);
         bar_height_ = std::clamp(std::min(0.7f * highest_, highest_ - entries), 4.5f * em(), 11 * em());
         const float most_ticks = bar_height_ / (1.3f * ImGui::GetTextLineHeight());
         ticks_ = round_ticks(range_.low, range_.high, std::clamp(static_cast<int>(most_ticks), 2, 5));
@@ -249,7 +249,7 @@ class LegendBox {
 }  // namespace
 
 Rectangle body_area(const ViewState& state, const Rectangle& scene) {
-    if (!state.legend) return scene;
+    if (!state.look.legend) return scene;
     Rectangle body = scene;
     if (is_wide(scene))
         body.width -= std::clamp(0.25f * scene.width, std::min(10.5f * em(), 0.34f * scene.width), 13 * em());
@@ -259,7 +259,7 @@ Rectangle body_area(const ViewState& state, const Rectangle& scene) {
 }
 
 void draw_legend(UiContext& context, const Rectangle& scene) {
-    if (context.state.legend) LegendBox(context, scene).draw();
+    if (context.state.look.legend) LegendBox(context, scene).draw();
 }
 
 }  // namespace kerf::view

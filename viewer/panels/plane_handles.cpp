@@ -117,7 +117,8 @@ void draw_clip_handles(UiContext& context, const Rectangle& scene, const ScreenP
 const Cut* movable_cut(const UiContext& context) {
     const Document& document = context.session.document();
     const ViewState& state = context.state;
-    if (!document.trace || document.progress.running || context.session.busy() || context.steps.empty() || !state.plane)
+    if (!document.trace || document.progress.running || context.session.busy() || context.steps.empty() ||
+        !state.look.plane)
         return nullptr;
     const Step& step = context.steps[nearest_step(context.steps, state.step)];
     if (step.refused_try >= 0 || step.stage < Stage::plane || step.stage >= Stage::split) return nullptr;

@@ -65,7 +65,7 @@ class RegionList {
     void draw_swatch(const std::string& region, float alpha) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float size = 0.7f * em(), top = at.y + (side() - size) / 2;
-        const Color* color = state_.color == ColorBy::region ? color_in_legend(context_.facts, region) : nullptr;
+        const Color* color = state_.coloring.by == ColorBy::region ? color_in_legend(context_.facts, region) : nullptr;
         ImDrawList& list = *ImGui::GetWindowDrawList();
         if (color)
             list.AddRectFilled({at.x, top}, {at.x + size, top + size}, packed(*color), 0.2f * size);
@@ -82,20 +82,20 @@ class RegionList {
         if (draw_switch("show region " + region, is_shown ? Icon::eye : Icon::eye_closed,
                         is_shown ? nullptr : &colors_.warning, is_shown ? "Hide it" : "Hidden: show it again")) {
             if (is_shown)
-                set_member(state_.hidden_regions, region, true);
+                set_member(state_.visibility.hidden_regions, region, true);
             else
                 reveal_region(state_, region);
         }
         ImGui::SameLine(0, 0.1f * em());
-        const bool isolated = state_.isolated_region == region;
+        const bool isolated = state_.visibility.isolated_region == region;
         if (draw_switch("isolate region " + region, Icon::isolate, isolated ? &colors_.accent : nullptr,
                         isolated ? "Show the others again" : "Show only this"))
-            state_.isolated_region = isolated ? std::nullopt : std::optional(region);
+            state_.visibility.isolated_region = isolated ? std::nullopt : std::optional(region);
         ImGui::SameLine(0, 0.1f * em());
         const bool glass = is_glass(state_, region);
         if (draw_switch("glass region " + region, Icon::glass, glass ? &colors_.accent : nullptr,
                         glass ? "Make it opaque again" : "Make it glass, so that what it holds is seen"))
-            set_member(state_.glass_regions, region, !glass);
+            set_member(state_.visibility.glass_regions, region, !glass);
     }
 
     UiContext& context_;
@@ -114,9 +114,9 @@ void draw_regions(UiContext& context) {
     const bool has_parts = shows_parts(context.state.step.stage);
     ImGui::BeginDisabled(!has_parts);
     RegionList(context).draw();
-    context.widgets.checkbox("Walls alone", &context.state.walls,
+    context.widgets.checkbox("Walls alone", &context.state.visibility.walls,
                              has_parts ? "Only facets between two regions" : "Parts are shown at Tetrahedra alone");
-    context.widgets.checkbox("Explode as wholes", &context.state.explode_regions,
+    context.widgets.checkbox("Explode as wholes", &context.state.explosion.regions,
                              "Explode moves regions, and leaves their parts together");
     ImGui::EndDisabled();
     ImGui::Spacing();

@@ -115,11 +115,11 @@ void draw_before_and_after(UiContext& context) {
     ImGui::SameLine();
     if (context.widgets.radio("After", !shows_before)) context.actions.repairs.show_before_repair(false);
     explain("The surface as repairs have left it (key B)");
-    bool colored = context.state.color == ColorBy::deviation;
+    bool colored = context.state.coloring.by == ColorBy::deviation;
     if (context.widgets.checkbox("Colour by distance", &colored,
                                  "How far each facet is from the surface before repairs, or, of that, from the surface "
                                  "after them"))
-        context.state.color = colored ? ColorBy::deviation : ViewState().color;
+        context.state.coloring.by = colored ? ColorBy::deviation : ViewState().coloring.by;
 }
 
 // The list of actions that repairs did, a line each; the places of the one that was clicked follow.

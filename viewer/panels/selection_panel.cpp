@@ -36,7 +36,7 @@ void draw_selection(UiContext& context) {
     if (context.widgets.small_button("Clear", "Select nothing (Escape)")) context.state.selection = {};
     if (context.state.selection.kind == Selection::Kind::cell) {
         ImGui::SameLine();
-        bool& only_ring = context.state.neighbours;
+        bool& only_ring = context.state.visibility.neighbours;
         if (context.widgets.small_button(only_ring ? "All cells" : "Neighbours",
                                          only_ring
                                              ? "Shows the other cells again (N)"

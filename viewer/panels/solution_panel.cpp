@@ -14,44 +14,45 @@ namespace {
 constexpr double most_of_good = 4;  // the slider ends at so many times the deformation that is well seen
 
 void draw_cases(UiContext& context, const Solution& solution) {
-    ViewState& state = context.state;
     if (solution.cases.size() < 2) return;
+    Deformation& deformation = context.state.deformation;
+    ColorBy& color = context.state.coloring.by;
     std::vector<std::string> names;
     for (const Solution::Case& one : solution.cases) names.push_back(one.title());
-    state.load_case = std::min(state.load_case, static_cast<int>(names.size()) - 1);
-    context.widgets.combo(solution.has_modes() ? "Case or mode" : "Case", &state.load_case, names);
-    if (solution.cases[static_cast<std::size_t>(state.load_case)].is_mode() && needs_load_case(state.color))
-        state.color = ColorBy::displacement;  // a mode has nothing else
+    deformation.load_case = std::min(deformation.load_case, static_cast<int>(names.size()) - 1);
+    context.widgets.combo(solution.has_modes() ? "Case or mode" : "Case", &deformation.load_case, names);
+    if (solution.cases[static_cast<std::size_t>(deformation.load_case)].is_mode() && needs_load_case(color))
+        color = ColorBy::displacement;  // a mode has nothing else
 }
 
 void draw_motion(UiContext& context) {
-    ViewState& state = context.state;
+    Deformation& deformation = context.state.deformation;
     static const std::vector<std::string> titles = {"Still", "To both sides", "From nothing to all"};
-    int motion = static_cast<int>(state.motion);
-    if (context.widgets.combo("Motion", &motion, titles)) state.motion = static_cast<Motion>(motion);
-    if (state.motion == Motion::still) return;
-    context.widgets.slider("Phase", &state.phase, 0, 1);
-    context.widgets.slider("Speed", &state.speed, 0.1, 2, "%.1f / s");
+    int motion = static_cast<int>(deformation.motion);
+    if (context.widgets.combo("Motion", &motion, titles)) deformation.motion = static_cast<Motion>(motion);
+    if (deformation.motion == Motion::still) return;
+    context.widgets.slider("Phase", &deformation.phase, 0, 1);
+    context.widgets.slider("Speed", &deformation.speed, 0.1, 2, "%.1f / s");
 }
 
 void draw_deformation(UiContext& context, const Solution& solution) {
-    ViewState& state = context.state;
-    const auto number = static_cast<std::size_t>(state.load_case);
+    Deformation& deformation = context.state.deformation;
+    const auto number = static_cast<std::size_t>(deformation.load_case);
     const double diagonal = context.session.document().box.diagonal().norm();
     const double good =
         number < solution.cases.size() ? good_deformation(solution.cases[number].largest_displacement, diagonal) : 0;
-    context.widgets.input_number("Deform", &state.deform);
+    context.widgets.input_number("Deform", &deformation.factor);
     if (good > 0)
-        context.widgets.slider("Amount", &state.deform, std::min(0., state.deform),
-                               std::max(most_of_good * good, state.deform), "%.4g x");
+        context.widgets.slider("Amount", &deformation.factor, std::min(0., deformation.factor),
+                               std::max(most_of_good * good, deformation.factor), "%.4g x");
     if (context.widgets.button("Auto", "So that the largest displacement is well seen") && good > 0)
-        state.deform = good;
+        deformation.factor = good;
     ImGui::SameLine();
     if (context.widgets.button(context.facts.moving ? "Pause" : "Play", "The deformation moves")) {
-        if (state.deform == 0) state.deform = good;
+        if (deformation.factor == 0) deformation.factor = good;
         context.actions.play.toggle_motion();
     }
-    if (state.deform != 0) draw_motion(context);
+    if (deformation.factor != 0) draw_motion(context);
 }
 
 }  // namespace
@@ -63,12 +64,13 @@ void draw_solution(UiContext& context) {
     draw_cases(context, *document.solution);
     draw_deformation(context, *document.solution);
     const float half = ImGui::GetContentRegionAvail().x / 2;
-    context.widgets.checkbox("Vectors", &state.vectors, "Displacements as arrows");
-    if (!is_at_vertices(state.color)) return;
-    context.widgets.checkbox("Isolines", &state.isolines, "Lines where values are alike, at tenths of the range");
-    if (!state.isolines) return;
+    context.widgets.checkbox("Vectors", &state.deformation.vectors, "Displacements as arrows");
+    if (!is_at_vertices(state.coloring.by)) return;
+    context.widgets.checkbox("Isolines", &state.coloring.isolines,
+                             "Lines where values are alike, at tenths of the range");
+    if (!state.coloring.isolines) return;
     ImGui::SameLine(half);
-    context.widgets.checkbox("Numbers on lines", &state.numbers, "The values of the lines");
+    context.widgets.checkbox("Numbers on lines", &state.look.numbers, "The values of the lines");
 }
 
 }  // namespace kerf::view

@@ -19,8 +19,9 @@ namespace kerf::view {
 namespace {
 
 bool is_shown(const ViewState& state, const Document& document, NodeId node) {
-    if (state.is_hidden(node)) return false;
-    return shows_node(state, document, node) || (state.isolated && lies_below(*state.isolated, node));
+    if (state.visibility.is_hidden(node)) return false;
+    return shows_node(state, document, node) ||
+           (state.visibility.isolated && lies_below(*state.visibility.isolated, node));
 }
 
 // Seconds with two digits behind the point, or fewer where they would be more than three in all.
@@ -46,7 +47,7 @@ class TreeTable {
     void draw() {
         const Tree& tree = context_.session.document().tree;
         rows_ = tree.in_order();
-        const TreeColumns columns(rows_, context_.state.times, memory_.columns, room());
+        const TreeColumns columns(rows_, context_.state.look.times, memory_.columns, room());
         total_load_ = columns.total_load;
         const bool is_sortable = memory_.order.by && columns.shown[*memory_.order.by];
         if (!is_sortable) memory_.order = {};
@@ -218,17 +219,17 @@ class TreeTable {
     void draw_switches(const TreeRow& row) {
         ImGui::TableSetColumnIndex(eye_column);
         ViewState& state = context_.state;
-        const bool hidden = state.is_hidden(row.id), isolated = state.isolated == row.id;
+        const bool hidden = state.visibility.is_hidden(row.id), isolated = state.visibility.isolated == row.id;
         const ImU32 quiet = packed(faded(colors_.dim, 0.55f));
         if (icon_button(context_.widgets, fmt::format("show {}", row.id), hidden ? Icon::eye_closed : Icon::eye,
                         line_height(), hidden ? packed(colors_.warning) : quiet,
                         hidden ? "Hidden: show it again" : "Hide it and what lies below"))
-            hidden ? reveal(context_, row.id) : state.set_hidden(row.id, true);
+            hidden ? reveal(context_, row.id) : state.visibility.set_hidden(row.id, true);
         ImGui::SameLine(0, 0.1f * em());
         if (icon_button(context_.widgets, fmt::format("isolate {}", row.id), Icon::isolate, line_height(),
                         isolated ? packed(colors_.accent) : quiet,
                         isolated ? "Show the others again" : "Show only this and what lies below"))
-            state.isolated = isolated ? std::nullopt : std::optional(row.id);
+            state.visibility.isolated = isolated ? std::nullopt : std::optional(row.id);
     }
 
     void draw_state(const TreeRow& row, float alpha) {
@@ -299,8 +300,8 @@ void draw_column_menu(UiContext& context, TreeMemory& memory) {
 void draw_tree_head(UiContext& context, TreeMemory& memory) {
     ViewState& state = context.state;
     const float gap = 0.4f * em(), right = ImGui::GetContentRegionMax().x;
-    const bool some_hidden =
-        !state.hidden.empty() || state.isolated || !state.hidden_regions.empty() || state.isolated_region;
+    const bool some_hidden = !state.visibility.hidden.empty() || state.visibility.isolated ||
+                             !state.visibility.hidden_regions.empty() || state.visibility.isolated_region;
     const float all = some_hidden ? width_of_button("Show all") + gap : 0, columns = width_of_button("Columns");
     ImGui::AlignTextToFramePadding();
     const std::string text = summary(context.session.document());
@@ -311,10 +312,10 @@ void draw_tree_head(UiContext& context, TreeMemory& memory) {
     if (!some_hidden) return;
     ImGui::SameLine(0, gap);
     if (context.widgets.button("Show all", "Hides nothing and isolates nothing any more")) {
-        state.hidden.clear();
-        state.isolated.reset();
-        state.hidden_regions.clear();
-        state.isolated_region.reset();
+        state.visibility.hidden.clear();
+        state.visibility.isolated.reset();
+        state.visibility.hidden_regions.clear();
+        state.visibility.isolated_region.reset();
     }
 }
 

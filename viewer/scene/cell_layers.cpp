@@ -18,7 +18,7 @@ Fill fill_of_values(ColorBy color) { return is_kind(color) ? Fill::categories : 
 // Returns false if data that the colours need are not there yet.
 bool CellLayers::find_colors(const std::shared_ptr<const PartCells>& cells, const NodeSurface& surface,
                              CellColors& colors) {
-    const ColorBy color = context_.state.color;
+    const ColorBy color = context_.state.coloring.by;
     const bool needs_values = context_.needs_values();
     if (needs_values) colors.values = context_.session.fetched().cell_values(cells->part, color);
     colors.solved = SolvedNodes(context_, sink_, cells->part, cells->vertices, cells->edges);
@@ -66,8 +66,8 @@ Layer* CellLayers::add_faces(LayerKind kind, const std::string& chosen, const Pa
 }
 
 void CellLayers::add_section(const PartCells& cells, const CellColors& colors) {
-    const std::string key =
-        fmt::format("section {} {} {}", cells.part, context_.value_key(), context_.clip_key(context_.state.shrink));
+    const std::string key = fmt::format("section {} {} {}", cells.part, context_.value_key(),
+                                        context_.clip_key(context_.state.explosion.shrink));
     const auto sections =
         context_.cache.get(key, colors.source, [&] { return cell_sections(cells, context_.frame, colors.choice); });
     if (sections->corners.empty()) return;
@@ -105,7 +105,7 @@ bool CellLayers::add(NodeId part, const NodeSurface& surface) {
     CellColors colors;
     if (!cells || !find_colors(cells, surface, colors)) return false;
     CellChoice& choice = colors.choice;
-    if (context_.has_filter()) choice.filter = state.filter;
+    if (context_.has_filter()) choice.filter = state.coloring.filter;
     choice.side = context_.side ? &*context_.side : nullptr;
     choice.style = state.clip.style;
     std::vector<char> is_shared;  // vertices with the cell in the middle of a ring
@@ -118,13 +118,13 @@ bool CellLayers::add(NodeId part, const NodeSurface& surface) {
                                [&](std::int32_t v) { return is_shared[static_cast<std::size_t>(v)] != 0; });
         };
     }
-    if (state.shrink > 0)  // through the gaps the far side of the body is seen, and not the ground behind it
+    if (state.explosion.shrink > 0)  // through the gaps the far side of the body is seen, and not the ground behind it
         if (Layer* wall = add_faces(LayerKind::wall, context_.clip_key(0), *cells, surface, colors)) {
             wall->backs_only = true;
             wall->edges = false;
         }
-    choice.shrink = state.shrink;
-    add_faces(LayerKind::cells, context_.clip_key(state.shrink), *cells, surface, colors);
+    choice.shrink = state.explosion.shrink;
+    add_faces(LayerKind::cells, context_.clip_key(state.explosion.shrink), *cells, surface, colors);
     if (context_.side && state.clip.style == ClipStyle::smooth) add_section(*cells, colors);
     return true;
 }
@@ -137,7 +137,7 @@ bool CellLayers::is_seen(const PartCells& cells, const NodeSurface& part, const 
         const auto& element = layer.geometry->element;
         if (layer.kind != LayerKind::part) {
             if (std::find(element.begin(), element.end(), cell) != element.end()) return true;
-        } else if (context_.state.explode > 0) {
+        } else if (context_.state.explosion.amount > 0) {
             const auto& tets = cells.tet_at_facet;
             if (std::find(tets.begin(), tets.end(), cell) != tets.end()) return true;
         } else if (shown && direction_to_cell(cells, part, *shown, cell, Vec3::UnitZ())) {
@@ -162,7 +162,7 @@ void CellLayers::add_selected(const NodeSurface* shown) {
     for (const std::int32_t v : cells->tets[index]) center += cells->vertices[static_cast<std::size_t>(v)] / 4;
     if (context_.has_filter() && colors.values) {
         const double value = (*colors.values)[index];
-        if (value < state.filter->low || value > state.filter->high) return;
+        if (value < state.coloring.filter->low || value > state.coloring.filter->high) return;
     }
     if (context_.side && context_.side->distance(center) > 0) return;
     for (Layer& layer : sink_.layers())

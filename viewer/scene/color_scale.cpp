@@ -20,16 +20,16 @@ constexpr double rounding_share = 1e-9;  // of the diagonal: smaller deviations 
 
 void ScaleMaker::begin() {
     built_.scene.scale.none = context_.colors.none;
-    if (!is_measure(context_.state.color) && !is_of_surface(context_.state.color) &&
-        !is_of_solution(context_.state.color))
+    if (!is_measure(context_.state.coloring.by) && !is_of_surface(context_.state.coloring.by) &&
+        !is_of_solution(context_.state.coloring.by))
         return;
-    built_.scene.scale.colors = value_colors(context_.state.color);
+    built_.scene.scale.colors = value_colors(context_.state.coloring.by);
     std::optional<ValueRange> range =
-        context_.state.color_range ? context_.state.color_range : natural_range(context_.state.color);
-    const bool is_volume = context_.state.color == ColorBy::volume;
+        context_.state.coloring.range ? context_.state.coloring.range : natural_range(context_.state.coloring.by);
+    const bool is_volume = context_.state.coloring.by == ColorBy::volume;
     const auto& histogram = context_.document.histograms[is_volume ? 5 : 7];
     // Few cells are far larger than the others: their colour is that of the upper end.
-    if (!range && is_measure(context_.state.color) && histogram)
+    if (!range && is_measure(context_.state.coloring.by) && histogram)
         range = ValueRange{histogram->min, std::min(histogram->max, (is_volume ? 4 : 2) * histogram->median)};
     if (!range) return;  // the range follows from the drawn values
     set_range(*range);
@@ -60,7 +60,7 @@ void ScaleMaker::for_drawn_values(Visit visit) const {
 
 // The value of a whole triangle is marked in its middle, that of a corner at the corner.
 void ScaleMaker::mark_extremes() {
-    if (!context_.state.extremes || !context_.shows_values()) return;
+    if (!context_.state.coloring.extremes || !context_.shows_values()) return;
     struct Found {
         double value;
         const Layer* layer = nullptr;
@@ -89,7 +89,7 @@ void ScaleMaker::mark_extremes() {
 
 // Stresses that have a sign are limited at both ends. The range is that of all values where most of them are the same.
 ValueRange ScaleMaker::range_of_most_values(const ValueRange& all) {
-    if (context_.state.percentile >= 100) return all;
+    if (context_.state.coloring.percentile >= 100) return all;
     std::vector<double> values;
     for_drawn_values([&](double value, const Layer&, std::size_t) { values.push_back(value); });
     const auto quantile = [&](double share) {
@@ -97,16 +97,17 @@ ValueRange ScaleMaker::range_of_most_values(const ValueRange& all) {
         std::nth_element(values.begin(), values.begin() + at, values.end());
         return values[static_cast<std::size_t>(at)];
     };
-    const double share = context_.state.percentile / 100;
-    const ValueRange most{context_.state.color == ColorBy::von_mises ? all.low : quantile(1 - share), quantile(share)};
+    const double share = context_.state.coloring.percentile / 100;
+    const ValueRange most{context_.state.coloring.by == ColorBy::von_mises ? all.low : quantile(1 - share),
+                          quantile(share)};
     if (!(most.low < most.high)) return all;
-    built_.legend.percentile = context_.state.percentile;
+    built_.legend.percentile = context_.state.coloring.percentile;
     return most;
 }
 
 // The distribution of values is not known yet for a run under way, and never for surfaces.
 void ScaleMaker::follow_layers() {
-    const bool is_solution = is_of_solution(context_.state.color);
+    const bool is_solution = is_of_solution(context_.state.coloring.by);
     if (!context_.shows_values()) return;
     ValueRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for_drawn_values([&](double value, const Layer&, std::size_t) {
@@ -122,8 +123,8 @@ void ScaleMaker::follow_layers() {
 
 // Sets the range of values that nobody has limited.
 void ScaleMaker::follow(ValueRange range) {
-    if (is_stress(context_.state.color) && range.low < range.high) range = range_of_most_values(range);
-    if (context_.state.color == ColorBy::deviation && range.high >= 0)
+    if (is_stress(context_.state.coloring.by) && range.low < range.high) range = range_of_most_values(range);
+    if (context_.state.coloring.by == ColorBy::deviation && range.high >= 0)
         range = {0, std::max(range.high, rounding_share * context_.document.box.diagonal().norm())};
     if (range.low == range.high) range = {0, range.high > 0 ? 2 * range.high : 1};  // the same everywhere
     if (range.low < range.high) set_range(range);

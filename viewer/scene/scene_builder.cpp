@@ -4,7 +4,7 @@
 // finished scene. Each maker of layers (SurfaceLayers, CutLayers, PartLayers with CellLayers, SolutionLayers) reads one
 // SceneContext and writes to one LayerSink. A scene is pending where something was not there yet and is still on its
 // way: a fetch that has failed does not make it wait for ever. In explosions each cut between a part and the root moves
-// its halves apart along its normal, by the edge of a cube with the volume of its node (times ViewState::explode), so
+// its halves apart along its normal, by the edge of a cube with the volume of its node (times Explosion::amount), so
 // that pieces of very different sizes part in proportion.
 #include "viewer/scene/scene_builder.h"
 
@@ -80,7 +80,8 @@ BuiltScene build_scene(SceneContext& context) {
     scale.begin();
     if (document.kind == Document::Kind::none || document.box.isEmpty()) return built;
 
-    if (context.step.stage == Stage::tetrahedra && state.neighbours && state.selection.kind == Selection::Kind::cell)
+    if (context.step.stage == Stage::tetrahedra && state.visibility.neighbours &&
+        state.selection.kind == Selection::Kind::cell)
         context.ring = sink.awaited(selected_cell(context.session, state.selection));
     add_layers(context, sink);
     scale.follow_layers();
@@ -89,7 +90,7 @@ BuiltScene build_scene(SceneContext& context) {
     scale.mark_extremes();
     lines.add_vectors();
     LegendMaker(context, scene, sink.drawn_parts(), built.legend).run();
-    if (state.context) sink.extend(document.box);
+    if (state.look.context) sink.extend(document.box);
     built.pending &= context.session.pending() || context.session.busy();  // a value whose fetch failed does not come
     return built;
 }

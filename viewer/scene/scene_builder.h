@@ -13,6 +13,19 @@
 
 namespace kerf::view {
 
+/// The meaning of the colours in a scene.
+struct Legend {
+    std::string title;                    ///< title of a colouring; empty: the things in the scene are explained
+    std::optional<ValueRange> values;     ///< range of the colours of values
+    std::optional<ValueRange> extremes;   ///< the least and the largest value of a solution that are drawn
+    std::vector<PlacedValue> marked;      ///< the least and the largest value, if Coloring::extremes asks for them
+    double percentile = 100;              ///< per cent of the drawn values that the colours span, where they span fewer
+    std::vector<Color> scale;             ///< colours from the low to the high end of the range
+    bool goes_below = false;              ///< values that are drawn lie below `values`
+    bool goes_above = false;              ///< values that are drawn lie above `values`
+    std::vector<LegendEntry> categories;  ///< colours of other things, also beside a scale
+};
+
 /// A scene with its legend and its boxes.
 struct BuiltScene {
     Scene scene;
@@ -37,7 +50,7 @@ class SceneBuilder {
 };
 
 /// Returns the offset of a part or half when the parts below `root` are pulled apart: a sum along the normals of the
-/// cuts above the part, up to that of `root`. `explode` is that of ViewState. Coordinates of the file.
+/// cuts above the part, up to that of `root`. `explode` is Explosion::amount. Coordinates of the file.
 Vec3 explosion_offset(const Tree& tree, NodeId part, NodeId root, double explode, double diagonal);
 
 }  // namespace kerf::view

@@ -31,13 +31,14 @@ bool shows_panel(const UiContext& context) {
     return context.state.panels.*Panel;
 }
 
-template <bool ViewState::*Flag>
+template <auto Group, auto Flag>
 void toggle_flag(UiContext& context, Dialogs& /*dialogs*/) {
-    context.state.*Flag = !(context.state.*Flag);
+    bool& flag = context.state.*Group.*Flag;
+    flag = !flag;
 }
-template <bool ViewState::*Flag>
+template <auto Group, auto Flag>
 bool has_flag(const UiContext& context) {
-    return context.state.*Flag;
+    return context.state.*Group.*Flag;
 }
 
 template <void (FileActions::*Action)()>
@@ -161,14 +162,14 @@ constexpr Command panel_switch(const char* name, bool ends_section = false) {
             .ends_section = ends_section};
 }
 
-template <bool ViewState::*Flag>
+template <auto Group, auto Flag>
 constexpr Command flag_switch(const char* name, const char* keys, const char* heading, const char* menu) {
     return {.name = name,
             .keys = keys,
             .heading = heading,
             .menu = menu,
-            .run = toggle_flag<Flag>,
-            .is_on = has_flag<Flag>};
+            .run = toggle_flag<Group, Flag>,
+            .is_on = has_flag<Group, Flag>};
 }
 
 template <Direction From>
@@ -203,8 +204,8 @@ const std::vector<Command> all_commands = {
      .keys = "",
      .heading = panel_heading,
      .menu = "View",
-     .run = toggle_flag<&ViewState::times>,
-     .is_on = has_flag<&ViewState::times>,
+     .run = toggle_flag<&ViewState::look, &Look::times>,
+     .is_on = has_flag<&ViewState::look, &Look::times>,
      .ends_section = true},
     {.name = "Dark theme",
      .keys = "",
@@ -256,8 +257,9 @@ const std::vector<Command> all_commands = {
 
     {.name = "Clip plane", .keys = "C", .heading = showing, .menu = "", .run = toggle_clip, .is_on = is_clipped},
     {.name = "Clip through the selection", .keys = "Shift+C", .heading = showing, .menu = "", .run = clip_through},
-    flag_switch<&ViewState::edges>("Edges", "E", showing, ""),
-    flag_switch<&ViewState::neighbours>("Only neighbours of a selected cell", "N", showing, ""),
+    flag_switch<&ViewState::look, &Look::edges>("Edges", "E", showing, ""),
+    flag_switch<&ViewState::visibility, &Visibility::neighbours>("Only neighbours of a selected cell", "N", showing,
+                                                                 ""),
     {.name = "Select nothing, close what is open", .keys = "Escape", .heading = showing, .menu = "", .run = leave},
 
     {.name = "Previous step", .keys = "Left", .heading = stepping, .menu = "", .run = step_by<-1>, .repeats = true},

@@ -72,7 +72,7 @@ void CutLayers::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     const NodeId node = context_.state.node;
     const Step& step = context_.step;
     Layer* layer = nullptr;
-    if (!context_.state.is_hidden(node))
+    if (!context_.state.visibility.is_hidden(node))
         layer = surfaces_.add(LayerKind::surface, surface, node, colors.surface, colors.interface);
     const Cut* cut = this->cut();
     const TreeRow* row = context_.document.tree.find(node);
@@ -96,7 +96,7 @@ void CutLayers::add_node(const std::shared_ptr<const NodeSurface>& surface) {
 
 // Axes reach twice the standard deviation of the vertices to both sides.
 void CutLayers::add_axes(const TreeRow& row) {
-    if (!context_.state.axes || row.regions > 1) return;
+    if (!context_.state.look.axes || row.regions > 1) return;
     if (!sink_.awaited(row.centroid) || row.vertices <= 0) return;
     const double half_trace = row.eigenvalues.sum() / 2;
     std::vector<std::array<Vec3, 2>> ends;
@@ -119,7 +119,7 @@ void CutLayers::add_axes(const TreeRow& row) {
 }
 
 void CutLayers::add_plane(const Plane& plane) {
-    if (!context_.state.plane) return;
+    if (!context_.state.look.plane) return;
     const auto surface = context_.session.fetched().surface(context_.state.node);
     const Eigen::AlignedBox3d box = surface ? box_of(surface->vertices) : context_.document.box;
     // Where the section lies in the plane, its own colour is to be seen.
@@ -138,7 +138,7 @@ void CutLayers::add_plane(const Plane& plane) {
 
 void CutLayers::add_try(const CutTry& attempt, const NodeSurface& surface) {
     add_plane(attempt.plane);
-    if (context_.state.contour && !attempt.contour.empty())
+    if (context_.state.look.contour && !attempt.contour.empty())
         sink_.add_lines(LayerKind::refused, ends_of(attempt.contour, surface), context_.colors.refused, contour_pixels);
     if (!attempt.places.empty())
         sink_.add_points(LayerKind::places, attempt.places, context_.colors.error, place_pixels);
@@ -147,7 +147,7 @@ void CutLayers::add_try(const CutTry& attempt, const NodeSurface& surface) {
 
 // Pairs of triangles of which one goes through the other.
 void CutLayers::add_collisions(const CutTry& attempt) {
-    if (attempt.collisions.empty() || !context_.state.interfaces) return;
+    if (attempt.collisions.empty() || !context_.state.look.interfaces) return;
     const auto add_side = [&](LayerKind kind, std::array<Vec3, 3> Collision::*side, const Color& color) {
         std::vector<Vec3> corners;
         std::vector<Triangle> sides;
@@ -179,7 +179,7 @@ void CutLayers::add_section(LayerKind kind, const std::vector<Vec3>& places, con
 // The stages from the crossed edges to the interface.
 void CutLayers::add_stage(const Cut& cut, const NodeSurface& surface) {
     const Stage stage = context_.step.stage;
-    const bool shows_contour = context_.state.contour, shows_section = context_.state.interfaces;
+    const bool shows_contour = context_.state.look.contour, shows_section = context_.state.look.interfaces;
     if (const std::vector<SurfaceEdge>* edges = edges_of(cut, stage)) {
         if (shows_contour)
             sink_.add_lines(layer_of(stage), ends_of(*edges, surface), color_of(stage, context_.colors),
@@ -202,7 +202,7 @@ void CutLayers::add_stage(const Cut& cut, const NodeSurface& surface) {
 void CutLayers::add_halves(const NodeSurface* parent) {
     const NodeId node = context_.state.node;
     const Cut* cut = this->cut();
-    Layer* contour = cut && parent && context_.state.contour ? &add_contour(*cut, *parent) : nullptr;
+    Layer* contour = cut && parent && context_.state.look.contour ? &add_contour(*cut, *parent) : nullptr;
     std::vector<Range> contours;
     for (const NodeId half : {2 * node, 2 * node + 1}) {
         if (!contour || !context_.is_shown(half)) continue;

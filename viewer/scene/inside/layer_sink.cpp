@@ -31,8 +31,8 @@ Layer& LayerSink::add(LayerKind kind, std::shared_ptr<const Geometry> geometry, 
     range.color = color;
     layer.ranges.push_back(range);
     layer.geometry = std::move(geometry);
-    layer.edges = context_.state.edges;
-    layer.smooth = context_.state.shading == Shading::smooth;
+    layer.edges = context_.state.look.edges;
+    layer.smooth = context_.state.look.shading == Shading::smooth;
     return layers().emplace_back(std::move(layer));
 }
 

@@ -22,12 +22,13 @@ Color LegendMaker::drawn_color_of(NodeId part) const {
 
 // The title of values; for a solution with its case and deformation.
 std::string LegendMaker::title_of_values() const {
-    std::string text = title(context_.state.color);
+    std::string text = title(context_.state.coloring.by);
     if (!context_.needs_solution()) return text;
     const auto& cases = context_.document.solution->cases;
-    const auto number = static_cast<std::size_t>(context_.state.load_case);
+    const auto number = static_cast<std::size_t>(context_.state.deformation.load_case);
     if (cases.size() > 1 && number < cases.size()) text += fmt::format(", case {}", cases[number].name);
-    if (context_.state.deform != 0) text += fmt::format(", deformed {:g} x", context_.state.deform);
+    if (context_.state.deformation.factor != 0)
+        text += fmt::format(", deformed {:g} x", context_.state.deformation.factor);
     return text;
 }
 
@@ -96,7 +97,8 @@ void LegendMaker::explain_patches() {
     for (std::int32_t i = 0; i < std::ssize(context_.document.patch_names); ++i) {
         if (!drawn.contains(i)) continue;
         const std::string& name = context_.document.patch_names[i];
-        explain(context_.state.numbers ? fmt::format("{}: {}", patch_number(i), name) : name, context_.patch_color(i));
+        explain(context_.state.look.numbers ? fmt::format("{}: {}", patch_number(i), name) : name,
+                context_.patch_color(i));
     }
     if (drawn.contains(-1))
         explain(context_.step.stage == Stage::tetrahedra ? "interface or inside" : "interface", context_.colors.none);
@@ -110,7 +112,7 @@ void LegendMaker::explain_regions() {
     for (const auto& [region, part] : part_of_region) {
         const std::string* name = region_of(context_.document, part);
         const std::string text = name ? *name : fmt::format("region {}", region + 1);
-        explain(context_.state.walls ? "walls of " + text : text, drawn_color_of(part));
+        explain(context_.state.visibility.walls ? "walls of " + text : text, drawn_color_of(part));
     }
 }
 
@@ -118,26 +120,26 @@ void LegendMaker::explain_parts() {
     std::set<std::int32_t> seen;
     for (const NodeId part : drawn_parts_) {
         const TreeRow& row = *context_.document.tree.find(part);
-        const std::int32_t value = context_.state.color == ColorBy::rank ? row.rank : level_of(part);
-        if (context_.state.color == ColorBy::part)
+        const std::int32_t value = context_.state.coloring.by == ColorBy::rank ? row.rank : level_of(part);
+        if (context_.state.coloring.by == ColorBy::part)
             explain(fmt::format("part {}", part), drawn_color_of(part));
         else if (value >= 0 && seen.insert(value).second)
-            explain(fmt::format("{} {}", name(context_.state.color), value), drawn_color_of(part));
+            explain(fmt::format("{} {}", name(context_.state.coloring.by), value), drawn_color_of(part));
     }
 }
 
 // Explains the colours of cells and facets where they stand for few things.
 void LegendMaker::explain_coloring() {
-    if (context_.state.color == ColorBy::patch) return explain_patches();
+    if (context_.state.coloring.by == ColorBy::patch) return explain_patches();
     if (!context_.shows_parts() || context_.shows_values()) return;
-    if (is_kind(context_.state.color) && context_.step.stage == Stage::parts) return;  // cells have it
-    if (context_.state.color == ColorBy::kind) {
+    if (is_kind(context_.state.coloring.by) && context_.step.stage == Stage::parts) return;  // cells have it
+    if (context_.state.coloring.by == ColorBy::kind) {
         const std::set<int> drawn = drawn_categories();
         if (drawn.contains(0)) explain("inner cells", category_color(0));
         if (drawn.contains(1)) explain("cells at an interface", category_color(1));
-    } else if (context_.state.color == ColorBy::origin) {
+    } else if (context_.state.coloring.by == ColorBy::origin) {
         explain_origins();
-    } else if (context_.state.color == ColorBy::region) {
+    } else if (context_.state.coloring.by == ColorBy::region) {
         explain_regions();
     } else {
         explain_parts();
@@ -154,8 +156,8 @@ void LegendMaker::explain_axes() {
 // Explains interfaces in the surfaces of nodes, made by earlier cuts or by this one.
 void LegendMaker::explain_interfaces() {
     const bool is_split = context_.step.stage == Stage::split;
-    if (is_split && context_.state.node == 1 && context_.state.explode == 0 && !context_.side &&
-        context_.state.hidden.empty())
+    if (is_split && context_.state.node == 1 && context_.state.explosion.amount == 0 && !context_.side &&
+        context_.state.visibility.hidden.empty())
         return;  // inside
     if (scene_.find(LayerKind::triangulation) || scene_.find(LayerKind::interface)) return;
     for (const Layer& layer : scene_.layers)
@@ -165,7 +167,7 @@ void LegendMaker::explain_interfaces() {
 }
 
 void LegendMaker::run() {
-    if (context_.shows_parts() || context_.state.color == ColorBy::patch || legend_.values)
+    if (context_.shows_parts() || context_.state.coloring.by == ColorBy::patch || legend_.values)
         legend_.title = title_of_values();
     explain_coloring();
     for (const NodeId half : {2 * context_.state.node, 2 * context_.state.node + 1})

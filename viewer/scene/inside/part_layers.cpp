@@ -28,7 +28,7 @@ void PartLayers::add(const std::shared_ptr<const NodeSurface>& surface) {
     cells_.add_selected(surface.get());
     mark_inside(parts.size());
     if (!context_.ring && !context_.has_filter()) return;
-    if (context_.state.explode > 0) {
+    if (context_.state.explosion.amount > 0) {
         for (const NodeId part : parts)
             if (const auto own = context_.is_shown(part) ? context_.session.fetched().part_surface(part) : nullptr)
                 add_outline(part, own, context_.offset_of(part));
@@ -45,7 +45,7 @@ void PartLayers::mark_inside(std::size_t part_count) {
     const bool is_whole = layers.size() == part_count && std::all_of(layers.begin(), layers.end(), [](const Layer& l) {
                               return l.kind == LayerKind::part && l.closed && l.opacity == 1;
                           });
-    if (!is_whole || state.node != 1 || state.explode > 0 || context_.side) return;
+    if (!is_whole || state.node != 1 || state.explosion.amount > 0 || context_.side) return;
     for (Layer& layer : layers) {
         const auto surface = context_.session.fetched().part_surface(layer.owner);
         if (!surface) continue;
@@ -67,7 +67,7 @@ void PartLayers::add_part(NodeId part) {
     const std::vector<Vec3>& places = solved.places(surface->vertices);
     if (context_.ring && !touches(*surface, *context_.ring) && part != state.selection.owner) return;
     const PartFacets chosen = context_.ring ? PartFacets() : chosen_facets(context_, part, *surface);
-    bool by_cells = state.shrink > 0 || context_.has_filter() || context_.ring;
+    bool by_cells = state.explosion.shrink > 0 || context_.has_filter() || context_.ring;
     if (const auto& side = context_.side) {
         const Eigen::AlignedBox3d box = box_of(places);
         const double middle = side->distance(box.center());
@@ -83,12 +83,12 @@ void PartLayers::add_part(NodeId part) {
 
 void PartLayers::add_facets(NodeId part, const std::shared_ptr<const NodeSurface>& surface, const PartFacets& chosen,
                             const SolvedNodes& solved) {
-    const ColorBy color = context_.state.color;
+    const ColorBy color = context_.state.coloring.by;
     const Vec3 offset = context_.offset_of(part);
     std::shared_ptr<const std::vector<float>> values;
     if (context_.needs_values()) values = sink_.awaited(context_.session.fetched().facet_values(part, color));
     FacetChoice choice;
-    choice.smooth = context_.state.shading == Shading::smooth;
+    choice.smooth = context_.state.look.shading == Shading::smooth;
     const FacetColors colors(context_, sink_, surface);
     colors.set_values(*surface, choice);
     if (values) choice.value = *values;
@@ -142,11 +142,11 @@ void PartLayers::add_outline(NodeId owner, const std::shared_ptr<const NodeSurfa
 // Extends the box by all places that a motion reaches, so that pictures of all phases have one scale.
 void PartLayers::extend_by_motion(const NodeSurface& surface, const PartSolution* solution, const Vec3& offset) {
     const ViewState& state = context_.state;
-    if (!solution || state.motion == Motion::still || state.deform == 0) return;
-    for (const double share : {1.0, 0.0, state.motion == Motion::swing ? -1.0 : 0.0}) {
+    if (!solution || state.deformation.motion == Motion::still || state.deformation.factor == 0) return;
+    for (const double share : {1.0, 0.0, state.deformation.motion == Motion::swing ? -1.0 : 0.0}) {
         Eigen::AlignedBox3d box;
         for (std::size_t v = 0; v < surface.vertices.size(); ++v)
-            box.extend(surface.vertices[v] + share * state.deform * solution->displacement[v]);
+            box.extend(surface.vertices[v] + share * state.deformation.factor * solution->displacement[v]);
         sink_.extend(box, offset);
     }
 }

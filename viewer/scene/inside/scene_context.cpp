@@ -23,7 +23,7 @@ SceneContext::SceneContext(const ViewState& shown, Session& source, GeometryCach
     step = steps[nearest_step(steps, state.step)];
     for (const NodeId part : document.tree.parts_below(1)) part_order_.emplace(part, part_order_.size());
     if (state.clip.on && !document.box.isEmpty()) side = shown_side(state.clip, document.box);
-    if (state.explode > 0) moves_of_regions_ = moves_apart(document.region_places);
+    if (state.explosion.amount > 0) moves_of_regions_ = moves_apart(document.region_places);
     if (has_patch_colors())
         set_patch_palette();
     else
@@ -41,17 +41,18 @@ void SceneContext::set_patch_palette() {
 }
 
 bool SceneContext::has_patch_colors() const {
-    return state.color == ColorBy::patch && !document.patch_colours.empty() &&
+    return state.coloring.by == ColorBy::patch && !document.patch_colours.empty() &&
            document.patch_colours.size() == document.patch_names.size();
 }
 
 bool SceneContext::shows_values() const {
-    const bool is_of_cells = is_measure(state.color) || (is_of_solution(state.color) && document.solution);
-    return is_of_surface(state.color) || (is_of_cells && step.stage == Stage::tetrahedra);
+    const bool is_of_cells = is_measure(state.coloring.by) || (is_of_solution(state.coloring.by) && document.solution);
+    return is_of_surface(state.coloring.by) || (is_of_cells && step.stage == Stage::tetrahedra);
 }
 
 bool SceneContext::needs_solution() const {
-    return document.solution && (is_of_solution(state.color) || state.deform != 0 || state.vectors);
+    return document.solution &&
+           (is_of_solution(state.coloring.by) || state.deformation.factor != 0 || state.deformation.vectors);
 }
 
 // Regions move as wholes; their parts from there, unless only regions are wanted to move.
@@ -61,17 +62,17 @@ Vec3 SceneContext::offset_of(NodeId part) const {
         return row ? row->region : -1;
     };
     const Vec3 of_cuts =
-        explosion_offset(document.tree, part, state.node, state.explode, document.box.diagonal().norm());
+        explosion_offset(document.tree, part, state.node, state.explosion.amount, document.box.diagonal().norm());
     const std::int32_t region = region_number(part);
     const bool has_several = region_number(state.node) < 0;
     if (region < 0 || !has_several || region >= std::ssize(moves_of_regions_)) return of_cuts;
-    const Vec3 of_region = state.explode * moves_of_regions_[static_cast<std::size_t>(region)];
-    return state.explode_regions ? of_region : Vec3(of_region + of_cuts);
+    const Vec3 of_region = state.explosion.amount * moves_of_regions_[static_cast<std::size_t>(region)];
+    return state.explosion.regions ? of_region : Vec3(of_region + of_cuts);
 }
 
 Color SceneContext::color_of(NodeId part) const {
     const TreeRow* row = document.tree.find(part);
-    switch (state.color) {
+    switch (state.coloring.by) {
         case ColorBy::rank:
             return row && row->rank >= 0 ? category_color(static_cast<std::size_t>(row->rank)) : colors.none;
         case ColorBy::region:
@@ -96,7 +97,7 @@ Color SceneContext::patch_color(std::size_t patch) const {
 
 std::vector<float> SceneContext::patch_values(const NodeSurface& surface) const {
     std::vector<float> values;
-    if (state.color != ColorBy::patch) return values;
+    if (state.coloring.by != ColorBy::patch) return values;
     for (const std::int32_t patch : surface.patch) {
         const auto i = static_cast<std::size_t>(patch);
         if (patch < 0)
@@ -119,17 +120,18 @@ std::string SceneContext::clip_key(double shrink) const {
         key += fmt::format(" {} {} {} {} {}", name(state.clip.style), side->normal.x(), side->normal.y(),
                            side->normal.z(), side->offset);
     if (ring) key += fmt::format(" around {}", fmt::join(*ring, " "));
-    if (has_filter()) key += fmt::format(" filter {} {}", state.filter->low, state.filter->high);
+    if (has_filter()) key += fmt::format(" filter {} {}", state.coloring.filter->low, state.coloring.filter->high);
     return key;
 }
 
 std::string SceneContext::solution_key() const {
-    return needs_solution() ? fmt::format(" case {} deform {}", state.load_case, state.drawn_deformation()) : "";
+    return needs_solution() ? fmt::format(" case {} deform {}", state.deformation.load_case, state.deformation.drawn())
+                            : "";
 }
 
 std::string SceneContext::value_key() const {
-    const bool is_plain = !needs_values() && !is_of_solution(state.color) && state.color != ColorBy::patch;
-    return (is_plain ? "plain" : name(state.color)) + solution_key();
+    const bool is_plain = !needs_values() && !is_of_solution(state.coloring.by) && state.coloring.by != ColorBy::patch;
+    return (is_plain ? "plain" : name(state.coloring.by)) + solution_key();
 }
 
 }  // namespace kerf::view

@@ -30,10 +30,10 @@ class SceneContext {
     bool shows_parts() const { return view::shows_parts(step.stage); }
     /// Returns whether colours follow from numbers, for which there is a scale.
     bool shows_values() const;
-    bool has_filter() const { return state.filter && is_measure(state.color) && !ring; }
-    bool needs_values() const { return is_measure(state.color) || is_kind(state.color); }
+    bool has_filter() const { return state.coloring.filter && is_measure(state.coloring.by) && !ring; }
+    bool needs_values() const { return is_measure(state.coloring.by) || is_kind(state.coloring.by); }
     bool needs_solution() const;
-    bool shows_patches() const { return state.color == ColorBy::patch; }
+    bool shows_patches() const { return state.coloring.by == ColorBy::patch; }
     /// Returns the offset of a part or half of the shown node, in coordinates of the file.
     Vec3 offset_of(NodeId part) const;
     Color color_of(NodeId part) const;
@@ -46,7 +46,7 @@ class SceneContext {
     std::string clip_key(double shrink) const;
     std::string solution_key() const;
     std::string value_key() const;
-    const char* shading_key() const { return state.shading == Shading::smooth ? "smooth" : "flat"; }
+    const char* shading_key() const { return state.look.shading == Shading::smooth ? "smooth" : "flat"; }
 
     const ViewState& state;
     Session& session;

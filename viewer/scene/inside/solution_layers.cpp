@@ -14,43 +14,45 @@ SolvedNodes::SolvedNodes(const SceneContext& context, LayerSink& sink, NodeId pa
                          const EdgePoints& edges) {
     const ViewState& state = context.state;
     if (!context.needs_solution()) return;
-    found = sink.awaited(context.session.fetched().solution(part, static_cast<std::size_t>(state.load_case)));
+    found =
+        sink.awaited(context.session.fetched().solution(part, static_cast<std::size_t>(state.deformation.load_case)));
     if (!found) return;
-    const double factor = state.drawn_deformation();
-    for (std::size_t v = 0; state.deform != 0 && v < vertices.size(); ++v)
+    const double factor = state.deformation.drawn();
+    for (std::size_t v = 0; state.deformation.factor != 0 && v < vertices.size(); ++v)
         moved.emplace_back(vertices[v] + factor * found->displacement[v]);
-    for (std::size_t v = 0; is_at_vertices(state.color) && v < vertices.size(); ++v)
-        at_vertices.push_back(found->value_at(state.color, v));
+    for (std::size_t v = 0; is_at_vertices(state.coloring.by) && v < vertices.size(); ++v)
+        at_vertices.push_back(found->value_at(state.coloring.by, v));
     add_edges(state, edges);
 }
 
 // Nodes on edges of a solution of first order have the means of the ends of the edges.
 void SolvedNodes::add_edges(const ViewState& state, const EdgePoints& edges) {
-    const double factor = state.drawn_deformation();
+    const double factor = state.deformation.drawn();
     for (std::size_t e = 0; e < edges.places.size(); ++e) {
         const auto n = static_cast<std::size_t>(edges.node[e]);
         const auto a = static_cast<std::size_t>(edges.ends[e][0]), b = static_cast<std::size_t>(edges.ends[e][1]);
         const bool is_known = n < found->displacement.size();
-        if (state.deform != 0) {
+        if (state.deformation.factor != 0) {
             const Vec3 displacement =
                 is_known ? found->displacement[n] : Vec3((found->displacement[a] + found->displacement[b]) / 2);
             moved_edges.push_back(edges.places[e] + factor * displacement);
         }
-        if (is_at_vertices(state.color))
-            at_edges.push_back(is_known ? found->value_at(state.color, n)
-                                        : (found->value_at(state.color, a) + found->value_at(state.color, b)) / 2);
+        if (is_at_vertices(state.coloring.by))
+            at_edges.push_back(
+                is_known ? found->value_at(state.coloring.by, n)
+                         : (found->value_at(state.coloring.by, a) + found->value_at(state.coloring.by, b)) / 2);
     }
 }
 
 // Interfaces of a part, which come last, are seen only where parts are apart.
 std::size_t SolutionLayers::triangles_seen(const Layer& layer) const {
     const auto surface = context_.session.fetched().part_surface(layer.owner);
-    if (!layer.closed || !surface || context_.state.explode > 0) return layer.geometry->triangle_count();
+    if (!layer.closed || !surface || context_.state.explosion.amount > 0) return layer.geometry->triangle_count();
     return input_triangles(*layer.geometry, *surface);
 }
 
 void SolutionLayers::add_isolines(const ValueRange& range) {
-    if (!context_.state.isolines || !is_at_vertices(context_.state.color)) return;
+    if (!context_.state.coloring.isolines || !is_at_vertices(context_.state.coloring.by)) return;
     const auto [low, high] = range;
     std::vector<float> levels;
     for (int i = 1; i < 10; ++i) levels.push_back(static_cast<float>(low + i * (high - low) / 10));
@@ -64,7 +66,7 @@ void SolutionLayers::add_isolines(const ValueRange& range) {
         line.lies_on = static_cast<int>(i);
         line.geometry = context_.cache.get(
             fmt::format("isolines of {} {} {} {} {}{}", static_cast<int>(layer.kind), layer.owner, low, high,
-                        context_.state.explode > 0, context_.solution_key()),
+                        context_.state.explosion.amount > 0, context_.solution_key()),
             layer.geometry, [&] { return isolines(*layer.geometry, triangles_seen(layer), levels); });
         if (line.geometry->segments.empty()) continue;
         Range all = layer.ranges.front();
@@ -80,8 +82,9 @@ void SolutionLayers::add_isolines(const ValueRange& range) {
 
 // Adds arrows at some vertices of the surface, about evenly spread; at interfaces only where parts are apart.
 void SolutionLayers::add_vectors() {
-    if (!context_.state.vectors || !context_.document.solution || context_.step.stage != Stage::tetrahedra) return;
-    const auto number = static_cast<std::size_t>(context_.state.load_case);
+    if (!context_.state.deformation.vectors || !context_.document.solution || context_.step.stage != Stage::tetrahedra)
+        return;
+    const auto number = static_cast<std::size_t>(context_.state.deformation.load_case);
     if (number >= context_.document.solution->cases.size()) return;
     std::vector<Arrow> arrows;
     std::shared_ptr<const void> source;
@@ -94,7 +97,7 @@ void SolutionLayers::add_vectors() {
         add_arrows(*surface, *solution, context_.offset_of(part), arrows);
     }
     if (!source) return;
-    const std::string key = fmt::format("vectors of {} {} {}{}", fmt::join(parts, " "), context_.state.explode,
+    const std::string key = fmt::format("vectors of {} {} {}{}", fmt::join(parts, " "), context_.state.explosion.amount,
                                         context_.clip_key(0), context_.solution_key());
     const auto geometry = context_.cache.get(key, source, [&] {
         const double diagonal = context_.document.box.diagonal().norm();
@@ -109,10 +112,10 @@ void SolutionLayers::add_vectors() {
 
 void SolutionLayers::add_arrows(const NodeSurface& surface, const PartSolution& solution, const Vec3& offset,
                                 std::vector<Arrow>& arrows) const {
-    const double factor = context_.state.drawn_deformation();
+    const double factor = context_.state.deformation.drawn();
     std::vector<char> is_outside(surface.vertices.size(), 0);
     for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f)
-        if (!surface.is_interface(f) || context_.state.explode > 0)
+        if (!surface.is_interface(f) || context_.state.explosion.amount > 0)
             for (const std::int32_t v : surface.facets[static_cast<std::size_t>(f)])
                 is_outside[static_cast<std::size_t>(v)] = 1;
     for (std::size_t v = 0; v < is_outside.size(); ++v) {

@@ -50,8 +50,8 @@ std::size_t divide_at_interfaces(const NodeSurface& surface, const ViewState& st
     interface.count -= input.count;
     interface.color = interface_color;
     layer.ranges.clear();
-    if (state.surface && input.count > 0) layer.ranges.push_back(input);
-    if (state.interfaces && interface.count > 0) layer.ranges.push_back(interface);
+    if (state.look.surface && input.count > 0) layer.ranges.push_back(input);
+    if (state.look.interfaces && interface.count > 0) layer.ranges.push_back(interface);
     std::size_t shown = 0;
     for (const Range& range : layer.ranges) shown += range.count;
     return shown;
@@ -71,7 +71,7 @@ std::string PartFacets::key() const {
 PartFacets chosen_facets(const SceneContext& context, NodeId part, const NodeSurface& surface) {
     PartFacets chosen;
     const Document& document = context.document;
-    const bool walls = context.state.walls;
+    const bool walls = context.state.visibility.walls;
     const std::string* region = context.shows_parts() ? region_of(document, part) : nullptr;
     chosen.all = !region || surface.neighbour.empty() || !(walls || is_glass(context.state, document, part));
     if (chosen.all) return chosen;
@@ -94,7 +94,7 @@ PartFacets chosen_facets(const SceneContext& context, NodeId part, const NodeSur
 FacetColors::FacetColors(const SceneContext& context, LayerSink& sink,
                          const std::shared_ptr<const NodeSurface>& surface)
     : patches(context.patch_values(*surface)),
-      values(context.session.fetched().values_on(surface, context.state.color)) {
+      values(context.session.fetched().values_on(surface, context.state.coloring.by)) {
     if (context.session.pending()) sink.awaited(values);
 }
 
@@ -119,8 +119,8 @@ Layer* SurfaceLayers::add(LayerKind kind, const std::shared_ptr<const NodeSurfac
                           const Color& color, const Color& interface_color, const Vec3& offset) {
     const ViewState& state = context_.state;
     FacetChoice choice;
-    choice.smooth = state.shading == Shading::smooth;
-    choice.shrink = state.shrink;
+    choice.smooth = state.look.shading == Shading::smooth;
+    choice.shrink = state.explosion.shrink;
     const bool by_facets = context_.side && state.clip.style != ClipStyle::smooth;
     const PartFacets chosen = chosen_facets(context_, owner, *surface);
     if (by_facets || !chosen.all)
@@ -130,10 +130,10 @@ Layer* SurfaceLayers::add(LayerKind kind, const std::shared_ptr<const NodeSurfac
         };
     const FacetColors colors(context_, sink_, surface);
     colors.set_values(*surface, choice);
-    const std::string key =
-        fmt::format("{} of {} {} {} {}{}", static_cast<int>(kind), owner, context_.shading_key(),
-                    by_facets ? context_.clip_key(state.shrink) : fmt::format("shrink {}", state.shrink),
-                    colors.any() ? name(state.color) : "plain", chosen.key());
+    const std::string key = fmt::format(
+        "{} of {} {} {} {}{}", static_cast<int>(kind), owner, context_.shading_key(),
+        by_facets ? context_.clip_key(state.explosion.shrink) : fmt::format("shrink {}", state.explosion.shrink),
+        colors.any() ? name(state.coloring.by) : "plain", chosen.key());
     const auto source = colors.values ? std::shared_ptr<const void>(colors.values) : surface;
     auto geometry = context_.cache.get(key, source, [&] { return facet_triangles(*surface, context_.frame, choice); });
     sink_.extend_by_facets(surface->vertices, surface->facets, offset);
@@ -142,14 +142,15 @@ Layer* SurfaceLayers::add(LayerKind kind, const std::shared_ptr<const NodeSurfac
     layer.clipped = !by_facets;
     colors.finish(context_, *surface, layer);
     const std::size_t shown = divide_at_interfaces(*surface, state, interface_color, layer);
-    layer.closed = chosen.all && shown == surface->facets.size() && state.shrink == 0 && is_outward(context_.document);
+    layer.closed =
+        chosen.all && shown == surface->facets.size() && state.explosion.shrink == 0 && is_outward(context_.document);
     layer.two_sided = !chosen.all;
     if (context_.shows_parts() && is_glass(state, context_.document, owner)) make_glass(layer);
     return &layer;
 }
 
 void SurfaceLayers::add_features(const std::shared_ptr<const NodeSurface>& surface, NodeId owner, const Vec3& offset) {
-    if (!context_.state.features) return;
+    if (!context_.state.look.features) return;
     const auto lines = context_.feature_lines(surface, owner);
     if (lines->segments.empty()) return;
     sink_.add(LayerKind::features, lines, context_.colors.feature, owner, offset).pixels = feature_pixels;
@@ -157,7 +158,7 @@ void SurfaceLayers::add_features(const std::shared_ptr<const NodeSurface>& surfa
 
 void SurfaceLayers::add_of_file(NodeId which) {
     const auto surface = sink_.awaited(context_.session.fetched().surface(which));
-    if (!surface || context_.state.is_hidden(1)) return;
+    if (!surface || context_.state.visibility.is_hidden(1)) return;
     const SceneColors& colors = context_.colors;
     Layer* layer = add(LayerKind::file_surface, surface, which, colors.surface, colors.interface);
     if (!layer) return;
@@ -178,7 +179,7 @@ void SurfaceLayers::add_parts() {
 // The facets of the input that the node does not have: those of the other half at each cut above it. Numbers would not
 // tell, since a facet that a straight cut has split has pieces on both sides.
 void SurfaceLayers::add_context() {
-    if (!context_.state.context) return;
+    if (!context_.state.look.context) return;
     for (NodeId node = context_.state.node; node > 1; node /= 2) {
         const NodeId other = node ^ 1;
         const auto surface = sink_.awaited(context_.session.fetched().surface(other));
