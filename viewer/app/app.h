@@ -11,7 +11,6 @@
 
 #include "viewer/app/desk.h"
 #include "viewer/app/gallery.h"
-#include "viewer/app/imgui_owner.h"
 #include "viewer/app/labels.h"
 #include "viewer/app/navigation.h"
 #include "viewer/app/opening.h"
@@ -19,6 +18,15 @@
 #include "viewer/app/scene_input.h"
 
 namespace kerf::view {
+
+/// Owns Dear ImGui's global context. Keys are numbered as in app/keys.h; ImGui saves no file.
+class ImGuiOwner {
+ public:
+    ImGuiOwner();
+    ~ImGuiOwner();
+    ImGuiOwner(const ImGuiOwner&) = delete;
+    ImGuiOwner& operator=(const ImGuiOwner&) = delete;
+};
 
 class App {
  public:

@@ -18,21 +18,21 @@ constexpr float title_share = 0.76f;  // share of a row that its title leaves
 
 // Checkboxes in two columns.
 void draw_switches(UiContext& context) {
-    ViewState& s = context.state;
+    Look& look = context.state.look;
     struct Switch {
         const char* label;
         bool* value;
         const char* tip;
     };
-    const Switch switches[] = {{"Surface", &s.surface, "Facets of the input"},
-                               {"Interfaces", &s.interfaces, "Facets that cuts have made"},
-                               {"Edges", &s.edges, "Edges of triangles (E)"},
-                               {"Context", &s.context, "The rest of the body, translucent"},
-                               {"Plane", &s.plane, "The cutting plane of the node"},
-                               {"Contour", &s.contour, "The contour of the cut"},
-                               {"Axes", &s.axes, "Principal axes and centre of gravity of the node"},
-                               {"Features", &s.features, "Sharp edges and borders of patches"},
-                               {"Legend", &s.legend, "What the colours mean"}};
+    const Switch switches[] = {{"Surface", &look.surface, "Facets of the input"},
+                               {"Interfaces", &look.interfaces, "Facets that cuts have made"},
+                               {"Edges", &look.edges, "Edges of triangles (E)"},
+                               {"Context", &look.context, "The rest of the body, translucent"},
+                               {"Plane", &look.plane, "The cutting plane of the node"},
+                               {"Contour", &look.contour, "The contour of the cut"},
+                               {"Axes", &look.axes, "Principal axes and centre of gravity of the node"},
+                               {"Features", &look.features, "Sharp edges and borders of patches"},
+                               {"Legend", &look.legend, "What the colours mean"}};
     const float half = ImGui::GetContentRegionAvail().x / 2;
     int i = 0;
     for (const Switch& one : switches) {

@@ -8,6 +8,7 @@
 // that pieces of very different sizes part in proportion.
 #include "viewer/scene/scene_builder.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "viewer/scene/inside/cut_layers.h"
@@ -18,6 +19,14 @@
 namespace kerf::view {
 
 namespace {
+
+constexpr std::size_t most_cached_bytes = std::size_t{1} << 30;
+
+std::size_t bytes_in(const Geometry& geometry) {
+    return geometry.corners.size() * sizeof(Corner) + geometry.segments.size() * sizeof(Segment) +
+           geometry.points.size() * sizeof(geometry.points[0]) + geometry.element.size() * sizeof(std::int32_t) +
+           geometry.rest.size() * sizeof(geometry.rest[0]) + geometry.origins.size() * sizeof(geometry.origins[0]);
+}
 
 void add_selection(const SceneContext& context, LayerSink& sink) {
     const Selection& s = context.state.selection;
@@ -96,6 +105,22 @@ BuiltScene build_scene(SceneContext& context) {
 }
 
 }  // namespace
+
+void GeometryCache::age() {
+    std::size_t bytes = 0;
+    std::vector<std::pair<std::int64_t, std::string>> oldest;
+    for (const auto& [key, entry] : entries_) {
+        bytes += bytes_in(*entry.geometry);
+        oldest.emplace_back(entry.last_use, key);
+    }
+    if (bytes > most_cached_bytes) std::sort(oldest.begin(), oldest.end());
+    for (const auto& [last_use, key] : oldest) {
+        if (bytes <= most_cached_bytes || last_use == now_) break;
+        bytes -= bytes_in(*entries_.at(key).geometry);
+        entries_.erase(key);
+    }
+    ++now_;
+}
 
 Vec3 explosion_offset(const Tree& tree, NodeId part, NodeId root, double explode, double diagonal) {
     Vec3 offset = Vec3::Zero();

@@ -1,6 +1,9 @@
 // Builds the scene that is drawn from the open document and the state of the view.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,7 +11,6 @@
 
 #include "viewer/model/session.h"
 #include "viewer/model/view_state.h"
-#include "viewer/scene/inside/geometry_cache.h"
 #include "viewer/scene/layer.h"
 
 namespace kerf::view {
@@ -34,6 +36,38 @@ struct BuiltScene {
     Eigen::AlignedBox3d box;   ///< box of all that is drawn, moved parts included; coordinates of the file
     Eigen::AlignedBox3d left;  ///< box of the rest that the clip plane leaves of the body; empty without one
     bool pending = false;      ///< something is still being fetched: build again when it has arrived
+};
+
+/// Remembers geometry by a key that tells how it was made and the value that it was made from.
+class GeometryCache {
+ public:
+    /// Returns the geometry that make() has made for this key and source, or makes it now. It is made anew if the
+    /// source is another object than before.
+    template <class Make>
+    std::shared_ptr<const Geometry> get(const std::string& key, std::shared_ptr<const void> source, Make make) {
+        Entry& entry = entries_[key];
+        if (!entry.geometry || entry.source != source) {
+            entry.geometry = make();
+            entry.source = std::move(source);
+            ++made_;
+        }
+        entry.last_use = now_;
+        return entry.geometry;
+    }
+
+    /// Forgets the geometries that were not used for longest when there is much; called once per scene.
+    void age();
+    /// Returns the number of geometries that had to be made so far.
+    std::int64_t made() const { return made_; }
+
+ private:
+    struct Entry {
+        std::shared_ptr<const void> source;
+        std::shared_ptr<const Geometry> geometry;
+        std::int64_t last_use = 0;
+    };
+    std::map<std::string, Entry> entries_;
+    std::int64_t now_ = 0, made_ = 0;
 };
 
 /// Makes the layers, of kinds (LayerKind) that suit step and view.

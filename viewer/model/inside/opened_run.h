@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "viewer/model/file_kind.h"
-#include "viewer/model/inside/partial_run.h"
 #include "viewer/model/inside/run_report.h"
 #include "viewer/model/inside/shown.h"
 
@@ -20,6 +20,22 @@ struct OpenedRun {
     std::vector<std::string> patch_names;
     Eigen::AlignedBox3d box;
     std::vector<RegionPlace> region_places;
+};
+
+/// The state of the folder DIR.kerf-partial.
+struct PartialRun {
+    bool exists = false;
+    bool is_alive = false;   ///< its process lives, or runs on another host, where nobody can tell
+    std::set<NodeId> parts;  ///< parts that are cut out: their surfaces are there
+    std::set<NodeId> taken;  ///< parts that are, or were, meshed in this run
+    std::set<NodeId> finished;
+    std::set<NodeId> failed;
+    std::vector<TreeRow> outcomes;  ///< tets and seconds of finished parts that were not known before
+
+    bool is_at_the_same(const PartialRun& o) const {
+        return exists == o.exists && is_alive == o.is_alive && parts == o.parts && taken == o.taken &&
+               finished == o.finished && failed == o.failed;
+    }
 };
 
 /// A run that is under way, or was interrupted.
@@ -36,6 +52,13 @@ struct OpenedPartialRun {
 OpenedRun read_run(const std::string& path);
 /// Reads a run that is under way, or was interrupted. Throws Error(io).
 OpenedPartialRun read_partial_run(const OpenedPath& path);
+
+/// Reads the state of a folder DIR.kerf-partial. `known` are finished parts whose outcome need not be read. Files that
+/// cannot be read are passed over.
+PartialRun look_at_partial_run(const std::string& partial, const std::set<NodeId>& known);
+
+/// Returns the parts that workers have taken.
+std::set<NodeId> parts_taken(const std::string& partial);
 
 /// Returns the options of the trace, which lies at `path`. Options that this version does not know are left out, so
 /// that the trace of another version is shown, too.
