@@ -10,12 +10,14 @@
 #include "fill/mesh/adjacency.h"
 #include "fill/mesh/quality.h"
 #include "support/assets.h"
+#include "support/places.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 #include "viewer/driver.h"
 #include "viewer/golden_image.h"
 #include "viewer/scene/inside/cell_shapes.h"
+#include "viewer/scene/selection.h"
 
 namespace kerf::test {
 namespace {
@@ -289,6 +291,76 @@ TEST(Layers, OfPartsThatAreTogetherDrawNoInside) {
     driver.state().explosion.amount = 0;
     driver.state().visibility.set_hidden(2, true);
     EXPECT_EQ(count_inside(), 0) << "one looks at the insides";
+}
+
+Driver::Options cut_straight() {
+    Driver::Options options;
+    options.parts = 3;
+    options.contour = ContourMethod::straight;
+    return options;
+}
+
+void expect_facets_of(const NodeSurface& surface, const Layer& layer, const Frame& frame) {
+    const Geometry& drawn = *layer.geometry;
+    for (std::size_t t = 0; t < drawn.triangle_count(); ++t) {
+        Vec3 middle = Vec3::Zero(), expected = Vec3::Zero();
+        const auto facet = static_cast<std::size_t>(drawn.element[t]);
+        ASSERT_LT(facet, surface.facets.size());
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto& [x, y, z] = drawn.corners[3 * t + k].position;
+            middle += Vec3(x, y, z) / 3;
+            expected += frame.to_draw(surface.vertices[static_cast<std::size_t>(surface.facets[facet][k])]) / 3;
+        }
+        ASSERT_LT((middle - expected).norm(), 1e-5) << "facet " << facet << " of " << surface.facets.size();
+    }
+}
+
+// Parts have other numbers in their files than in the trace, where interfaces are triangulated anew after the last cut:
+// a click would select another facet than the one that is seen.
+TEST(Layers, HaveTheNumbersThatSelectionsUse) {
+    Driver driver(cut_straight());
+    driver.show_panels(false);
+    driver.open(asset_path("cylinder"));
+    ASSERT_TRUE(driver.document().trace);
+    ViewState& state = driver.state();
+    std::map<LayerKind, int> found;
+    for (const TreeRow& row : driver.document().tree.rows)
+        for (const Stage stage : {Stage::input, Stage::split, Stage::tetrahedra}) {
+            SCOPED_TRACE(std::string(name(stage)) + " of node " + std::to_string(row.id));
+            state.node = row.id;
+            state.step = {stage, -1};
+            driver.settle();
+            for (const Layer& layer : driver.app().scene().scene.layers) {
+                const bool is_of_facets =
+                    layer.kind == LayerKind::surface || layer.kind == LayerKind::half || layer.kind == LayerKind::part;
+                if (!is_of_facets) continue;
+                const auto surface = surface_of(driver.app().session(), layer.owner);
+                ASSERT_TRUE(surface);
+                expect_facets_of(*surface, layer, driver.app().scene().frame);
+                ++found[layer.kind];
+            }
+        }
+    EXPECT_EQ(found[LayerKind::half], 4);
+    EXPECT_GT(found[LayerKind::surface], 0);
+    EXPECT_GT(found[LayerKind::part], 0);
+}
+
+// The surface that the trace has of a part does not stand in for that of its file.
+TEST(Selections, WaitForTheNumbersOfTheFile) {
+    Driver driver(cut_straight());
+    driver.open(asset_path("cylinder"));
+    const NodeId part = driver.document().tree.parts_below(1).front();
+    Session session(kerf_program());
+    session.open(driver.document().folder);
+    const auto await = [&](const auto& is_there) {
+        for (int i = 0; i < 6000 && !is_there(); ++i) session.wait(0.01);
+    };
+    await([&] { return session.document().trace && session.fetched().surface(part); });
+    ASSERT_TRUE(session.fetched().surface(part));
+    EXPECT_EQ(surface_of(session, part), nullptr);
+    await([&] { return session.fetched().part_surface(part) != nullptr; });
+    ASSERT_TRUE(session.fetched().part_surface(part));
+    EXPECT_EQ(surface_of(session, part), session.fetched().part_surface(part));
 }
 
 // Here multiple paths are removed, and each stage shows its own edges.

@@ -16,6 +16,7 @@
 #include "viewer/model/line_of_sight.h"
 #include "viewer/scene/inside/shapes.h"
 #include "viewer/scene/selection.h"
+#include "viewer/words_on_screen.h"
 
 namespace kerf::test {
 namespace {
@@ -390,6 +391,7 @@ TEST(SceneUi, ACellAndItsNeighbours) {
     driver.click("Neighbours");
     EXPECT_TRUE(state.visibility.neighbours);
     driver.settle();
+    EXPECT_EQ(std::ranges::count(words_on_screen(), "Only the selected cell and its neighbours"), 1);
     EXPECT_EQ(driver.drawn(LayerKind::part).triangles, 0);
     EXPECT_GT(driver.drawn(LayerKind::outline).segments, 0);
     std::set<std::int64_t> corners;

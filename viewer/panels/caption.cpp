@@ -1,8 +1,8 @@
 // The caption of a picture, in words for a reader who does not know Kerf: the piece shown and its step, its numbers,
-// and its omissions. Clip plane, filter, hidden or isolated nodes and regions, glass, and colours that span fewer
-// values add a line each, so that a saved picture says that it does not show all. A new way to hide something needs its
-// line in caption_of(). Lines are broken at the width of the scene before they are measured, as the ground behind them
-// is drawn first.
+// and its omissions. Clip plane, filter, neighbours of a cell, hidden or isolated nodes and regions, glass, and colours
+// that span fewer values add a line each, so that a saved picture says that it does not show all. A new way to hide
+// something needs its line in caption_of(). Lines are broken at the width of the scene before they are measured, as the
+// ground behind them is drawn first.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -137,6 +137,13 @@ std::vector<std::string> region_lines(const Document& document, const ViewState&
     return lines;
 }
 
+bool shows_neighbours(const UiContext& context) {
+    const ViewState& state = context.state;
+    const Step& step = context.steps[nearest_step(context.steps, state.step)];
+    return state.visibility.neighbours && state.selection.kind == Selection::Kind::cell &&
+           step.stage == Stage::tetrahedra;
+}
+
 // The lines of the caption, for a scene that has room for lines of this width.
 std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     const Document& document = context.session.document();
@@ -147,7 +154,7 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
         lines.push_back({broken(text, room), color});
     };
     if (has_tree(document)) {
-        const Step step = context.steps.empty() ? state.step : context.steps[nearest_step(context.steps, state.step)];
+        const Step& step = context.steps[nearest_step(context.steps, state.step)];
         add(heading(document, state, step), colors.text);
         if (step.refused_try >= 0) add(describe_step(document, state.node, step), colors.bad);
     } else {
@@ -171,6 +178,7 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
         add(fmt::format("Colours span {:g} % of the values drawn", context.facts.percentile), colors.dim);
     if (state.visibility.isolated)
         add("Only " + beginning_small(body_of(document, *state.visibility.isolated)), colors.dim);
+    if (shows_neighbours(context)) add("Only the selected cell and its neighbours", colors.dim);
     std::vector<std::string> hidden;
     for (const NodeId node : state.visibility.hidden) hidden.push_back(beginning_small(body_of(document, node)));
     if (!hidden.empty()) add(fmt::format("Without {}", fmt::join(hidden, ", ")), colors.dim);

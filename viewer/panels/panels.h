@@ -176,7 +176,7 @@ struct UiContext {
     Session& session;
     Settings& settings;
     const SceneFacts& facts;
-    const std::vector<Step>& steps;  ///< steps of the node shown
+    const std::vector<Step>& steps;  ///< steps of the node shown, at least its surface
     const Actions& actions;
     Widgets& widgets;
     const Camera& camera;                  ///< the camera in use, also where the state has none

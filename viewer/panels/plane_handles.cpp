@@ -117,9 +117,7 @@ void draw_clip_handles(UiContext& context, const Rectangle& scene, const ScreenP
 const Cut* movable_cut(const UiContext& context) {
     const Document& document = context.session.document();
     const ViewState& state = context.state;
-    if (!document.trace || document.progress.running || context.session.busy() || context.steps.empty() ||
-        !state.look.plane)
-        return nullptr;
+    if (!document.trace || document.progress.running || context.session.busy() || !state.look.plane) return nullptr;
     const Step& step = context.steps[nearest_step(context.steps, state.step)];
     if (step.refused_try >= 0 || step.stage < Stage::plane || step.stage >= Stage::split) return nullptr;
     const Cut* cut = document.trace->find(state.node);

@@ -49,7 +49,6 @@ std::string stage_text(const Progress& progress) {
     const std::string& stage = progress.stage;
     if (stage == "repair") return "Repairing";
     if (stage == "read") return "Reading";
-    if (stage == "repair") return "Repairing";
     if (stage == "remesh") return "Remeshing";
     if (stage == "decompose") return "Cutting";
     if (stage == "prepare") return "Preparing parts";
@@ -91,7 +90,7 @@ void draw_progress(UiContext& context) {
     draw_bar(progress.load_done, colors);
     if (!progress.ours) return;
     ImGui::SameLine(0, spacing);
-    if (context.widgets.small_button("Cancel", "Ends the run within two seconds")) context.session.cancel_run();
+    if (context.widgets.small_button("Cancel", "Ends the run within five seconds")) context.session.cancel_run();
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ class TimelineBar {
           dialogs_(dialogs),
           steps_(context.steps),
           colors_(palette(context.state.theme)),
-          current_(steps_.empty() ? 0 : nearest_step(steps_, context.state.step)) {}
+          current_(nearest_step(steps_, context.state.step)) {}
 
     void draw() {
         if (dialogs_.tour.node != 0) {
@@ -57,12 +57,11 @@ class TimelineBar {
     }
 
     void draw_controls() {
-        const bool playing = context_.facts.playing, any = !steps_.empty();
-        if (control("previous step", Icon::left, "Previous step (left arrow)", any && current_ > 0))
-            show_step(current_ - 1);
+        const bool playing = context_.facts.playing;
+        if (control("previous step", Icon::left, "Previous step (left arrow)", current_ > 0)) show_step(current_ - 1);
         if (control("play", playing ? Icon::pause : Icon::play, playing ? "Pause (space)" : "Play all steps (space)"))
             context_.actions.play.toggle_play();
-        if (control("next step", Icon::right, "Next step (right arrow)", any && current_ + 1 < steps_.size()))
+        if (control("next step", Icon::right, "Next step (right arrow)", current_ + 1 < steps_.size()))
             show_step(current_ + 1);
         const Tree& tree = context_.session.document().tree;
         const NodeId node = context_.state.node, before = next_node(tree, node, -1), after = next_node(tree, node, 1);
@@ -76,7 +75,6 @@ class TimelineBar {
     // Draws the title of the step beside the buttons, and buttons for places of a refused try and for missing stages.
     void draw_heading() {
         ImGui::AlignTextToFramePadding();
-        if (steps_.empty()) return show("This node has not been cut.", colors_.dim);
         show(fmt::format("Node {}: {}", context_.state.node, title(steps_[current_])), colors_.text);
         draw_places();
         if (!has_no_stages(context_.session.document(), context_.state.node)) return;
@@ -117,7 +115,6 @@ class TimelineBar {
     }
 
     void draw_text() {
-        if (steps_.empty()) return;
         const Step& step = steps_[current_];
         show_wrapped(describe_step(context_.session.document(), context_.state.node, step),
                      step.refused_try >= 0 ? colors_.bad : colors_.dim);

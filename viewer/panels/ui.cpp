@@ -204,7 +204,7 @@ void Ui::press(UiContext& context, const std::string& key, bool repeat) {
 void go_to_node(UiContext& context, NodeId node) {
     const std::vector<Step> steps = steps_of(context.session.document(), node);
     context.state.node = node;
-    if (!steps.empty()) context.state.step = steps[nearest_step(steps, context.state.step)];
+    context.state.step = steps[nearest_step(steps, context.state.step)];
 }
 
 void reveal(UiContext& context, NodeId node) {

@@ -169,10 +169,8 @@ std::string describe_solution(Session& session, NodeId part, int load_case, std:
 }  // namespace
 
 std::shared_ptr<const NodeSurface> surface_of(Session& session, NodeId owner) {
-    const bool is_part = is_leaf(session.document(), owner) && !session.document().folder.empty();
-    if (is_part)
-        if (auto surface = session.fetched().part_surface(owner)) return surface;
-    return session.fetched().surface(owner);
+    Fetched& fetched = session.fetched();
+    return fetched.has_part_surface(owner) ? fetched.part_surface(owner) : fetched.surface(owner);
 }
 
 std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode) {

@@ -19,8 +19,8 @@ struct Hit {
     Vec3 point = Vec3::Zero();
 };
 
-/// Returns the surface whose numbers a selection of `owner` uses: for a part of a run folder that of its file, else
-/// that of the node, which also stands in while the file's is being fetched. nullptr while neither is there.
+/// Returns the surface whose numbers a selection of `owner` uses, and of which `owner` is drawn: for a part of a run
+/// folder that of its file, else that of the node, which has other numbers. nullptr while it is being fetched.
 std::shared_ptr<const NodeSurface> surface_of(Session& session, NodeId owner);
 
 /// Returns the facet, cell or vertex that a hit selects; none while the cells or surface for it are being fetched.

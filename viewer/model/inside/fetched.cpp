@@ -158,6 +158,10 @@ std::shared_ptr<const NodeSurface> Fetched::surface(NodeId node) {
     return fetch<NodeSurface>(key, [soup = document.soup] { return node_surface_of(*soup); });
 }
 
+bool Fetched::has_part_surface(NodeId node) const {
+    return shown_.folder_parts.contains(node) && !failed_.contains({Store::Kind::part_surface, node});
+}
+
 std::shared_ptr<const NodeSurface> Fetched::part_surface(NodeId part) {
     const Store::Key key{Store::Kind::part_surface, part};
     if (!shown_.folder_parts.contains(part)) return nullptr;

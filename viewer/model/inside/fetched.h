@@ -22,6 +22,8 @@ class Fetched {
     /// run folder. For not_remeshed it is the surface as the file has it, repaired, where Document::remeshed; for
     /// not_repaired that of Document::unrepaired.
     std::shared_ptr<const NodeSurface> surface(NodeId node);
+    /// Returns whether a node is a part of the run folder whose file could be read, as far as it was tried.
+    bool has_part_surface(NodeId node) const;
     /// Returns the closed surface of a part of the run folder.
     std::shared_ptr<const NodeSurface> part_surface(NodeId part);
     /// Returns the deviation of the facets of a surface that this class has returned, or the size at its vertices;

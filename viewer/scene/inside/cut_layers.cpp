@@ -9,6 +9,8 @@
 // variance follow.
 #include "viewer/scene/inside/cut_layers.h"
 
+#include "viewer/scene/selection.h"
+
 namespace kerf::view {
 
 namespace {
@@ -213,7 +215,7 @@ void CutLayers::add_halves(const NodeSurface* parent) {
     if (contour) contour->ranges = contours;
     for (const NodeId half : {2 * node, 2 * node + 1}) {
         if (!context_.is_shown(half)) continue;
-        const auto surface = sink_.awaited(context_.session.fetched().surface(half));
+        const auto surface = sink_.awaited(surface_of(context_.session, half));
         const Vec3 offset = context_.offset_of(half);
         if (surface &&
             surfaces_.add(LayerKind::half, surface, half, half_color(half), context_.colors.interface, offset))
