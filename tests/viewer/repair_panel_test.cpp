@@ -116,9 +116,9 @@ TEST_F(RepairPanel, ShowsOnePlaceBeforeAndAfter) {
     driver_->click("Colour by distance");
     driver_->settle();
     EXPECT_EQ(driver_->state().coloring.by, ColorBy::deviation);
-    ASSERT_TRUE(driver_->app().facts().values);
-    EXPECT_GT(driver_->app().facts().values->high, 1e-4);
-    EXPECT_LT(driver_->app().facts().values->high, 0.01);
+    ASSERT_TRUE(driver_->app().facts().legend.values);
+    EXPECT_GT(driver_->app().facts().legend.values->high, 1e-4);
+    EXPECT_LT(driver_->app().facts().legend.values->high, 0.01);
 }
 
 TEST_F(RepairPanel, FliesToThePlacesOfEachAction) {

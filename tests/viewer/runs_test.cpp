@@ -355,13 +355,13 @@ TEST(Runs, AViewKnowsWhatItWasMadeOf) {
     const ViewCommand same = parse({"screenshot", "--state", state.c_str(), "-o", "a.png"});
     EXPECT_EQ(same.print, "");
     EXPECT_EQ(same.input, asset_path("cube"));
-    EXPECT_EQ(same.width, 640);
-    EXPECT_EQ(same.height, 480);
+    EXPECT_EQ(same.picture.width, 640);
+    EXPECT_EQ(same.picture.height, 480);
     EXPECT_EQ(same.run.decompose.parts, 3);
     const ViewCommand other =
         parse({"screenshot", "other.stl", "--state", state.c_str(), "--resolution", "800x600", "-o", "a.png"});
     EXPECT_EQ(other.input, "other.stl");
-    EXPECT_EQ(other.width, 800);
+    EXPECT_EQ(other.picture.width, 800);
     EXPECT_EQ(parse({"screenshot", "-o", "a.png"}).exit_code, 2);
     EXPECT_TRUE(parse({"view", "a.stl"}).auto_run);
     EXPECT_FALSE(parse({"view", "a.stl", "--no-run"}).auto_run);

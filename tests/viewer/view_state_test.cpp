@@ -403,9 +403,9 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
         parse({"screenshot", "a.stl", "-o", "b.png", "--node", "5", "--stage", "contour", "--clip", "x=0.3",
                "--explode", "0.4", "--color", "min-dihedral", "--resolution", "1600x1000", "--ui"});
     EXPECT_EQ(good.print, "");
-    EXPECT_TRUE(good.screenshot && good.panels);
-    EXPECT_EQ(good.width, 1600);
-    EXPECT_EQ(good.height, 1000);
+    EXPECT_TRUE(good.screenshot && good.picture.panels);
+    EXPECT_EQ(good.picture.width, 1600);
+    EXPECT_EQ(good.picture.height, 1000);
     EXPECT_EQ(good.state.node, 5);
     EXPECT_EQ(name(good.state.step), "contour");
     EXPECT_TRUE(good.state.clip.on);

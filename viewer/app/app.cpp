@@ -75,7 +75,7 @@ App::~App() {
 
 void App::follow_session() {
     Session& session = view_.session;
-    if (session.check_cancelled()) {
+    if (session.poll()) {
         view_.session_changed = true;
         view_.wake();
     }
@@ -100,16 +100,7 @@ void App::build_scene() {
     built = builder_.build(shown, view_.session);
     ++view_.scenes_built;
     SceneFacts& facts = view_.facts;
-    const Legend& legend = built.legend;
-    facts.legend_title = legend.title;
-    facts.values = legend.values;
-    facts.extremes = legend.extremes;
-    facts.marked = legend.marked;
-    facts.percentile = legend.percentile;
-    facts.categories = legend.categories;
-    facts.scale = legend.scale;
-    facts.goes_below = legend.goes_below;
-    facts.goes_above = legend.goes_above;
+    facts.legend = built.legend;
     facts.selection = describe_selection(view_.session, view_.state.selection, view_.state.deformation.load_case);
     facts.pending = view_.session.pending();
     facts.triangles = facts.lines = 0;

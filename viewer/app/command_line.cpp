@@ -81,22 +81,22 @@ void add_inputs(CLI::App& app, SceneOptions& options, const std::string& what) {
 void add_screenshot_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {
     add_inputs(app, options, "What to open. Default: what --state was made of.");
     app.option_defaults()->group("Picture");
-    app.add_option("-o,--output", command.output, "PNG file.")->type_name("FILE")->required();
+    app.add_option("-o,--output", command.picture.output, "PNG file.")->type_name("FILE")->required();
     app.add_option("--resolution", options.resolution, "Pixels of the picture. Default 1280x800.")->type_name("WxH");
-    add_number(app, "--antialias", command.antialias, {"a whole number, 1 to 4", 1, 4},
+    add_number(app, "--antialias", command.picture.antialias, {"a whole number, 1 to 4", 1, 4},
                "Draw 2 to 4 times as large and average. Default 1.")
         ->type_name("N");
     app.add_option_function<std::string>(
            "--context",
-           [&command](const std::string& library) { command.context = offscreen_library_from_name(library); },
+           [&command](const std::string& library) { command.picture.context = offscreen_library_from_name(library); },
            fmt::format("Library that makes the OpenGL context: osmesa or egl. The picture is the same. Default {}.",
                        name(offscreen_libraries().front())))
         ->type_name("NAME");
-    add_number(app, "--frames", command.frames, {"a whole number, 2 to 1000", 2, 1000},
+    add_number(app, "--frames", command.picture.frames, {"a whole number, 2 to 1000", 2, 1000},
                "So many pictures of a period of --motion (default swing): FILE_001.png, and so on.")
         ->type_name("N");
-    app.add_flag("--ui", command.panels, "With all panels, as in the window.");
-    add_number(app, "--timeout", command.timeout_seconds, {"0.001 to 1e9 seconds", 1e-3, 1e9},
+    app.add_flag("--ui", command.picture.panels, "With all panels, as in the window.");
+    add_number(app, "--timeout", command.picture.timeout_seconds, {"0.001 to 1e9 seconds", 1e-3, 1e9},
                "Seconds after which to give up. Default 600.")
         ->type_name("S");
     add_scene_options(app, command, options);
@@ -130,7 +130,7 @@ void apply_options(const SceneOptions& options, ViewCommand& command) {
 
 }  // namespace
 
-std::vector<std::string> ViewCommand::pictures() const {
+std::vector<std::string> PictureOptions::files() const {
     if (frames == 0) return {output};
     std::vector<std::string> files;
     const std::string stem = output.substr(0, output.rfind('.'));
@@ -141,12 +141,12 @@ std::vector<std::string> ViewCommand::pictures() const {
 bool depends_on_document(const ViewCommand& command) {
     const bool has_camera = command.state.camera && !command.origin.body.isEmpty();
     return has_camera || command.clip.starts_with("node=") || !command.load_case.empty() || command.good_deformation ||
-           command.frames > 0;
+           command.picture.frames > 0;
 }
 
 void apply_document(const ViewCommand& command, const Document& document, double aspect, ViewState& state) {
     if (command.clip.starts_with("node=")) state.clip = clip_from_text(command.clip, command.state.clip, document);
-    if (command.load_case.empty() && !command.good_deformation && command.frames == 0)
+    if (command.load_case.empty() && !command.good_deformation && command.picture.frames == 0)
         return fit_to_body(state, command.origin, document.box, aspect);
     if (!document.solution)
         throw Error(ErrorCode::usage,
@@ -165,8 +165,9 @@ void apply_document(const ViewCommand& command, const Document& document, double
     }
     const auto& chosen = cases.at(static_cast<std::size_t>(state.deformation.load_case));
     if (chosen.is_mode() && !command.chosen.color) state.coloring.by = ColorBy::displacement;
-    if (command.frames > 0 && state.deformation.motion == Motion::still) state.deformation.motion = Motion::swing;
-    if (command.good_deformation || (command.frames > 0 && state.deformation.factor == 0))
+    if (command.picture.frames > 0 && state.deformation.motion == Motion::still)
+        state.deformation.motion = Motion::swing;
+    if (command.good_deformation || (command.picture.frames > 0 && state.deformation.factor == 0))
         state.deformation.factor = good_deformation(chosen.largest_displacement, document.box.diagonal().norm());
     fit_to_body(state, command.origin, document.box, aspect);  // once, when nothing is refused any more
 }

@@ -9,16 +9,27 @@
 
 namespace kerf::view {
 
-struct ViewCommand {
-    bool screenshot = false;
-    std::string input;                        ///< the file or folder to open; empty: none
-    std::string output;                       ///< PNG file of a screenshot
-    int width = 1280, height = 800;           ///< size of a screenshot in pixels
+/// The picture that `kerf screenshot` draws.
+struct PictureOptions {
+    std::string output;                       ///< PNG file
+    int width = 1280, height = 800;           ///< size in pixels
     float scale = 1;                          ///< scale of fonts and lines, 2 on a HiDPI screen
     int antialias = 1;                        ///< the picture is drawn so many times as large and averaged
-    std::optional<OffscreenLibrary> context;  ///< library that draws a screenshot; none: the default
-    bool panels = false;                      ///< the screenshot has the whole user interface
-    bool auto_run = true;                     ///< a surface is cut and meshed once it is open
+    std::optional<OffscreenLibrary> context;  ///< library that draws it; none: the default
+    bool panels = false;                      ///< it has the whole user interface
+    int frames = 0;                           ///< number of pictures of a period of the motion; 0: one picture
+    double timeout_seconds = 600;
+
+    /// Returns the pictures to be written: `output`, or FILE_001.png, FILE_002.png, ...
+    std::vector<std::string> files() const;
+};
+
+/// All that the command line asks for.
+struct ViewCommand {
+    bool screenshot = false;
+    std::string input;  ///< the file or folder to open; empty: none
+    PictureOptions picture;
+    bool auto_run = true;  ///< a surface is cut and meshed once it is open
     ViewState state;
     ChosenView chosen;              ///< the parts of the state that were asked for
     ViewOrigin origin;              ///< origin of the state, if it was read from a file
@@ -26,14 +37,10 @@ struct ViewCommand {
     std::string clip;               ///< the clip plane as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
     std::string load_case;          ///< name of the load case; empty: the first one
     bool good_deformation = false;  ///< Deformation::factor is to be that of good_deformation()
-    int frames = 0;                 ///< number of pictures of a period of the motion; 0: one picture
-    double timeout_seconds = 600;
     RunOptions run;
     std::string print;  ///< text to print instead (help, a usage error); empty: none
     int exit_code = 0;  ///< exit code after `print`
 
-    /// Returns the pictures to be written: `output`, or FILE_001.png, FILE_002.png, ...
-    std::vector<std::string> pictures() const;
     std::vector<std::string> files() const { return files_of(input, run.input_options); }
 };
 

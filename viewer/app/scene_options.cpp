@@ -34,8 +34,8 @@ void parse_resolution(const std::string& text, ViewCommand& command) {
     if (!is_good(width) || !is_good(height))
         throw Error(ErrorCode::usage,
                     fmt::format("--resolution is '{}', but it must be WIDTHxHEIGHT in pixels, 16 to 16384.", text));
-    command.width = *width;
-    command.height = *height;
+    command.picture.width = *width;
+    command.picture.height = *height;
 }
 
 // The names of --view, in the order of Direction.
@@ -190,9 +190,9 @@ void take_origin(ViewCommand& command) {
         if (is_given) command.run.decompose.parts = parts;
     }
     if (origin.width == 0) return;
-    command.width = origin.width;
-    command.height = origin.height;
-    command.scale = static_cast<float>(origin.scale);
+    command.picture.width = origin.width;
+    command.picture.height = origin.height;
+    command.picture.scale = static_cast<float>(origin.scale);
 }
 
 // Turns the camera to the side that is named; its place follows from the scene.
@@ -296,7 +296,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     state.theme = command.theme.value_or(state.theme);
     if (!options.resolution.empty()) {
         parse_resolution(options.resolution, command);
-        command.scale = 1;
+        command.picture.scale = 1;
     }
     if (!command.clip.empty() && !command.clip.starts_with("node="))
         state.clip = clip_from_text(command.clip, state.clip, {});

@@ -134,19 +134,21 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
 }  // namespace
 
 void take_screenshot(const ViewCommand& command, const AppOptions& options) {
-    const Deadline deadline(command.timeout_seconds);
+    const PictureOptions& picture = command.picture;
+    const std::vector<std::string> files = picture.files();
+    const Deadline deadline(picture.timeout_seconds);
     for (const std::string& file : command.files())
-        for (const std::string& picture : command.pictures()) refuse_to_overwrite(file, "--output", picture);
+        for (const std::string& drawn : files) refuse_to_overwrite(file, "--output", drawn);
     if (std::error_code ignored;
-        std::filesystem::is_directory(command.input, ignored) && lies_inside(command.output, command.input))
+        std::filesystem::is_directory(command.input, ignored) && lies_inside(picture.output, command.input))
         throw Error(ErrorCode::io, fmt::format("--output is {}, which lies in the run {}. Choose another place.",
-                                               command.output, command.input));
-    if (!command.output.ends_with(".png"))
+                                               picture.output, command.input));
+    if (!picture.output.ends_with(".png"))
         throw Error(ErrorCode::usage,
-                    fmt::format("--output is {}, but pictures are PNG files: name it {}.", command.output,
-                                std::filesystem::path(command.output).replace_extension(".png").string()));
-    for (const std::string& picture : command.pictures()) require_writable("--output", picture, output_kind::picture);
-    const auto context = make_offscreen_context(command.context);
+                    fmt::format("--output is {}, but pictures are PNG files: name it {}.", picture.output,
+                                std::filesystem::path(picture.output).replace_extension(".png").string()));
+    for (const std::string& drawn : files) require_writable("--output", drawn, output_kind::picture);
+    const auto context = make_offscreen_context(picture.context);
     const ImGuiOwner imgui;
     ImGui::GetIO().DeltaTime = frame_seconds;
     AppOptions own = options;
@@ -156,22 +158,21 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     wait_for_document(app, command, deadline);
     const Document& document = app.session().document();
     app.show(command.state, command.chosen);
-    apply_document(command, document, static_cast<double>(command.width) / command.height, app.state());
-    check_wishes(document, app.state(), command.panels);
-    const FrameSize size = {.width = command.width * command.antialias,
-                            .height = command.height * command.antialias,
-                            .scale = command.scale * static_cast<float>(command.antialias)};
-    const std::vector<std::string> files = command.pictures();
+    apply_document(command, document, static_cast<double>(picture.width) / picture.height, app.state());
+    check_wishes(document, app.state(), picture.panels);
+    const FrameSize size = {.width = picture.width * picture.antialias,
+                            .height = picture.height * picture.antialias,
+                            .scale = picture.scale * static_cast<float>(picture.antialias)};
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (command.frames > 0) app.state().deformation.phase = static_cast<double>(i) / command.frames;
+        if (picture.frames > 0) app.state().deformation.phase = static_cast<double>(i) / picture.frames;
         app.wake();
         do {
             deadline.check();
-            app.frame(size, command.panels);
+            app.frame(size, picture.panels);
         } while (!app.settled());
         if (!app.session().failures().empty())
             throw Error(app.session().failure_code(), app.session().failures().front());
-        write_png(files[i], averaged(app.picture(), command.antialias));
+        write_png(files[i], averaged(app.picture(), picture.antialias));
     }
 }
 

@@ -174,8 +174,8 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
             colors.dim);
     if (is_of_solution(state.coloring.by) && document.solution)
         add(fmt::format("{} in units of the case", title(state.coloring.by)), colors.dim);
-    if (context.facts.percentile < 100)
-        add(fmt::format("Colours span {:g} % of the values drawn", context.facts.percentile), colors.dim);
+    if (context.facts.legend.percentile < 100)
+        add(fmt::format("Colours span {:g} % of the values drawn", context.facts.legend.percentile), colors.dim);
     if (state.visibility.isolated)
         add("Only " + beginning_small(body_of(document, *state.visibility.isolated)), colors.dim);
     if (shows_neighbours(context)) add("Only the selected cell and its neighbours", colors.dim);

@@ -83,12 +83,12 @@ class ColorBar {
 
 void draw_color_bar(UiContext& context, ColorBarMemory& memory) {
     const ViewState& state = context.state;
-    const auto& values = context.facts.values;
+    const auto& values = context.facts.legend.values;
     const std::string of = fmt::format("{} of {}", name(state.coloring.by), context.session.document().path);
     if (memory.colored_of != of) memory.colored.reset();
     memory.colored_of = of;
     if (values && !state.coloring.range) memory.colored = values;
-    if (!values || context.facts.scale.size() < 2) return;
+    if (!values || context.facts.legend.scale.size() < 2) return;
     const ValueRange colored = state.coloring.range.value_or(*values);
     ValueRange extent = memory.colored.value_or(values_of_run(context));
     extent = {std::min(extent.low, colored.low), std::max(extent.high, colored.high)};

@@ -53,9 +53,9 @@ void draw_range(UiContext& context, ColorMemory& memory) {
     Coloring& coloring = context.state.coloring;
     bool fixed = coloring.range.has_value();
     if (context.widgets.checkbox("Fixed range", &fixed, "The same colours for the same values, whatever is shown"))
-        coloring.range = fixed ? std::optional(context.facts.values.value_or(ValueRange{0, 1})) : std::nullopt;
+        coloring.range = fixed ? std::optional(context.facts.legend.values.value_or(ValueRange{0, 1})) : std::nullopt;
     draw_color_bar(context, memory.bar);
-    const ValueRange shown = coloring.range.value_or(context.facts.values.value_or(ValueRange{0, 1}));
+    const ValueRange shown = coloring.range.value_or(context.facts.legend.values.value_or(ValueRange{0, 1}));
     ValueRange changed = shown;
     if (draw_limits(context.widgets, "Colours", {"Lowest", "Highest"}, shown, memory.range, changed))
         coloring.range = changed;
@@ -191,7 +191,7 @@ void draw_color(UiContext& context, ColorMemory& memory, ListKeys& keys) {
             context.widgets.checkbox("Numbers on faces", &context.state.look.numbers, "The numbers of the patches");
         if (const char* missing = why_without_values(context.session.document(), state.coloring.by))
             show_wrapped(missing, palette(state.theme).dim);
-        if (is_measure(state.coloring.by) || context.facts.values) draw_range(context, memory);
+        if (is_measure(state.coloring.by) || context.facts.legend.values) draw_range(context, memory);
         draw_solution(context);
         if (is_measure(state.coloring.by)) {
             draw_histogram(context, memory.histogram);

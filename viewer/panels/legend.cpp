@@ -72,9 +72,9 @@ class LegendBox {
     }
 
     void prepare_scale() {
-        range_ = context_.state.coloring.range.value_or(*facts_.values);
+        range_ = context_.state.coloring.range.value_or(*legend_.values);
         if (is_measure(context_.state.coloring.by)) filter_ = context_.state.coloring.filter;
-        const float entries = line_height() * static_cast<float>(facts_.categories.size() + 2);
+        const float entries = line_height() * static_cast<float>(legend_.categories.size() + 2);
         bar_height_ = std::clamp(std::min(0.7f * highest_, highest_ - entries), 4.5f * em(), 11 * em());
         const float most_ticks = bar_height_ / (1.3f * ImGui::GetTextLineHeight());
         ticks_ = round_ticks(range_.low, range_.high, std::clamp(static_cast<int>(most_ticks), 2, 5));

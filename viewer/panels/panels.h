@@ -110,14 +110,7 @@ struct ValueLabel {
 
 /// The facts about the scene that panels show.
 struct SceneFacts {
-    std::string legend_title;             ///< empty: the legend explains the objects of the scene, not a colouring
-    std::optional<ValueRange> values;     ///< range of the values shown, by Coloring::by
-    std::optional<ValueRange> extremes;   ///< Legend::extremes
-    std::vector<PlacedValue> marked;      ///< Legend::marked
-    double percentile = 100;              ///< Legend::percentile
-    std::vector<LegendEntry> categories;  ///< other entries of the legend: "part 8"
-    std::vector<Color> scale;             ///< colours from low to high, of a legend with numbers
-    bool goes_below = false, goes_above = false;  ///< Legend::goes_below, goes_above
+    Legend legend;
     std::string selection;                        ///< the selection as lines of text; empty: nothing is selected
     std::int64_t triangles = 0, lines = 0;        ///< numbers of triangles and lines drawn
     std::string notice;                           ///< e.g. "saved as kerf-001.png"; shown for some seconds

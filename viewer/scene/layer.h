@@ -42,7 +42,7 @@ struct Legend {
     std::string title;                    ///< title of a colouring; empty: the things in the scene are explained
     std::optional<ValueRange> values;     ///< range of the colours of values
     std::optional<ValueRange> extremes;   ///< the least and the largest value of a solution that are drawn
-    std::vector<PlacedValue> marked;      ///< the least and the largest value, if ViewState::extremes asks for them
+    std::vector<PlacedValue> marked;      ///< the least and the largest value, if Coloring::extremes asks for them
     double percentile = 100;              ///< per cent of the drawn values that the colours span, where they span fewer
     std::vector<Color> scale;             ///< colours from the low to the high end of the range
     bool goes_below = false;              ///< values that are drawn lie below `values`
