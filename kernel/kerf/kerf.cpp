@@ -21,9 +21,9 @@
 #include "files/io/temporary_folder.h"
 #include "files/part/second_order_parts.h"
 #include "files/part/solution_parts.h"
-#include "kerf/inside/array_parts.h"
 #include "kerf/inside/array_points.h"
-#include "kerf/inside/arrays_of_parts.h"
+#include "kerf/inside/arrays_from_parts.h"
+#include "kerf/inside/regions_as_parts.h"
 #include "kerf/inside/run_request.h"
 #include "kerf/mesh_on_ranks.h"
 #include "kerf/progress_listener.h"
@@ -78,7 +78,7 @@ class ArraysListener : public ProgressListener {
     ArraysListener(const MeshOptions& options, int threads)
         : ProgressListener(options.progress, options.is_cancelled), threads_(threads) {}
     void on_meshes(const StoredParts& parts, const SecondOrderParts* of_order_2) override {
-        mesh = of_order_2 ? arrays_of_parts(*of_order_2) : arrays_of_parts(parts, threads_);
+        mesh = of_order_2 ? arrays_from_parts(*of_order_2) : arrays_from_parts(parts, threads_);
     }
 
     MeshArrays mesh;
@@ -267,7 +267,7 @@ MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& optio
 }
 
 MeshArrays arrays_of_run(const std::string& folder) {
-    MeshArrays mesh = arrays_of_parts(*open_parts(folder));
+    MeshArrays mesh = arrays_from_parts(*open_parts(folder));
     std::error_code ignored;
     const std::optional<std::string> solution = find_solution_folder(folder);
     if (const std::string report = (solution ? mesh_of_solution(*solution) : folder) + "/report.json";
@@ -283,7 +283,7 @@ void mesh_to_file(const MeshArrays& mesh, const std::string& path, const MeshFil
                                .msh_ascii = options.msh_ascii,
                                .is_cancelled = options.is_cancelled};
     check_merged_file(request);
-    merge_parts(ArrayParts(mesh), request);
+    merge_parts(RegionsAsParts(mesh), request);
 }
 
 }  // namespace kerf

@@ -1,9 +1,9 @@
-// Files for kerf-view of surfaces and meshes that are in memory. A mesh is taken apart (kerf/inside/parts_of_arrays.h)
-// and written as the parts and the report of a run. It does not know its cuts, but numbers of parts are nodes of a
-// binary tree, so that the tree above the parts follows from halving the numbers; counts are added up along it, and
-// each inner node gets a plane between the centroids of its children, by which the viewer pulls parts apart. Of a
-// surface with several regions OBJ holds no sides: its patches are divided into groups that each have the same pair of
-// regions, and a JSON beside it names the pairs.
+// Files for kerf-view of surfaces and meshes that are in memory. A mesh is taken apart
+// (kerf/inside/parts_from_arrays.h) and written as the parts and the report of a run. It does not know its cuts, but
+// numbers of parts are nodes of a binary tree, so that the tree above the parts follows from halving the numbers;
+// counts are added up along it, and each inner node gets a plane between the centroids of its children, by which the
+// viewer pulls parts apart. Of a surface with several regions OBJ holds no sides: its patches are divided into groups
+// that each have the same pair of regions, and a JSON beside it names the pairs.
 #include "kerf/viewed_files.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 #include "files/part/vtu_writer.h"
 #include "files/quality/quality_json.h"
 #include "kerf/inside/array_edge_nodes.h"
-#include "kerf/inside/parts_of_arrays.h"
+#include "kerf/inside/parts_from_arrays.h"
 #include "run/prepare/input.h"
 #include "run/prepare/input_files.h"
 #include "run/report/cut_json.h"

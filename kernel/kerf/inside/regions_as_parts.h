@@ -12,9 +12,9 @@ namespace kerf {
 /// The regions of a mesh of arrays, a part each, with walls between them. Facets of the input are triangles of the
 /// mesh, by their rows. Parts know which vertices they share with others, but not which edges. Memory: the vertices on
 /// walls, and the parts that are loaded. The mesh must outlive it.
-class ArrayParts : public PartSource {
+class RegionsAsParts : public PartSource {
  public:
-    explicit ArrayParts(const MeshArrays& mesh);
+    explicit RegionsAsParts(const MeshArrays& mesh);
 
     const MeshOutline& outline() const override { return outline_; }
     Part load(PartIndex index) const override;

@@ -4,7 +4,7 @@
 // coordinates; they are written under a lock, those inside without one. The region in front of a wall is known when all
 // parts are there: until then its place holds the number of the part there. The outline is not trusted: rows outside of
 // a part's range throw.
-#include "kerf/inside/arrays_of_parts.h"
+#include "kerf/inside/arrays_from_parts.h"
 
 #include <algorithm>
 #include <atomic>
@@ -148,7 +148,7 @@ void by_threads(int threads, std::size_t count, const Work& work) {
 
 }  // namespace
 
-MeshArrays arrays_of_parts(const StoredParts& parts, int threads) {
+MeshArrays arrays_from_parts(const StoredParts& parts, int threads) {
     ArrayFiller filler(parts.outline());
     by_threads(threads, parts.outline().parts.size(), [&](std::size_t i) {
         const PartIndex index(i);
@@ -163,7 +163,7 @@ MeshArrays arrays_of_parts(const StoredParts& parts, int threads) {
     return filler.take();
 }
 
-MeshArrays arrays_of_parts(const PartSource& parts) {
+MeshArrays arrays_from_parts(const PartSource& parts) {
     ArrayFiller filler(parts.outline());
     if (parts.outline().order == 2) {
         for_each_part(parts, PartContent::all, [&](PartIndex index, const Part& part) {

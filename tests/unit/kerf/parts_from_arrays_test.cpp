@@ -1,5 +1,5 @@
 // A mesh in memory falls into the parts of which it was joined.
-#include "kerf/inside/parts_of_arrays.h"
+#include "kerf/inside/parts_from_arrays.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -51,7 +51,7 @@ std::set<std::tuple<Corners, std::int32_t, NodeId, Corners>> boundary(const Part
     return all;
 }
 
-TEST(PartsOfArrays, AreThoseOfTheRun) {
+TEST(PartsFromArrays, AreThoseOfTheRun) {
     const test::TemporaryFolder folder;
     const std::string run = folder.file("run");
     mesh_to_folder(stacked_cubes(),

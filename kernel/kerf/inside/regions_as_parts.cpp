@@ -4,7 +4,7 @@
 // number is the ancestor of another. A wall is a triangle of both parts, listed by one of them, and seen from outside
 // by each: in the part in front its corners are in the other order. Parts are made anew each time that they are loaded,
 // and the constructor loads each once, to count its vertices and nodes.
-#include "kerf/inside/array_parts.h"
+#include "kerf/inside/regions_as_parts.h"
 
 #include <algorithm>
 #include <bit>
@@ -38,7 +38,7 @@ void require_32_bits(const MeshArrays& mesh) {
 
 }  // namespace
 
-ArrayParts::ArrayParts(const MeshArrays& mesh) : mesh_(mesh) {
+RegionsAsParts::RegionsAsParts(const MeshArrays& mesh) : mesh_(mesh) {
     const std::size_t region_count = std::max<std::size_t>(1, mesh.region_names.size());
     // Parts are leaves of a tree of one depth, so that no number is the ancestor of another.
     const auto first_leaf = static_cast<NodeId>(std::bit_ceil(region_count));
@@ -80,7 +80,7 @@ ArrayParts::ArrayParts(const MeshArrays& mesh) : mesh_(mesh) {
 }
 
 // Returns the vertices on the boundary of a region, ascending.
-std::vector<std::int64_t> ArrayParts::boundary_vertices_of(RegionIndex region) const {
+std::vector<std::int64_t> RegionsAsParts::boundary_vertices_of(RegionIndex region) const {
     std::vector<std::int64_t> vertices;
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
         if (mesh_.sides[f][0] == region.value() || mesh_.sides[f][1] == region.value())
@@ -90,7 +90,7 @@ std::vector<std::int64_t> ArrayParts::boundary_vertices_of(RegionIndex region) c
     return vertices;
 }
 
-Part ArrayParts::load(PartIndex index) const {
+Part RegionsAsParts::load(PartIndex index) const {
     const RegionIndex region = regions_[index];
     Part part;
     part.id = outline_.parts[index].id;

@@ -8,10 +8,10 @@ namespace kerf {
 
 /// Returns the mesh of all parts, made by `threads` threads. Memory beside the result: for each thread a few megabytes
 /// and arrays that grow with the boundary of its part, 8 bytes for each vertex of it. Throws Error(io).
-MeshArrays arrays_of_parts(const StoredParts& parts, int threads);
+MeshArrays arrays_from_parts(const StoredParts& parts, int threads);
 
 /// Returns the mesh of all parts of any source, loaded one at a time: first the points of all, then the cells; for
 /// order 2 both together.
-MeshArrays arrays_of_parts(const PartSource& parts);
+MeshArrays arrays_from_parts(const PartSource& parts);
 
 }  // namespace kerf

@@ -2,7 +2,7 @@
 // tetrahedra are found once; a face whose neighbour is of another part, or that has none, is on the boundary of its
 // part, and a search among the sorted triangles of the arrays tells its patch. Vertices get numbers in the part as they
 // are met, those of the boundary first. Global numbers are rows of the arrays, so that parts have no keys to match by.
-#include "kerf/inside/parts_of_arrays.h"
+#include "kerf/inside/parts_from_arrays.h"
 
 #include <algorithm>
 #include <limits>
