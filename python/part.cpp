@@ -18,6 +18,12 @@ namespace py = pybind11;
 
 namespace {
 
+// Returns a member of a part as a view of it.
+template <auto member>
+py::array view_of(const py::object& self) {
+    return view(self.cast<Part&>().*member, self);
+}
+
 // Returns values of the vertices, then those of nodes on edges.
 template <class T>
 py::array of_nodes(const std::vector<T>& of_vertices, const std::vector<T>& of_edges, const py::object& self) {
@@ -140,11 +146,11 @@ void register_part(py::module_& module) {
         .def_property_readonly("triangle6", &triangle6_of)
         .def_property_readonly("global_ids", &ids_of_part)
         .def_property_readonly("region", &regions_of)
-        .def_property_readonly("triangles", array_of(&Part::facets))
-        .def_property_readonly("patch", array_of(&Part::patch))
-        .def_property_readonly("facet", array_of(&Part::facet))
-        .def_property_readonly("neighbour", array_of(&Part::neighbour))
-        .def_property_readonly("behind", array_of(&Part::tet_at_facet))
+        .def_property_readonly("triangles", &view_of<&Part::facets>)
+        .def_property_readonly("patch", &view_of<&Part::patch>)
+        .def_property_readonly("facet", &view_of<&Part::facet>)
+        .def_property_readonly("neighbour", &view_of<&Part::neighbour>)
+        .def_property_readonly("behind", &view_of<&Part::tet_at_facet>)
         .def_property_readonly("owner", &owners_of)
         .def_property_readonly("shared", &shared_of)
         .def_property_readonly("point_data",

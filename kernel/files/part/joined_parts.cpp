@@ -177,12 +177,8 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
         for (std::int32_t r = piece.first; r < piece.last; ++r) tets += whole.parts[r].tets;
         require_numbers(piece, tets, "tetrahedra");
     }
-    outline_.vertices = whole.vertices;
-    outline_.patch_names = whole.patch_names;
-    outline_.region_names = whole.region_names;
-    outline_.values = whole.values;
-    outline_.order = whole.order;
-    outline_.edge_nodes = whole.edge_nodes;
+    outline_ = whole;
+    outline_.parts = {};
     for (const PieceOfTree& piece : pieces_) {
         PartExtent& extent = outline_.parts.emplace_back();
         extent.id = piece.id;
@@ -227,7 +223,7 @@ std::vector<NodeId> JoinedParts::pieces_of(const std::vector<NodeId>& leaves) co
 // Returns the groups that a piece shares with others, by the pieces that hold them: items ascending by id(item), each
 // once.
 template <class Group, class Item, class InPiece, class IdOf>
-std::vector<Group> JoinedParts::join_groups(const std::vector<Part>& parts, std::vector<Group> Part::*groups,
+std::vector<Group> JoinedParts::join_groups(const std::vector<Part>& parts, std::vector<Group> PartBoundary::*groups,
                                             std::vector<Item> Group::*items, const InPiece& in_piece,
                                             const IdOf& id) const {
     std::map<std::vector<PartIndex>, std::vector<Item>> items_of;

@@ -41,7 +41,7 @@ class JoinedParts : public PartSource {
     std::vector<PartIndex> indices_of(const std::vector<NodeId>& leaves) const;
     std::vector<NodeId> ids_of(const std::vector<PartIndex>& indices) const;
     template <class Group, class Item, class InPiece, class IdOf>
-    std::vector<Group> join_groups(const std::vector<Part>& parts, std::vector<Group> Part::*groups,
+    std::vector<Group> join_groups(const std::vector<Part>& parts, std::vector<Group> PartBoundary::*groups,
                                    std::vector<Item> Group::*items, const InPiece& in_piece, const IdOf& id) const;
 
     const PartSource& parts_;

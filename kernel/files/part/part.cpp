@@ -18,22 +18,11 @@ namespace kerf {
 Part boundary_of(const Part& part) {
     const std::ptrdiff_t boundary = part.mesh.boundary_vertex_count;
     Part surface;
-    surface.id = part.id;
+    static_cast<PartBoundary&>(surface) = part;
     surface.mesh.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + boundary);
     surface.mesh.boundary_vertex_count = part.mesh.boundary_vertex_count;
-    surface.facets = part.facets;
-    surface.patch = part.patch;
-    surface.facet = part.facet;
-    surface.neighbour = part.neighbour;
     surface.tet_at_facet.assign(part.facets.size(), -1);
     surface.global_id.assign(part.global_id.begin(), part.global_id.begin() + boundary);
-    surface.patch_names = part.patch_names;
-    surface.region_names = part.region_names;
-    surface.regions = part.regions;
-    surface.contact_vertices = part.contact_vertices;
-    surface.contact_edges = part.contact_edges;
-    surface.shared = part.shared;
-    surface.shared_edges = part.shared_edges;
     return surface;
 }
 

@@ -73,28 +73,31 @@ struct RegionRun {
     }
 };
 
-/// One part of a distributed mesh. A boundary triangle lies on the user's surface with nothing beyond it, or another
-/// part has the same triangle in opposite orientation over the same global numbers: then it lies on an interface, which
-/// a cut has made, or on a wall, a facet of the user's with regions on both sides.
-struct Part {
+/// The boundary of a part, and what it shares with other parts: all but its vertices and cells.
+struct PartBoundary {
     NodeId id = 1;                    ///< leaf of the tree
-    TetMesh mesh;                     ///< vertices of the boundary first
     std::vector<Triangle> facets;     ///< #F; boundary triangles, over the boundary vertices, seen from outside
     std::vector<std::int32_t> patch;  ///< #F; number on the user's surface, -1 on interfaces
     std::vector<std::int32_t> facet;  ///< #F; facet of the input that is or contains the triangle, -1 on interfaces
     std::vector<NodeId> neighbour;    ///< #F; part on the other side of an interface or wall, else -1
-    std::vector<std::int32_t> tet_at_facet;  ///< #F; the tetrahedron behind the triangle, -1 if there is none
-    std::vector<std::int64_t> global_id;  ///< #V; dense over the whole mesh, the same in every part that has the vertex
-    NameTable patch_names;                ///< names of the patches on the boundary at least
-    NameTable region_names;               ///< names of the regions of the cells at least; empty if there is one region
-    std::vector<RegionRun> regions;       ///< runs of all tetrahedra, ascending; one unless parts were joined;
-                                          ///< empty if there is one region
+    NameTable patch_names;            ///< names of the patches on the boundary at least
+    NameTable region_names;           ///< names of the regions of the cells at least; empty if there is one region
+    std::vector<RegionRun> regions;   ///< runs of all tetrahedra, ascending; one unless parts were joined;
+                                      ///< empty if there is one region
     std::vector<std::int32_t> contact_vertices;  ///< vertices where parts may be that share no triangle with this one
     std::vector<UndirectedEdge> contact_edges;   ///< edges where parts may be that share no triangle with this one
     std::vector<SharedGroup> shared;  ///< all vertices that other parts have, too; ascending by SharedGroup::parts,
                                       ///< compared in the order of the tree
     std::vector<SharedEdgeGroup> shared_edges;  ///< all edges that other parts have, too; in the same order
+};
 
+/// One part of a distributed mesh. A boundary triangle lies on the user's surface with nothing beyond it, or another
+/// part has the same triangle in opposite orientation over the same global numbers: then it lies on an interface, which
+/// a cut has made, or on a wall, a facet of the user's with regions on both sides.
+struct Part : PartBoundary {
+    TetMesh mesh;                            ///< vertices of the boundary first
+    std::vector<std::int32_t> tet_at_facet;  ///< #F; the tetrahedron behind the triangle, -1 if there is none
+    std::vector<std::int64_t> global_id;  ///< #V; dense over the whole mesh, the same in every part that has the vertex
     std::vector<PartValues> values = {};  ///< values of a solution (files/part/solution_parts.h), else empty
     EdgeNodes edge_nodes = {};            ///< nodes on edges of order 2; empty for order 1
 
