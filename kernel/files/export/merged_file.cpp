@@ -7,6 +7,7 @@
 #include "files/export/merged_file.h"
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 #include <system_error>
 
@@ -18,7 +19,6 @@
 #include "files/io/temporary_folder.h"
 #include "files/part/parts_of_order.h"
 #include "files/part/solution_parts.h"
-#include "files/part/watched_parts.h"
 
 namespace kerf {
 
@@ -27,6 +27,32 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view run_ending = ".kerf-run";
+
+// The parts of another source, which must outlive it, with a question before each load: unless `is_cancelled` is
+// empty, it is called, and true ends the load with Error(cancelled).
+class WatchedParts : public PartSource {
+ public:
+    WatchedParts(const PartSource& parts, const std::function<bool()>& is_cancelled)
+        : parts_(parts), is_cancelled_(is_cancelled) {}
+    const MeshOutline& outline() const override { return parts_.outline(); }
+    Part load(PartIndex index) const override {
+        end_if_cancelled();
+        return parts_.load(index);
+    }
+    Part load_only(PartIndex index, PartContent content) const override {
+        end_if_cancelled();
+        return parts_.load_only(index, content);
+    }
+    const RegionWalls& walls() const override { return parts_.walls(); }
+
+ private:
+    void end_if_cancelled() const {
+        if (is_cancelled_ && is_cancelled_()) throw Error(ErrorCode::cancelled, "Writing was cancelled.");
+    }
+
+    const PartSource& parts_;
+    const std::function<bool()>& is_cancelled_;
+};
 
 const Format& format_of(const fs::path& file) {
     if (const Format* format = find_merged_format(file.string())) return *format;
