@@ -211,6 +211,9 @@ TEST(IncludeMap, LibrariesStayInTheirPlaces) {
               (std::set<std::string>{"kernel/run/request/config_file.cpp", "solve/case/inside/case_table.h"}));
     EXPECT_EQ(files_including([](const std::string& name) { return name == "zlib.h" || name == "zstd.h"; }),
               (std::set<std::string>{"kernel/files/io/compressed.cpp", "viewer/render/image.cpp"}));
+    EXPECT_EQ(
+        files_including([](const std::string& name) { return name == "pugixml.hpp"; }),
+        (std::set<std::string>{"kernel/files/io/inside/vtu_structure.cpp", "kernel/files/part/inside/vtu_header.cpp"}));
     EXPECT_EQ(files_including([](const std::string& name) { return first_folder(name) == "Model"; }),
               std::set<std::string>{"kernel/files/threemf/threemf_import.cpp"});
     for (const std::string& file : files_including([](const std::string& name) { return name.ends_with(".hxx"); }))

@@ -1,23 +1,21 @@
-// VTU is XML around arrays: FieldData and Piece > Points, Cells, CellData > DataArray. The tags are scanned without a
-// parser of XML: first the structure of the whole file is read, with the place of each array in the text, then the
-// values of the arrays that are needed, piece by piece (files/io/inside/vtu_arrays.h). Arrays of cells that are not
-// read are passed over without decoding. Regions come from an array of the cells, for tetrahedra, or from the arrays
+// VTU is XML around arrays: FieldData and Piece > Points, Cells, CellData > DataArray. First the structure of the whole
+// file is read, with the place of each array in its bytes (files/io/inside/vtu_structure.h), then the values of the
+// arrays that are needed, piece by piece (files/io/inside/vtu_arrays.h). Arrays of cells that are not read are passed
+// over without decoding. Regions come from an array of the cells, for tetrahedra, or from the arrays
 // "front" and "back" of triangles, which count only if all pieces have both. Numbers of regions are those of the file
 // until all cells are read, and are made consecutive in their order then.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "files/io/inside/mesh_scanners.h"
 #include "files/io/inside/region_facets.h"
-#include "files/io/inside/text_scanner.h"
 #include "files/io/inside/vtu_arrays.h"
+#include "files/io/inside/vtu_structure.h"
 #include "files/io/soup_builder.h"
 #include "files/io/surface_reader.h"
 #include "files/io/vtk_cell_types.h"
@@ -27,131 +25,6 @@ namespace kerf {
 namespace vtu {
 
 namespace {
-
-struct Tag {
-    std::string_view name;        // with a slash in front at the end of an element
-    std::string_view attributes;  // the text of all
-    bool is_empty = false;        // an element without content
-    std::size_t end = 0;          // behind the tag
-
-    // Empty if it is not there.
-    std::string_view value(std::string_view attribute) const {
-        for (std::size_t at = 0; (at = attributes.find(attribute, at)) != attributes.npos; at += attribute.size()) {
-            const std::string_view rest = attributes.substr(at + attribute.size());
-            const bool begins_word = at == 0 || attributes[at - 1] == ' ' || attributes[at - 1] == '\n' ||
-                                     attributes[at - 1] == '\t' || attributes[at - 1] == '\r';
-            if (!begins_word || rest.size() < 2 || rest[0] != '=' || (rest[1] != '"' && rest[1] != '\'')) continue;
-            return rest.substr(2, rest.find(rest[1], 2) - 2);
-        }
-        return {};
-    }
-};
-
-// The next tag from a position on, comments and declarations left out; nothing at the end of the text.
-std::optional<Tag> next_tag(std::string_view text, std::size_t position, const std::string& path) {
-    while (true) {
-        const std::size_t begin = text.find('<', position);
-        if (begin == text.npos) return {};
-        const bool is_comment = text.substr(begin).starts_with("<!--");
-        const std::string_view closing = is_comment ? "-->" : ">";
-        const std::size_t end = text.find(closing, begin);
-        if (end == text.npos) fail(path, "a tag does not end. The file is truncated: save or copy it again.");
-        position = end + closing.size();
-        if (is_comment || text[begin + 1] == '?' || text[begin + 1] == '!') continue;
-        std::string_view inside = text.substr(begin + 1, end - begin - 1);
-        const bool is_empty = inside.ends_with('/');
-        if (is_empty) inside.remove_suffix(1);
-        const std::size_t name_end = std::min(inside.size(), inside.find_first_of(" \t\r\n"));
-        return Tag{inside.substr(0, name_end), inside.substr(name_end), is_empty, position};
-    }
-}
-
-void read_root(const Tag& tag, File& file, const std::string& path) {
-    if (tag.value("type") == "PUnstructuredGrid")
-        fail(path, "this is a list of parts. Name the folder of the run or one of the parts.");
-    if (tag.value("type") != "UnstructuredGrid")
-        fail(path, "VTK's " + std::string(tag.value("type").substr(0, 40)) +
-                       " is no mesh of tetrahedra. Save it as an unstructured grid (.vtu).");
-    file.has_long_headers = tag.value("header_type") == "UInt64";
-    file.order = tag.value("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
-    const std::string_view compressor = tag.value("compressor");
-    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-        fail(path, "the compression " + std::string(compressor.substr(0, 40)) +
-                       " cannot be read. Save it with vtkZLibDataCompressor or without one.");
-    file.is_compressed = !compressor.empty();
-}
-
-std::int64_t count_in(const Tag& tag, std::string_view attribute, const std::string& path) {
-    const std::string_view text = tag.value(attribute);
-    TextScanner scanner(text, path);
-    constexpr std::int64_t most = std::int64_t{1} << 60;  // three times as many are still a number
-    const std::int64_t count = text.empty() ? 0 : scanner.next_count();
-    if (count > most) fail(path, "it claims " + std::to_string(count) + " elements. Save it again.");
-    return count;
-}
-
-// The array that begins with this tag, and whose element ends at `end`.
-Array read_array(std::string_view text, const Tag& tag, std::size_t end, const std::string& path) {
-    Array array{std::string(tag.value("type")), std::string(tag.value("format")), {}, count_in(tag, "offset", path)};
-    if (array.format.empty()) array.format = "ascii";
-    array.content = text.substr(tag.end, end - tag.end);
-    return array;
-}
-
-// Returns the name that an array of cells has here; empty for arrays that are not read. "front" and "back" may be
-// written in any case.
-std::string cell_array_of(std::string_view name, std::string_view type) {
-    if (name == "Neighbour") return "Neighbour";
-    if (!type.starts_with("Int") && !type.starts_with("UInt")) return {};
-    if (std::find(region_arrays.begin(), region_arrays.end(), name) != region_arrays.end()) return std::string(name);
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-    return lower == front_array || lower == back_array ? lower : std::string();
-}
-
-// An array that the tag begins; the end of its content is known by the next tag.
-void read_data_array(std::string_view text, const Tag& tag, std::string_view section, File& file,
-                     const std::string& path) {
-    const std::size_t end = tag.is_empty ? tag.end : std::min(text.size(), text.find('<', tag.end));
-    const std::string name(section == "Points" ? "Points" : tag.value("Name"));
-    if (section == "FieldData" && name == "RegionNames") file.region_names = read_array(text, tag, end, path);
-    if (section == "FieldData" && name == "RegionNumbers") file.region_numbers = read_array(text, tag, end, path);
-    if (file.pieces.empty()) return;
-    Piece& piece = file.pieces.back();
-    const std::string_view components = tag.value("NumberOfComponents");
-    const bool is_scalar = components.empty() || components == "1";
-    const std::string of_cells =
-        section == "CellData" && is_scalar ? cell_array_of(name, tag.value("type")) : std::string();
-    if (section == "Points" || section == "Cells" || !of_cells.empty())
-        piece.arrays.try_emplace(of_cells.empty() ? name : of_cells, read_array(text, tag, end, path));
-    if (section == "PointData" && is_scalar) piece.scalars.try_emplace(name, read_array(text, tag, end, path));
-}
-
-// Reads the structure of the file, everything but the values.
-File read_structure(std::string_view text, const std::string& path) {
-    File file;
-    std::string section;
-    std::optional<Tag> tag = next_tag(text, 0, path);
-    if (!tag || tag->name != "VTKFile") fail(path, "it does not begin as a VTK file. Save it as .vtu.");
-    read_root(*tag, file, path);
-    while ((tag = next_tag(text, tag->end, path))) {
-        if (tag->name == "Piece") {
-            file.pieces.push_back(
-                {count_in(*tag, "NumberOfPoints", path), count_in(*tag, "NumberOfCells", path), {}, {}});
-        } else if (tag->name == "DataArray" || tag->name == "Array") {
-            read_data_array(text, *tag, section, file, path);
-        } else if (tag->name == "AppendedData") {
-            const std::size_t begin = text.find('_', tag->end);
-            if (begin == text.npos) fail(path, "its appended data are missing. The file is truncated: copy it again.");
-            file.is_appended_base64 = tag->value("encoding") != "raw";
-            file.appended = text.substr(begin + 1);
-            return file;
-        } else if (tag->name != "/DataArray" && tag->name != "/Array") {
-            section = tag->name;
-        }
-    }
-    return file;
-}
 
 struct Cells {
     std::vector<std::int64_t> corners, ends, types, neighbours, regions, front, back;

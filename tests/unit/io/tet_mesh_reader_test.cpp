@@ -124,6 +124,18 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
+// VTK writes ranges of vectors into their arrays, behind the values.
+TEST_F(TetFiles, OfVtkMayHaveKeysInArrays) {
+    const Mesh mesh = meshes()[0];
+    const std::string key =
+        "\n<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" length=\"2\">\n"
+        "<Value index=\"0\">0</Value>\n</InformationKey>\n</DataArray>";
+    std::string vtu = to_vtu(mesh.boundary, mesh.tets, {}), with_keys;
+    for (std::size_t at = 0; (at = vtu.find("</DataArray>")) != vtu.npos; vtu = vtu.substr(at + 12))
+        with_keys += vtu.substr(0, at) + key;
+    EXPECT_EQ(read({"keys.vtu", with_keys + vtu}).mesh.tets, mesh.tets);
+}
+
 TEST_F(TetFiles, ThatCannotBeMeasuredAreRefusedByName) {
     const Mesh mesh = meshes()[0];
     const std::string vtu = to_vtu(mesh.boundary, mesh.tets, {}), medit = to_medit(mesh.boundary, mesh.tets);
@@ -140,6 +152,9 @@ TEST_F(TetFiles, ThatCannotBeMeasuredAreRefusedByName) {
     expect_refused({"list.pvtu", replaced(vtu, "type=\"Un", "type=\"PUn")}, "list of parts");
     expect_refused({"image.vti", replaced(vtu, "UnstructuredGrid", "ImageData")}, "ImageData");
     expect_refused({"lz4.vtu", replaced(vtu, "byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order")}, "LZ4");
+    expect_refused({"cut.vtu", vtu.substr(0, vtu.find("offsets"))}, "a tag does not end");
+    expect_refused({"short.vtu", vtu.substr(0, vtu.find("<DataArray", vtu.find("Cells>")))}, "no array");
+    expect_refused({"nested.vtu", replaced(vtu, "</Cells>", "</Cell>")}, "XML is damaged at byte");
     expect_refused({"binary.mesh", std::string("\1\0\0\0\2\0\0\0", 8)}, "no volume mesh");
     expect_refused({"far.msh", msh + "1 4 0 1 2 3 9\n$EndElements\n"}, "names node 9");
     expect_refused({"far.mesh", replaced(medit, "Tetrahedra\n4\n5 ", "Tetrahedra\n4\n9 ")}, "vertex number 8");

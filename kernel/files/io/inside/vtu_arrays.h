@@ -1,4 +1,4 @@
-// The arrays of one of VTK's XML files, and their values.
+// The values of the arrays of one of VTK's XML files.
 //
 // Values are text, or bytes: as base64 in place, or behind the tag AppendedData, there perhaps plain. Bytes come behind
 // their number; if a compressor is named, behind the number of blocks, the size of a block, the size of the last block
@@ -6,54 +6,19 @@
 // itself.
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "base/core/error.h"
 #include "files/io/compressed.h"
 #include "files/io/inside/binary_scanner.h"
 #include "files/io/inside/text_scanner.h"
+#include "files/io/inside/vtu_structure.h"
 
 namespace kerf::vtu {
-
-[[noreturn]] inline void fail(const std::string& path, const std::string& what) {
-    throw Error(ErrorCode::input, path + ": " + what);
-}
-
-struct Array {
-    std::string type, format;
-    std::string_view content;  // between the tags
-    std::int64_t offset = 0;   // place of an appended array
-};
-
-struct Piece {
-    std::int64_t points = 0, cells = 0;
-    std::map<std::string, Array> scalars;  // arrays of PointData
-    std::map<std::string, Array> arrays;  // "Points", "connectivity", ...; of CellData those that cell_array_of() names
-};
-
-// Names of arrays that tell the region of a cell: Kerf's, then those that meshio makes of other formats. The first
-// counts that all pieces have.
-inline constexpr std::array<const char*, 4> region_arrays = {"Region", "gmsh:physical", "medit:ref", "attribute"};
-
-// Names of arrays that tell the regions on the two sides of a triangle, -1: outside.
-inline constexpr const char *front_array = "front", *back_array = "back";
-
-struct File {
-    bool has_long_headers = false, is_compressed = false, is_appended_base64 = false;
-    std::endian order = std::endian::little;
-    std::string_view appended;                          // bytes behind the underscore
-    std::optional<Array> region_names, region_numbers;  // arrays of FieldData
-    std::vector<Piece> pieces;
-};
 
 // Gives the bytes of an array one after the other, from base64 or as they are.
 class Bytes {

@@ -1,8 +1,8 @@
-// Only files of this program are read here, so their XML is searched for attributes, not parsed: every element is on
-// one line with its attributes in double quotes (files/part/appended_vtu.h). An array is any element with
-// format="appended", and its place is its offset behind the line that ends the header. VertexCount stands only in files
-// of order 2, whose points are more than their vertices; its presence tells the order. Counts are limited to 2^56, so
-// that no sum or product of two sizes overflows before it is compared with the size of the file.
+// Only files of this program are read here (files/part/appended_vtu.h): pugixml parses the XML before the raw bytes, so
+// that the elements around these stay open. An array is any element with format="appended", and its place is its offset
+// behind the line that ends the header. VertexCount stands only in files of order 2, whose points are more than their
+// vertices; its presence tells the order. Counts are limited to 2^56, so that no sum or product of two sizes overflows
+// before it is compared with the size of the file.
 #include "files/part/inside/vtu_header.h"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <pugixml.hpp>
 
 #include "base/core/error.h"
 #include "files/part/appended_vtu.h"
@@ -18,53 +19,51 @@ namespace kerf {
 
 namespace {
 
-// Reads Kerf's own XML: elements on one line, attributes in double quotes.
+// Reads Kerf's own XML.
 class HeaderParser {
  public:
-    HeaderParser(std::string_view xml, const std::string& path) : xml_(xml), path_(path) {}
+    HeaderParser(std::string_view xml, const std::string& path) : path_(path) {
+        const pugi::xml_parse_result result =
+            document_.load_buffer(xml.data(), xml.size(), pugi::parse_minimal, pugi::encoding_utf8);
+        if (result.status != pugi::status_end_element_mismatch || result.offset + 1 < std::ssize(xml))
+            fail_damaged_vtu(path, "it does not begin with a complete XML header");
+    }
 
     // Parses the header. `data_position`: place of the first array in the file.
     VtuHeader parse(std::int64_t data_position) const {
         VtuHeader header;
-        const std::string_view piece = element_at(find("<Piece "));
+        const pugi::xml_node grid = document_.child("VTKFile").child("UnstructuredGrid");
+        const pugi::xml_node piece = grid.child("Piece"), fields = grid.child("FieldData");
+        const pugi::xml_node vertex_count = array_of(fields, "VertexCount");
         header.point_count = number(piece, "NumberOfPoints");
         header.cell_count = number(piece, "NumberOfCells");
-        header.boundary_vertex_count = to_number(text_between(find("\"BoundaryVertexCount\""), ">", "<"));
-        header.order = xml_.find(vertex_count_name) == xml_.npos ? 1 : 2;
-        header.vertex_count =
-            header.order == 1 ? header.point_count : to_number(text_between(find(vertex_count_name), ">", "<"));
+        header.boundary_vertex_count = to_number(array_of(fields, "BoundaryVertexCount").child_value());
+        header.order = vertex_count ? 2 : 1;
+        header.vertex_count = header.order == 1 ? header.point_count : to_number(vertex_count.child_value());
         if (header.boundary_vertex_count > header.vertex_count || header.vertex_count > header.point_count)
             fail_damaged_vtu(path_, "it has fewer vertices than its boundary, or fewer points than vertices");
-        constexpr std::string_view marker = "format=\"appended\"";
-        for (std::size_t at = xml_.find(marker); at != xml_.npos; at = xml_.find(marker, at + 1)) {
-            const std::string_view element = element_at(xml_.rfind('<', at));
-            header.arrays.push_back({std::string(attribute(element, "Name")), std::string(attribute(element, "type")),
-                                     number(element, "NumberOfComponents"), number(element, "NumberOfTuples"),
-                                     data_position + number(element, "offset")});
-        }
+        add_arrays(fields, data_position, header);
+        for (const pugi::xml_node& section : piece.children()) add_arrays(section, data_position, header);
         return header;
     }
 
  private:
-    static constexpr std::string_view vertex_count_name = "\"VertexCount\"";
-    std::size_t find(std::string_view text) const {
-        const std::size_t at = xml_.find(text);
-        if (at == xml_.npos) fail_damaged_vtu(path_, fmt::format("its XML header has no {}", text));
-        return at;
+    static pugi::xml_node array_of(const pugi::xml_node& section, const char* name) {
+        return section.find_child_by_attribute("Name", name);
     }
-    std::string_view element_at(std::size_t begin) const { return xml_.substr(begin, xml_.find('>', begin) - begin); }
-    std::string_view text_between(std::size_t from, std::string_view open, std::string_view close) const {
-        const std::size_t begin = xml_.find(open, from) + open.size();
-        return xml_.substr(begin, xml_.find(close, begin) - begin);
+    void add_arrays(const pugi::xml_node& section, std::int64_t data_position, VtuHeader& header) const {
+        for (const pugi::xml_node& array : section.children())
+            if (array.attribute("format").value() == std::string_view("appended"))
+                header.arrays.push_back({attribute(array, "Name"), attribute(array, "type"),
+                                         number(array, "NumberOfComponents"), number(array, "NumberOfTuples"),
+                                         data_position + number(array, "offset")});
     }
-    std::string_view attribute(std::string_view element, std::string_view name) const {
-        const std::string opening = fmt::format(" {}=\"", name);
-        const std::size_t begin = element.find(opening);
-        if (begin == element.npos) fail_damaged_vtu(path_, fmt::format("an XML element lacks {}", name));
-        const std::string_view rest = element.substr(begin + opening.size());
-        return rest.substr(0, rest.find('"'));
+    std::string attribute(const pugi::xml_node& element, const char* name) const {
+        const pugi::xml_attribute found = element.attribute(name);
+        if (!found) fail_damaged_vtu(path_, fmt::format("an XML element lacks {}", name));
+        return found.value();
     }
-    std::int64_t number(std::string_view element, std::string_view name) const {
+    std::int64_t number(const pugi::xml_node& element, const char* name) const {
         return to_number(attribute(element, name));
     }
     std::int64_t to_number(std::string_view text) const {
@@ -76,8 +75,8 @@ class HeaderParser {
         return value;
     }
 
-    std::string_view xml_;
     const std::string& path_;
+    pugi::xml_document document_;
 };
 
 }  // namespace
