@@ -265,8 +265,13 @@ void CaseReader::read_solver(const toml::node& node) {
          {"preconditioner",
           [&](const toml::node& n) {
               solver.preconditioner = table.text(n, "preconditioner");
-              if (solver.preconditioner != "gamg" && solver.preconditioner != "icc")
-                  table.refuse(n, "preconditioner is \"gamg\" or \"icc\".");
+              if (solver.preconditioner == "gamg") {
+                  solver.preconditioner = "multigrid";
+                  result_.notes.push_back(fmt::format("{}, line {}: preconditioner \"gamg\" is \"multigrid\" now.",
+                                                      path_, n.source().begin.line));
+              }
+              if (solver.preconditioner != "multigrid" && solver.preconditioner != "icc")
+                  table.refuse(n, "preconditioner is \"multigrid\" or \"icc\".");
           }},
          {"rtol",
           [&](const toml::node& n) {

@@ -96,9 +96,9 @@ struct MaterialUse {
 };
 
 struct SolverOptions {
-    int order = 0;                        ///< of the elements: 1 or 2; 0: that of the mesh
-    std::string preconditioner = "gamg";  ///< "gamg" or "icc"
-    double rtol = 1e-8;                   ///< for SolveOutcome::residual
+    int order = 0;                             ///< of the elements: 1 or 2; 0: that of the mesh
+    std::string preconditioner = "multigrid";  ///< "multigrid" or "icc"
+    double rtol = 1e-8;                        ///< for SolveOutcome::residual
     int max_iterations = 10000;
     std::string petsc;            ///< further options of PETSc, for experts
     bool inertia_relief = false;  ///< motions that supports leave free are balanced by inertia
@@ -117,6 +117,7 @@ struct ElasticCase {
     std::vector<Temperature> temperatures;
     std::vector<Combination> combinations;
     std::vector<std::string> load_cases;  ///< names in the order of the file
+    std::vector<std::string> notes;       ///< sentences for the user, as about values that are spelled otherwise now
     bool may_float = false;               ///< supports may leave it free without inertia relief; not of the file
 
     /// Returns the names of the cases in the order of the file, without combinations; a single empty one if no case has

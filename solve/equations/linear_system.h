@@ -41,7 +41,7 @@ struct AssemblySeconds {
     double insert = 0;    ///< held degrees of freedom taken out, and PETSc's matrix made
 };
 
-/// PETSc's conjugate gradients on HeldStiffness, preconditioned by our multigrid ("gamg") or by PETSc's incomplete
+/// PETSc's conjugate gradients on HeldStiffness, preconditioned by our multigrid ("multigrid") or by PETSc's incomplete
 /// Cholesky factors of the ranks' blocks ("icc"), until the residual has fallen by rtol: whatever PETSc was told
 /// by SolverOptions::petsc, its residual is compared with rtol after each solution. Bytes of the result are the same
 /// for the same number of ranks; between numbers of ranks they agree within the tolerance.

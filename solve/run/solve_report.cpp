@@ -226,6 +226,7 @@ std::string to_text(const SolveReport& report) {
         text += line_of("material", fmt::format("{}: young {:g}, poisson {:g}, density {:g}{}", use.material.name,
                                                 use.material.young, use.material.poisson, use.material.density,
                                                 use.source.empty() ? "" : "; " + use.source));
+    for (const std::string& note : report.wanted.notes) text += line_of("note", note);
     for (const CaseReport& of_case : report.cases) text += case_text(of_case, report.reacting);
     text += to_text(report.modes);
     if (report.wanted_of_next > 0)

@@ -265,10 +265,22 @@ TEST_F(CaseFile, IsRefusedWithLineAndWayOut) {
     expect_refused(steel_ + "[[load]]\npatch = \"a\"\nforce = [0, 0]", {"3 numbers"});
     expect_refused(steel_ + "[gravity]\n", {"acceleration"});
     expect_refused(steel_ + "[solver]\norder = 3", {"order is 1 or 2"});
-    expect_refused(steel_ + "[solver]\npreconditioner = \"lu\"", {"gamg", "icc"});
+    expect_refused(steel_ + "[solver]\npreconditioner = \"lu\"", {"multigrid", "icc"});
     expect_refused(steel_ + "[solver]\nrtol = 0", {"rtol"});
     expect_refused(steel_ + "[solver]\nmax_iterations = 0", {"max_iterations"});
     expect_refused("[material.a\n", {"line 1"});
+}
+
+// The multigrid had another name in older versions: cases with it are read, and the user is told.
+TEST_F(CaseFile, HasBothSpellingsOfTheMultigrid) {
+    EXPECT_EQ(read(steel_).solver.preconditioner, "multigrid");
+    const ElasticCase now = read(steel_ + "[solver]\npreconditioner = \"multigrid\"");
+    EXPECT_EQ(now.solver.preconditioner, "multigrid");
+    EXPECT_TRUE(now.notes.empty());
+    const ElasticCase old = read(steel_ + "[solver]\npreconditioner = \"gamg\"");
+    EXPECT_EQ(old.solver.preconditioner, "multigrid");
+    ASSERT_EQ(old.notes.size(), 1U);
+    EXPECT_EQ(old.notes[0], folder_.file("case.toml") + ", line 5: preconditioner \"gamg\" is \"multigrid\" now.");
 }
 
 TEST_F(CaseFile, ThatIsMissingIsNamed) {

@@ -146,6 +146,18 @@ TEST_F(KerfSolve, TheSameRanksGiveTheSameBytes) {
     EXPECT_EQ(files[0], files[1]);
 }
 
+// The report has the new name, and the lines for people tell it.
+TEST_F(KerfSolve, AnOldNameOfTheMultigridIsTold) {
+    const std::string file = write_case(std::string(steel) + three_planes +
+                                        "[[load]]\nplane = [1, 0, 0, 1]\nforce = [1, 2, 3]\n"
+                                        "[solver]\npreconditioner = \"gamg\"\n");
+    const ChildResult result = test::run_kerf({"solve", mesh(), "--case", file, "-o", out()});
+    ASSERT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_NE(result.log.find("note        " + file), std::string::npos) << result.log;
+    EXPECT_NE(result.log.find("preconditioner \"gamg\" is \"multigrid\" now."), std::string::npos) << result.log;
+    EXPECT_EQ(report()["solve"]["preconditioner"], "multigrid");
+}
+
 TEST_F(KerfSolve, CasesAreApart) {
     ASSERT_EQ(solve(std::string(steel) + three_planes +
                     "[[load]]\ncase = \"a\"\nplane = [1, 0, 0, 1]\nforce = [1, 0, 0]\n"

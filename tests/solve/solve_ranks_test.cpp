@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Orders, Solution, testing::Values(1, 2));
 TEST_P(Solution, PassesThePatchTest) {
     const Eigen::Matrix3d slope = (Eigen::Matrix3d() << 1, 2, -3, 0.5, -1, 4, 2, 0.25, 3).finished() * 1e-3;
     const auto field = [&](const Vec3& p) -> Vec3 { return slope * p + Vec3(1e-3, 0, -2e-3); };
-    for (const char* preconditioner : {"gamg", "icc"}) {
+    for (const char* preconditioner : {"multigrid", "icc"}) {
         ElasticProblem problem = make_free_problem(*space_, steel_);
         hold_surface(problem, field);
         LinearSystem system(problem, exact(preconditioner));
@@ -164,7 +164,7 @@ TEST_P(Solution, AMultigridIsSymmetricAndPositive) {
 // Whichever rank comes first: what several of them add to one row was once added as it came.
 TEST_P(Solution, HasTheSameBytesEachTime) {
     const auto field = [](const Vec3& p) -> Vec3 { return 1e-3 * Vec3(p.y() * p.x(), p.z(), p.x() * p.x()); };
-    for (const char* preconditioner : {"gamg", "icc"}) {
+    for (const char* preconditioner : {"multigrid", "icc"}) {
         std::vector<double> first;
         for (int late = 0; late < ranks(); ++late) {
             ElasticProblem problem = make_free_problem(*space_, steel_);
@@ -193,7 +193,7 @@ TEST_P(Solution, IsOneOnSomeOfTheRanksOfAProgramWithPetsc) {
         hold_surface(problem, field);
         std::vector<double> u;
         const std::vector<double> no_forces(3 * space_->node_count(), 0);
-        EXPECT_TRUE(LinearSystem(problem, exact("gamg")).solve(no_forces, u).converged);
+        EXPECT_TRUE(LinearSystem(problem, exact("multigrid")).solve(no_forces, u).converged);
         EXPECT_LT(difference(u, field), 1e-10 * 2e-3);
         space_.reset();
     }
@@ -219,7 +219,7 @@ TEST_P(SolutionOfOrderTwo, HasQuadraticFieldsExactly) {
         for (std::size_t i = 0; i < 10; ++i)
             Eigen::Map<Vec3>(&forces[3 * static_cast<std::size_t>(nodes[i])]) += volumes[i] * density;
     });
-    LinearSystem system(problem, exact("gamg"));
+    LinearSystem system(problem, exact("multigrid"));
     EXPECT_TRUE(system.solve(forces, u).converged);
     EXPECT_LT(difference(u, field), 1e-10 * 2e-3);
 }

@@ -49,7 +49,7 @@ std::string way_out(const SolverOptions& solver, const SolveOutcome& outcome) {
                              : fmt::format("The case tells PETSc '{}', which may end it sooner: leave "
                                            "that out. ",
                                            solver.petsc),
-        solver.preconditioner == "gamg" ? "icc" : "gamg");
+        solver.preconditioner == "multigrid" ? "icc" : "multigrid");
 }
 
 // Throws for results that are not finite: each number of a case may be finite, and their products not.
