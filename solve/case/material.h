@@ -49,7 +49,7 @@ inline double contracted(const SymmetricTensor& a, const SymmetricTensor& b) {
     return a.head<3>().dot(b.head<3>()) + 2 * a.tail<3>().dot(b.tail<3>());
 }
 
-/// Returns the stress of a uniaxial tension that distorts as much (von Mises 1913).
+/// Returns the stress of a uniaxial tension that distorts as much (von Mises 1913, vonmises1913).
 double von_mises(const SymmetricTensor& stress);
 
 }  // namespace kerf

@@ -1,6 +1,6 @@
-// Notation: p order of the elements, h edge length, e error of a cell. With e^2 ~ h^2p in a cell that is divided and a
-// number of cells ~ h^-3, the fewest cells for a sum of e^2 have h ~ (h0^2p / (e^2 / volume))^(1 / (2p + 3)) of the
-// present h0.
+// Errors of elements are left alike per cell (Ladeveze, Coffignal and Pelle 1986, ladeveze1986). Notation: p order of
+// the elements, h edge length, e error of a cell. With e^2 ~ h^2p in a cell that is divided and a number of cells ~
+// h^-3, the fewest cells for a sum of e^2 have h ~ (h0^2p / (e^2 / volume))^(1 / (2p + 3)) of the present h0.
 #include "solve/equations/error_sizes.h"
 
 #include <algorithm>

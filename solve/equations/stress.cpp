@@ -1,10 +1,10 @@
 // Stresses at nodes are averages of those of the cells around, weighted by volumes, in each material by itself. The
 // error of a cell is the energy norm of the difference between its own stresses and better ones (Zienkiewicz and Zhu
-// 1987): the averages for order 1, polynomials on patches for order 2 (Zienkiewicz and Zhu 1992, zienkiewicz1992),
-// which tell the error alone. The difference is integrated exactly in straight cells: its square has degree 2 or 4. A
-// reaction is the sum of the internal forces of cells at a held node, less the loads there, less the forces of springs
-// there; each support has its share along the direction in which it pushes. Ranks add up sums at nodes that they share,
-// so that no rank needs the cells of others.
+// 1987, zienkiewicz1987): the averages for order 1, polynomials on patches for order 2 (Zienkiewicz and Zhu 1992,
+// zienkiewicz1992), which tell the error alone. The difference is integrated exactly in straight cells: its square has
+// degree 2 or 4. A reaction is the sum of the internal forces of cells at a held node, less the loads there, less the
+// forces of springs there; each support has its share along the direction in which it pushes. Ranks add up sums at
+// nodes that they share, so that no rank needs the cells of others.
 #include "solve/equations/stress.h"
 
 #include <algorithm>

@@ -32,11 +32,12 @@ struct StressField {
 
 /// Recovers stresses and estimates their error. Stresses at nodes are averages of the cells around, by their volumes.
 /// The error is the difference of the cells' own stresses to others that are nearer to the truth (Zienkiewicz and Zhu
-/// 1987): to these averages for order 1, to polynomials on patches (solve/equations/inside/stress_patches.h) for order
-/// 2, where the estimate is 0.95 to 1.2 of the true error of smooth fields. The polynomials do not become the stresses:
-/// where the surface has kinks they are further off. A node between two materials has a stress in each; a tetrahedron
-/// takes that of its own, and a part has at a vertex that of one of its cells. `number`: the case, whose temperatures
-/// leave no stress where nothing is held. Collective; O(n), however many materials there are.
+/// 1987, zienkiewicz1987): to these averages for order 1, to polynomials on patches
+/// (solve/equations/inside/stress_patches.h) for order 2, where the estimate is 0.95 to 1.2 of the true error of smooth
+/// fields. The polynomials do not become the stresses: where the surface has kinks they are further off. A node between
+/// two materials has a stress in each; a tetrahedron takes that of its own, and a part has at a vertex that of one of
+/// its cells. `number`: the case, whose temperatures leave no stress where nothing is held. Collective; O(n), however
+/// many materials there are.
 StressField recover_stress(const ElasticProblem& problem, const std::vector<double>& displacement,
                            std::size_t number = 0);
 

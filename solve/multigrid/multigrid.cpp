@@ -1,11 +1,12 @@
 // A V-cycle over three kinds of levels. `MiddlesLevel`, of elements of order 2, smooths and corrects by their corners,
-// between which it interpolates (p-multigrid). `SmoothedLevel` smooths and corrects by the next coarser level, of
-// aggregates (solve/multigrid/inside/smoothed_aggregation.h). `CoarsestLevel` gathers the matrix and factorises it on
-// every rank. Coarsening ends at few nodes, where it makes no fewer nodes, or where factors have hardly more numbers
-// than the matrix: a slender body is such a chain of nodes, and smoother and aggregates of aggregates see its bending
-// ever worse. A cycle is a fixed symmetric operator, as conjugate gradients need: the smoother is the same before and
-// after, and restriction is the transpose of prolongation. B is the number of unknowns of a node: 3 displacements, or 6
-// rigid motions of an aggregate; nodes of which everything is held are in no aggregate (`is_apart`).
+// between which it interpolates (p-multigrid: Ronquist and Patera 1987, ronquist1987). `SmoothedLevel` smooths and
+// corrects by the next coarser level, of aggregates (solve/multigrid/inside/smoothed_aggregation.h). `CoarsestLevel`
+// gathers the matrix and factorises it on every rank. Coarsening ends at few nodes, where it makes no fewer nodes, or
+// where factors have hardly more numbers than the matrix: a slender body is such a chain of nodes, and smoother and
+// aggregates of aggregates see its bending ever worse. A cycle is a fixed symmetric operator, as conjugate gradients
+// need: the smoother is the same before and after, and restriction is the transpose of prolongation. B is the number of
+// unknowns of a node: 3 displacements, or 6 rigid motions of an aggregate; nodes of which everything is held are in no
+// aggregate (`is_apart`).
 #include "solve/multigrid/multigrid.h"
 
 #include <algorithm>

@@ -26,10 +26,10 @@ struct MiddleOf {
     std::array<std::int32_t, 2> ends{-1, -1};  ///< the second is negative for a corner
 };
 
-/// Returns a multigrid by smoothed aggregation (Vanek, Mandel, Brezina 1996) with Chebyshev smoothing before and after.
-/// Its first matrix is `matrix`, which has to outlive it; the last one, of few nodes or of a slender body, is
-/// factorised on every rank. `is_held`: of each local degree of freedom, whether it stays zero. Collective. O(n); about
-/// half of the memory of the matrix for order 1. Bytes are the same for the same number of ranks.
+/// Returns a multigrid by smoothed aggregation (Vanek, Mandel and Brezina 1996, vanek1996) with Chebyshev smoothing
+/// before and after. Its first matrix is `matrix`, which has to outlive it; the last one, of few nodes or of a slender
+/// body, is factorised on every rank. `is_held`: of each local degree of freedom, whether it stays zero. Collective.
+/// O(n); about half of the memory of the matrix for order 1. Bytes are the same for the same number of ranks.
 std::unique_ptr<MultigridLevel> make_multigrid(MpiRanks& ranks, const LevelMatrix<3>& matrix, NearNullSpace motions,
                                                const std::vector<std::uint8_t>& is_held);
 
@@ -42,8 +42,9 @@ struct CornerLevel {
     std::vector<MiddleOf> middles;      ///< of each owned node of order 2: the local nodes of which it is the mean
 };
 
-/// Returns a multigrid for elements of order 2, which smooths there and corrects by `corners` (p-multigrid; Ronquist,
-/// Patera 1987). `matrix` and `frames`, the axes of its nodes, have to outlive it; `is_held` is as above.
+/// Returns a multigrid for elements of order 2, which smooths there and corrects by `corners` (p-multigrid; Ronquist
+/// and Patera 1987, ronquist1987). `matrix` and `frames`, the axes of its nodes, have to outlive it; `is_held` is as
+/// above.
 std::unique_ptr<MultigridLevel> make_multigrid(MpiRanks& ranks, const LevelMatrix<3>& matrix,
                                                std::vector<std::uint8_t> is_held, const NodeFrames& frames,
                                                CornerLevel corners);

@@ -16,7 +16,8 @@ constexpr int element_nodes(int order) { return order == 1 ? 4 : most_element_no
 
 /// Lagrange's element of order 1 or 2: nodes at the corners, then on the edges. With nodes that are no midpoints the
 /// element of order 2 is isoparametric: its place is interpolated as its displacement is (Ergatoudis, Irons and
-/// Zienkiewicz 1968). Places in it are those of the tetrahedron of its corners, of which it is an image.
+/// Zienkiewicz 1968, ergatoudis1968). Places in it are those of the tetrahedron of its corners, of which it is an
+/// image.
 class TetElement {
  public:
     using Nodes = std::array<Vec3, most_element_nodes>;
@@ -53,8 +54,8 @@ class TetElement {
 
     /// The rule by which the stiffness is integrated. Straight: exactly, by 1 or 4 points. Curved: 14 points of degree
     /// 5, with which the volume and nodal forces of loads are exact, too. Gradients are no polynomials there; for the
-    /// order of convergence degree 2 would do (Ciarlet and Raviart 1972), but leaves more than the discretisation does
-    /// where cells are strongly curved.
+    /// order of convergence degree 2 would do (Ciarlet and Raviart 1972, ciarlet1972), but leaves more than the
+    /// discretisation does where cells are strongly curved.
     std::span<const TetPoint> rule() const;
 
     /// Returns the matrix whose row i is the gradient of component i of the field with these values at the nodes.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double least_cosine = 0.5;  // 60 degrees: a surface that is seen more from the side is hard to read
 
-// Möller and Trumbore 1997; the distance along the ray, infinity if it passes by.
+// Returns the distance along the ray (Möller and Trumbore 1997, moeller1997), infinity if it passes by.
 double distance_along(const Vec3& from, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
     constexpr double none = INFINITY;
     const Vec3 ab = b - a, ac = c - a, p = direction.cross(ac);

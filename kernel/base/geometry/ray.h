@@ -9,7 +9,7 @@
 namespace kerf {
 
 /// Returns the distance along the line through `origin` to the triangle a, b, c, which it may hit from either side, in
-/// lengths of `direction`, negative behind the origin; infinity if it misses (Möller and Trumbore 1997).
+/// lengths of `direction`, negative behind the origin; infinity if it misses (Möller and Trumbore 1997, moeller1997).
 inline double line_triangle_distance(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b,
                                      const Vec3& c) {
     constexpr double none = std::numeric_limits<double>::infinity();

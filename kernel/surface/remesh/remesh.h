@@ -87,8 +87,8 @@ struct Remeshed {
 /// open edges, in which the facets at an edge of two have it in opposite directions. Deterministic. O(#F log #F) for
 /// the larger of both surfaces.
 ///
-/// The bound of each operation, instead of the whole, follows Cohen et al. 1996; sizes by the distance between folds
-/// are those of Ruppert (1995, ruppert1995).
+/// The bound of each operation, instead of the whole, follows Cohen et al. (1996, cohen1996); sizes by the distance
+/// between folds are those of Ruppert (1995, ruppert1995).
 Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options);
 
 /// Returns the number of facets of the result, within a fifth, where `longest` and `wanted` ask for more than the shape

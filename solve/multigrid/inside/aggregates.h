@@ -14,9 +14,9 @@ struct Aggregates {
     std::int32_t count = 0;
 };
 
-/// Groups nodes as Vanek, Mandel and Brezina (1996) do: a node with all its neighbours, where none of them is taken; a
-/// node that is left joins a neighbour's group, or begins one. `owned` nodes of the rank are grouped among themselves,
-/// in their order; those of `is_apart` are in no group. O(n).
+/// Groups nodes as Vanek, Mandel and Brezina (1996, vanek1996) do: a node with all its neighbours, where none of them
+/// is taken; a node that is left joins a neighbour's group, or begins one. `owned` nodes of the rank are grouped among
+/// themselves, in their order; those of `is_apart` are in no group. O(n).
 template <int B>
 Aggregates aggregate(const SymmetricBlocks<B>& upper, const LowerBlocks& lower, std::int32_t owned,
                      const std::vector<std::uint8_t>& is_apart) {

@@ -14,8 +14,8 @@
 namespace kerf {
 
 /// A fixed polynomial of D^-1 A that is small on the upper part of the spectrum, D being the blocks of the diagonal
-/// (Adams, Brezina, Hu, Tuminaro 2003). The same smoothing before and after a coarse correction leaves the cycle
-/// symmetric.
+/// (Adams, Brezina, Hu and Tuminaro 2003, adams2003). The same smoothing before and after a coarse correction leaves
+/// the cycle symmetric.
 template <int B>
 class ChebyshevSmoother {
  public:

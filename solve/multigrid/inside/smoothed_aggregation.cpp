@@ -1,11 +1,12 @@
-// Smoothed aggregation (Vanek, Mandel and Brezina 1996). Nodes are grouped into aggregates, and the rigid motions of
-// the nodes of an aggregate, made orthonormal, are six columns of the tentative prolongation T; the triangular factor
-// has the motions of the coarse node. One step of Jacobi's method smooths it, P = T - 4 / (3 lambda) D^-1 A T with the
-// blocks D of the diagonal and the largest eigenvalue lambda of D^-1 A, and the coarse matrix is P^T A P. Motions that
-// depend on others, as turns of a single node, are columns of zeros, and so are their rows and columns of the coarse
-// matrix. A is a sum of shares over the ranks: owners add the rows of A T that other ranks have, rank after rank, send
-// the finished rows of P back to the ghosts, and then each rank multiplies its own share, so that the coarse matrix is
-// a sum of shares again. A row of the share needs the blocks below the diagonal, too, which `lower_` finds above it.
+// Smoothed aggregation (Vanek, Mandel and Brezina 1996, vanek1996). Nodes are grouped into aggregates, and the rigid
+// motions of the nodes of an aggregate, made orthonormal, are six columns of the tentative prolongation T; the
+// triangular factor has the motions of the coarse node. One step of Jacobi's method smooths it, P = T - 4 / (3 lambda)
+// D^-1 A T with the blocks D of the diagonal and the largest eigenvalue lambda of D^-1 A, and the coarse matrix is P^T
+// A P. Motions that depend on others, as turns of a single node, are columns of zeros, and so are their rows and
+// columns of the coarse matrix. A is a sum of shares over the ranks: owners add the rows of A T that other ranks have,
+// rank after rank, send the finished rows of P back to the ghosts, and then each rank multiplies its own share, so that
+// the coarse matrix is a sum of shares again. A row of the share needs the blocks below the diagonal, too, which
+// `lower_` finds above it.
 #include "solve/multigrid/inside/smoothed_aggregation.h"
 
 #include <algorithm>

@@ -13,8 +13,8 @@ namespace kerf {
 /// The motions that a matrix hardly resists: for each owned node B rows of six numbers, the rigid motions.
 using NearNullSpace = std::vector<double>;
 
-/// The next coarser level: rigid motions of aggregates, smoothed by one step of Jacobi's method (Vanek, Mandel, Brezina
-/// 1996).
+/// The next coarser level: rigid motions of aggregates, smoothed by one step of Jacobi's method (Vanek, Mandel and
+/// Brezina 1996, vanek1996).
 template <int B>
 struct CoarserLevel {
     Prolongation<B> prolongation;       ///< its rows are owned nodes

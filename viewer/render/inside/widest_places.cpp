@@ -1,5 +1,5 @@
 // The distance to the nearest pixel of another number, along rows and columns, by a pass over the rows in each
-// direction (Rosenfeld and Pfaltz 1966).
+// direction (Rosenfeld and Pfaltz 1966, rosenfeld1966).
 #include "viewer/render/inside/widest_places.h"
 
 #include <algorithm>

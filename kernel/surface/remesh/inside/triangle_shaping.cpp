@@ -4,9 +4,9 @@
 // and sizes found, once, because sizes read from a surface that changes would chase each other. Each pass then splits,
 // smooths, collapses and flips. An edge is long or short by its ratio to its wanted length. `split_ratio` and
 // `collapse_ratio` are so far apart that no half of an edge that is split is collapsed again. Splits take the longest
-// ratio first, but split the longest edge of its facet, and of the facet beyond, and so on (Rivara 1997), which makes
-// no needles. Refusals are remembered with the number of the last operation: a refused element is not tried again until
-// something around it has changed.
+// ratio first, but split the longest edge of its facet, and of the facet beyond, and so on (Rivara 1997, rivara1997),
+// which makes no needles. Refusals are remembered with the number of the last operation: a refused element is not tried
+// again until something around it has changed.
 #include "surface/remesh/inside/triangle_shaping.h"
 
 #include <algorithm>

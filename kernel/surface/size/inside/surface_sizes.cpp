@@ -1,9 +1,9 @@
 // Sizes told from facets, each a list of facets with one size for all three corners. Curvature is integrated around the
-// vertices (Meyer et al. 2003): A is a third of the facets' areas, H = sum over the edges of turn * length / 4, divided
-// by A, the mean curvature, and K = (2 pi - sum of angles) / A the Gaussian one; the larger principal curvature is H +
-// sqrt(H^2 - K). At feature edges K says nothing about the surface on either side and counts as 0. The thickness is the
-// length of a ray from a facet's centroid into the body up to a facet that faces it; facets at the same wall that only
-// turn away from the ray are passed.
+// vertices (Meyer et al. 2003, meyer2003): A is a third of the facets' areas, H = sum over the edges of turn * length /
+// 4, divided by A, the mean curvature, and K = (2 pi - sum of angles) / A the Gaussian one; the larger principal
+// curvature is H + sqrt(H^2 - K). At feature edges K says nothing about the surface on either side and counts as 0. The
+// thickness is the length of a ray from a facet's centroid into the body up to a facet that faces it; facets at the
+// same wall that only turn away from the ray are passed.
 #include "surface/size/inside/surface_sizes.h"
 
 #include <cmath>

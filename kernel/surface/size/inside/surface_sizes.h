@@ -21,8 +21,8 @@ struct CurvatureSizes {
     double segments_per_turn = 0;  ///< edges of a full circle: 2 pi R / segments; 0: none
 };
 /// Returns the facets with a curved vertex, with the size of the most curved of their vertices. The larger principal
-/// curvature at a vertex follows from the mean and Gaussian curvature of its facets (Meyer et al. 2003); edges that
-/// turn by more than 40 degrees are features, and do not count as curvature.
+/// curvature at a vertex follows from the mean and Gaussian curvature of its facets (Meyer et al. 2003, meyer2003);
+/// edges that turn by more than 40 degrees are features, and do not count as curvature.
 std::vector<SizedTriangle> sizes_of_curvature(const SurfaceArrays& surface, const CurvatureSizes& wanted);
 
 /// Returns facets with the depth of the body behind them over `cells_across` as their size. The depth is the distance
