@@ -9,7 +9,6 @@
 #include "solve/case/elastic_case.h"
 #include "solve/equations/modes.h"
 #include "solve/run/inside/case_report.h"
-#include "solve/run/inside/result_tables.h"
 #include "solve/run/solve_listener.h"
 #include "solve/space/surface_selection.h"
 
@@ -30,6 +29,12 @@ struct SolveRequest {
 struct SolveSeconds {
     double read = 0, number = 0, conditions = 0, assemble = 0, setup = 0, solve = 0, modes = 0, recover = 0, write = 0,
            wall = 0;
+};
+
+/// A support, spring or inertia relief, and the point about which its moments are.
+struct Reacting {
+    std::string name;
+    Vec3 place = Vec3::Zero();
 };
 
 struct SolveReport {
@@ -56,6 +61,10 @@ struct SolveReport {
 /// The field of sizes in the result folder: a mesh for --size-field of kerf mesh.
 inline constexpr const char* size_field_file = "size_field.vtu";
 
+/// The tables for spreadsheets in the result folder: CSV (RFC 4180), numbers with all their digits.
+inline constexpr const char* results_file = "results.csv";
+inline constexpr const char* reactions_file = "reactions.csv";
+
 /// Solves and writes the result folder: parts, of the order of the elements, with Displacement, Stress, VonMises and
 /// ErrorIndicator and tables as CSV, or with Mode 1 and so on and modes.csv, mesh.pvtu and report.json, which appears
 /// as a whole or not at all (files/io/run_folder.h). Collective. Throws Error on all ranks alike; Error(convergence) if
@@ -69,5 +78,10 @@ std::vector<PatchSummary> list_patches(const std::string& folder, MpiRanks& rank
 std::string to_json(const SolveReport& report);
 /// Returns some lines for people.
 std::string to_text(const SolveReport& report);
+/// Returns a row for each case, and after it one for each of several regions: `region` is empty for the whole. Unknown
+/// values are empty.
+std::string results_csv(const std::vector<CaseReport>& cases);
+/// Returns a row for each case and support, and after it one for each of several regions.
+std::string reactions_csv(const std::vector<CaseReport>& cases, const std::vector<Reacting>& reacting);
 
 }  // namespace kerf
