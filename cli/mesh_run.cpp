@@ -124,7 +124,6 @@ int run_on_ranks(const MeshRequest& request, const Ranks& ranks, std::unique_ptr
     const RunOptions& options = request.options;
     check_outputs(request, *ranks.communicator);
     events = open_event_log(request, *ranks.communicator);
-    Input input;
     RunReport report;
     {
         ProgressLine progress(request.quiet || !root, events.get(), request.verbose || options.dry_run);
@@ -132,7 +131,7 @@ int run_on_ranks(const MeshRequest& request, const Ranks& ranks, std::unique_ptr
             tell(fmt::format("kerf: The result goes into {}; -o chooses another place.\n", options.output));
         if (const std::string note = binding_note(ranks, options.workers); root && !request.quiet && !note.empty())
             tell(fmt::format("kerf: {}\n", note));
-        report = run(options, ranks.cores_of_rank, *ranks.communicator, input, &progress);
+        report = run(options, ranks.cores_of_rank, *ranks.communicator, &progress);
     }
     const bool is_merged = !request.merged_file.empty() && report.exit_code == 0 && !options.dry_run;
     if (is_merged) merge_result(request, report, *ranks.communicator);

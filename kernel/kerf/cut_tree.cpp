@@ -60,15 +60,13 @@ class CutRecorder : public ProgressListener {
 }  // namespace
 
 CutTree cut_to_tree(const ClosedSurface& surface, const MeshOptions& options) {
-    Input input = surface.input();
-    input.is_ready = true;
     SingleRank alone;
     CutRecorder recorder(options.progress, options.is_cancelled);
     refuse_options_of_surface(options.others);
-    RunOptions request = run_options(input.path, options, "");
+    RunOptions request = run_options(surface.input().path, options, "");
     request.volume = false;
     const auto processors = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
-    const RunPlan plan = plan_run(request, processors, alone, input, &recorder);
+    auto [plan, input] = plan_run(request, processors, alone, &recorder, surface.input());
     Decomposition cut = cut_surface(alone, input, plan.options, &recorder);
     CutTree tree;
     tree.nodes = gather_nodes(alone, cut.nodes, host_name());

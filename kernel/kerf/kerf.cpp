@@ -99,13 +99,6 @@ void refuse_files(const RunOptions& options) {
 
 int all_processors() { return static_cast<int>(std::max<std::size_t>(1, allowed_processors().size())); }
 
-// Returns a copy of the input that may be cut as it is.
-Input ready_input(const ClosedSurface& surface) {
-    Input input = surface.input();
-    input.is_ready = true;
-    return input;
-}
-
 ClosedSurface remeshed_as(const ClosedSurface& surface, const RunOptions& options, const Progress& progress,
                           const IsCancelled& is_cancelled) {
     options.sizes.check();
@@ -229,13 +222,12 @@ void check_sizes(const GivenSizes& given) {
 
 void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder,
                    int cores_of_rank, Communicator& ranks) {
-    Input input = ready_input(surface);
     ProgressListener listener(options.progress, options.is_cancelled);
     const RunOptions request = in_agreement(ranks, [&] {
         refuse_options_of_surface(options.others);
-        return run_options(input.path, options, folder);
+        return run_options(surface.input().path, options, folder);
     });
-    require_success(run(request, cores_of_rank, ranks, input, &listener));
+    require_success(run(request, cores_of_rank, ranks, &listener, surface.input()));
 }
 
 void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder) {
@@ -245,22 +237,20 @@ void mesh_to_folder(const ClosedSurface& surface, const MeshOptions& options, co
 
 void mesh_file_to_folder(const std::string& path, const MeshOptions& options, const std::string& folder) {
     SingleRank alone;
-    Input input;
     ProgressListener listener(options.progress, options.is_cancelled);
-    require_success(run(run_options(path, options, folder), all_processors(), alone, input, &listener));
+    require_success(run(run_options(path, options, folder), all_processors(), alone, &listener));
 }
 
 MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& options) {
     const std::string stem = (fs::temp_directory_path() / "kerf").string();
     const TemporaryFolder folder(stem, "make a folder " + stem + ".XXXXXX", "Set TMPDIR.");
-    Input input = ready_input(surface);
     refuse_options_of_surface(options.others);
-    RunOptions request = run_options(input.path, options, folder.path() + "/run");
+    RunOptions request = run_options(surface.input().path, options, folder.path() + "/run");
     refuse_files(request);
     request.transient = true;
     SingleRank alone;
     ArraysListener listener(options, all_processors());
-    const RunReport report = run(request, all_processors(), alone, input, &listener);
+    const RunReport report = run(request, all_processors(), alone, &listener, surface.input());
     require_success(report);
     listener.mesh.report = to_json(report);
     return std::move(listener.mesh);

@@ -138,8 +138,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
     options.least_parts = ranks.size();
     for (std::int32_t step = 0; step <= request.steps; ++step) {
         options.output = folders.mesh(step);
-        report.input = std::make_unique<Input>();
-        report.mesh = run(options, cores_of_rank, ranks, *report.input, listener);
+        report.mesh = run(options, cores_of_rank, ranks, listener);
         report.solution.reset();
         report.exit_code = report.mesh.exit_code;
         if (report.exit_code != 0) return report;

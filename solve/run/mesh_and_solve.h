@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +32,7 @@ using StepDone = std::function<void(std::size_t number, const MeshAndSolveStep& 
 
 struct MeshAndSolveReport {
     std::vector<MeshAndSolveStep> steps;
-    std::unique_ptr<Input> input;         ///< of the last step
-    RunReport mesh;                       ///< of the last step, refers to `input`
+    RunReport mesh;                       ///< of the last step
     std::optional<SolveReport> solution;  ///< of the last step; none if its mesh is not whole
     bool reached = false;                 ///< the target error is reached
     int exit_code = 0;

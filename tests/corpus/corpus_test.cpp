@@ -91,8 +91,7 @@ TEST_P(WellShapedSurface, IsMeshedAndVerifiedWithoutAFailedCut) {
     for (const std::int32_t parts : {2, 8, 32}) {
         SCOPED_TRACE(testing::Message() << parts << " parts");
         const test::TemporaryFolder folder;
-        Input input;
-        const RunReport report = test::run_parts(GetParam(), folder.file("out"), parts, input);
+        const RunReport report = test::run_parts(GetParam(), folder.file("out"), parts);
         EXPECT_EQ(report.exit_code, 0);
         EXPECT_TRUE(report.verification.passed);
         EXPECT_EQ(report.parts.size(), static_cast<std::size_t>(parts));
@@ -115,10 +114,9 @@ INSTANTIATE_TEST_SUITE_P(Corpus, CadSurface, testing::ValuesIn(cad_surfaces()), 
 
 TEST_P(CadSurface, IsMeshedInEightPartsByTheLaws) {
     const test::TemporaryFolder folder;
-    Input input;
     RunOptions as_it_is;
     as_it_is.remeshing = Remeshing::never;
-    const RunReport report = test::run_parts(GetParam(), folder.file("out"), 8, input, nullptr, as_it_is);
+    const RunReport report = test::run_parts(GetParam(), folder.file("out"), 8, as_it_is);
     EXPECT_EQ(report.exit_code, 0);
     EXPECT_TRUE(report.verification.passed);
     EXPECT_EQ(report.parts.size(), 8u);
@@ -135,11 +133,10 @@ INSTANTIATE_TEST_SUITE_P(Corpus, SliveredSurface,
 TEST_P(SliveredSurface, GetsUsefulCellsByDefault) {
     const std::string path = fs::path(test::corpus_folder()) / "good" / GetParam();
     const test::TemporaryFolder folder;
-    Input input;
-    const RunReport report = test::run_parts(path, folder.file("out"), 8, input);
+    const RunReport report = test::run_parts(path, folder.file("out"), 8);
     EXPECT_EQ(report.exit_code, 0);
-    ASSERT_TRUE(report.input->remeshed);
-    EXPECT_LE(report.input->facets, 12 * report.input->remeshed->facets_before);
+    ASSERT_TRUE(report.input.remeshed);
+    EXPECT_LE(report.input.facets, 12 * report.input.remeshed->facets_before);
     const Distribution& angles = report.mesh.quality.all.measures[0];
     EXPECT_GE(angles.min(), 3);
     EXPECT_GE(angles.percentile(0.01), 20);
@@ -342,8 +339,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, BadSurface, testing::ValuesIn(surfaces("bad")),
 TEST_P(BadSurface, IsRefusedWithAMessageOrMeshedByTheLaws) {
     const test::TemporaryFolder folder;
     try {
-        Input input;
-        const RunReport report = test::run_parts(GetParam(), folder.file("out"), 1, input);
+        const RunReport report = test::run_parts(GetParam(), folder.file("out"), 1);
         EXPECT_EQ(report.exit_code, 0);
         const Input meshed = remesh_where_asked(read_input(GetParam()), {});
         EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), meshed.complex), "");

@@ -63,8 +63,7 @@ std::string run_of(const ExportCase& wanted, const std::string& formats) {
     if (wanted.straight_cuts) options.decompose.cut.contour = ContourMethod::straight;
     if (wanted.cut_by_volume) options.decompose.cut.criterion = Criterion::volume;
     SingleRank rank;
-    Input read;
-    const RunReport report = kerf::run(options, 2, rank, read);
+    const RunReport report = kerf::run(options, 2, rank);
     EXPECT_EQ(report.exit_code, 0) << wanted.name;
     EXPECT_EQ(report.parts.size(), static_cast<std::size_t>(wanted.parts)) << wanted.name;
     return run_folder;

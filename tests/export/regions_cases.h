@@ -51,7 +51,7 @@ class FinishedRegions {
                                  wanted.names.empty() ? body.names : wanted.names, body.facets.patch);
         RunOptions options;
         options.formats = formats;
-        EXPECT_EQ(run_parts("", path(), wanted.parts, input, nullptr, options).exit_code, 0);
+        EXPECT_EQ(run_parts(std::move(input), path(), wanted.parts, options).exit_code, 0);
         parts_ = std::make_unique<RunParts>(path());
         EXPECT_EQ(parts_->outline().parts.size(), static_cast<std::size_t>(wanted.parts));
     }

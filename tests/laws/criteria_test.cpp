@@ -45,7 +45,7 @@ class CutRuns : public testing::TestWithParam<std::string> {
         options.workers = 2;
         options.decompose = decompose;
         SingleRank rank;
-        RunReport report = run(options, 2, rank, input_, listener);
+        RunReport report = run(options, 2, rank, listener);
         EXPECT_EQ(report.exit_code, 0);
         EXPECT_TRUE(report.verification.passed);
         EXPECT_EQ(report.parts.size(), static_cast<std::size_t>(decompose.parts));
@@ -53,7 +53,6 @@ class CutRuns : public testing::TestWithParam<std::string> {
     }
 
     test::TemporaryFolder folder_;
-    Input input_;
 };
 INSTANTIATE_TEST_SUITE_P(Assets, CutRuns, testing::Values("bearing_cap_14k", "pipe_with_holes", "sinter_packing"),
                          [](const auto& param) { return param.param; });

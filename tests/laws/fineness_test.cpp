@@ -18,10 +18,9 @@ class AnyFineness : public testing::Test {
         std::string hash;
     };
     Outcome outcome_of(const std::string& input, const std::vector<OptionText>& texts) {
-        Input read;
         RunOptions options;
         set_options(options, texts, "the test");
-        const RunReport report = test::run_parts(input, folder_.file("out"), 2, read, nullptr, options);
+        const RunReport report = test::run_parts(input, folder_.file("out"), 2, options);
         EXPECT_EQ(report.exit_code, 0);
         EXPECT_TRUE(report.verification.passed);
         return {report.mesh.tets, report.mesh.hash};

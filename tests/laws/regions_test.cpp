@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, SeveralRegions, testing::ValuesIn(test::touchin
 void expect_laws(Input input, const Complex& complex, std::int32_t parts) {
     SCOPED_TRACE(testing::Message() << parts << " parts");
     const test::TemporaryFolder folder;
-    const RunReport report = test::run_parts("", folder.file("out"), parts, input);
+    const RunReport report = test::run_parts(std::move(input), folder.file("out"), parts);
     test::expect_verified(report, std::max(parts, complex.region_count()));
     EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), complex), "");
     const RunParts of_run(folder.file("out"));
@@ -73,11 +73,11 @@ TEST(RemeshedRegions, ObeyEveryLaw) {
     options.remeshing = Remeshing::always;
     Input input = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
     const test::TemporaryFolder folder;
-    const RunReport report = test::run_parts("", folder.file("out"), 10, input, nullptr, options);
+    const RunReport report = test::run_parts(std::move(input), folder.file("out"), 10, options);
     test::expect_verified(report, 10);
-    ASSERT_TRUE(input.remeshed);
-    EXPECT_NE(input.complex.facet_count(), static_cast<std::int32_t>(body.facets.facets.size()));
-    EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), input.complex), "");
+    ASSERT_TRUE(report.input.remeshed);
+    EXPECT_NE(report.input.complex.facet_count(), static_cast<std::int32_t>(body.facets.facets.size()));
+    EXPECT_EQ(test::broken_laws(test::read_parts(folder.file("out")), report.input.complex), "");
     const RunParts of_run(folder.file("out"));
     EXPECT_EQ(test::broken_sharing(of_run), "");
     EXPECT_EQ(test::broken_edge_nodes(SecondOrderParts(of_run, number_edges(of_run))), "");
@@ -91,10 +91,10 @@ TEST(SizesOfRegions, HoldInTheirRegionAndOnItsWalls) {
     options.sizes.size = 1.5;
     options.sizes.in_region = {"region_1=0.5"};
     const test::TemporaryFolder folder;
-    const RunReport report = test::run_parts("", folder.file("out"), 5, input, nullptr, options);
+    const RunReport report = test::run_parts(std::move(input), folder.file("out"), 5, options);
     test::expect_verified(report, 5);
     const std::vector<Part> parts = test::read_parts(folder.file("out"));
-    EXPECT_EQ(test::broken_laws(parts, input.complex), "");
+    EXPECT_EQ(test::broken_laws(parts, report.input.complex), "");
     std::array<double, 2> longest = {0, 0}, tets = {0, 0};
     for (const Part& part : parts) {
         const auto region = static_cast<std::size_t>(part.region_of(0).value());
@@ -111,7 +111,7 @@ TEST(SizesOfRegions, HoldInTheirRegionAndOnItsWalls) {
     EXPECT_GT(tets[1], 3 * tets[0]);
     options.sizes.in_region = {"region_2=0.5"};
     Input again = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
-    EXPECT_THROW(test::run_parts("", folder.file("again"), 5, again, nullptr, options), Error);
+    EXPECT_THROW(test::run_parts(std::move(again), folder.file("again"), 5, options), Error);
 }
 
 // Of edges inside of a region, whose ends no other region and no surface has.
@@ -146,7 +146,7 @@ TEST(SizesOfRegions, HoldInsideOfTheRegion) {
             Input input =
                 make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
             const test::TemporaryFolder folder;
-            test::expect_verified(test::run_parts("", folder.file("out"), count, input, nullptr, options), count);
+            test::expect_verified(test::run_parts(std::move(input), folder.file("out"), count, options), count);
             const std::vector<Part> parts = test::read_parts(folder.file("out"));
             EXPECT_NEAR(median_edge_inside(parts, RegionIndex(0)), of_the_other, 0.2 * of_the_other);
             EXPECT_NEAR(median_edge_inside(parts, RegionIndex(1)), size, 0.2 * size);

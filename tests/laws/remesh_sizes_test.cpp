@@ -131,7 +131,7 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
     const TemporaryFolder folder;
     const Soup soup = box(Vec3::Zero(), Vec3(10, 10, 10), 1);
     write_off(folder.file("input.off"), soup.vertices, soup.facets);
-    std::vector<Input> inputs;
+    std::vector<RunReport> reports;
     for (const std::int32_t parts : {1, 8}) {
         SCOPED_TRACE(parts);
         RunOptions options;
@@ -144,7 +144,7 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
         options.sizes.size = 0.5;
         options.sizes.inside = {"sphere:3,4,10,1=0.15"};
         SingleRank rank;
-        const RunReport report = run(options, 2, rank, inputs.emplace_back());
+        const RunReport& report = reports.emplace_back(run(options, 2, rank));
         ASSERT_EQ(report.exit_code, 0);
         EXPECT_TRUE(report.verification.passed);
         ASSERT_EQ(report.mesh.sizes.by_patch.size(), 1U);
@@ -154,8 +154,8 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
             EXPECT_GT(report.mesh.sizes.interfaces.share_obeyed(), 0.9);
         }
     }
-    EXPECT_EQ(inputs[0].facets, inputs[1].facets);
-    EXPECT_EQ(inputs[0].area, inputs[1].area);
+    EXPECT_EQ(reports[0].input.facets, reports[1].input.facets);
+    EXPECT_EQ(reports[0].input.area, reports[1].input.area);
 }
 
 TEST(UsualDeviation, IsATwentiethOfTheShortestWantedEdge) {

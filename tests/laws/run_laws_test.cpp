@@ -136,8 +136,7 @@ TEST_P(Transformed, OrderOfVerticesAndFacetsKeepsTheLaws) {
 // The checks above must be able to fail.
 TEST(RunLaws, EveryDamageIsFound) {
     const test::TemporaryFolder folder;
-    Input read;
-    test::run_parts(test::asset_path("hollow_box"), folder.file("out"), 3, read);
+    test::run_parts(test::asset_path("hollow_box"), folder.file("out"), 3);
     const std::vector<Part> good = test::read_parts(folder.file("out"));
     const SurfaceArrays input = test::asset_surface("hollow_box").arrays();
     ASSERT_EQ(test::broken_laws(good, input), "");

@@ -57,10 +57,7 @@ class SecondOrder : public testing::TestWithParam<std::string> {
         options.workers = workers;
         options.decompose.parts = 5;
         SingleRank rank;
-        Input input;
-        RunReport report = kerf::run(options, workers, rank, input, nullptr);
-        report.input = nullptr;
-        return report;
+        return kerf::run(options, workers, rank);
     }
     FolderVerification verified(const std::string& name) {
         VerifyOptions options;

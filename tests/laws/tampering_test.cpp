@@ -69,9 +69,7 @@ class Tampering : public testing::TestWithParam<int> {
             RunOptions options;
             options.order = order;
             options.curving = Curving::straight;
-            Input input;
-            ASSERT_EQ(
-                test::run_parts(test::asset_path("hollow_box"), good(order), 3, input, nullptr, options).exit_code, 0);
+            ASSERT_EQ(test::run_parts(test::asset_path("hollow_box"), good(order), 3, options).exit_code, 0);
         }
     }
     static void TearDownTestSuite() {

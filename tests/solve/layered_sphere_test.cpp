@@ -75,10 +75,9 @@ Input sphere_input(int subdivisions) {
 
 // A folder with the mesh, and the solution in out/.
 void solve_sphere(const test::TemporaryFolder& folder, int subdivisions) {
-    Input input = sphere_input(subdivisions);
     RunOptions options;
     options.sizes.size = 1.6 / (1 << (subdivisions - 1));
-    ASSERT_EQ(test::run_parts("", folder.file("mesh"), 4, input, nullptr, options).exit_code, 0);
+    ASSERT_EQ(test::run_parts(sphere_input(subdivisions), folder.file("mesh"), 4, options).exit_code, 0);
     std::ofstream file(folder.file("case.toml"));
     for (const Material& material : layer_materials)
         file << "[material." << material.name << "]\nyoung = " << material.young << "\npoisson = " << material.poisson

@@ -44,7 +44,7 @@ class BarOfTwo : public testing::Test {
         }
         Input input = make_input(bar.facets.vertices, bar.facets.facets, bar.sides, {"rubber", "steel"}, patch,
                                  {"held", "pulled", "sides"});
-        ASSERT_EQ(test::run_parts("", folder_->file(name), 6, input).exit_code, 0);
+        ASSERT_EQ(test::run_parts(std::move(input), folder_->file(name), 6).exit_code, 0);
     }
     static void TearDownTestSuite() { folder_.reset(); }
 

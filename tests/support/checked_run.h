@@ -37,12 +37,10 @@ struct FinishedRun {
 inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, RunListener* listener = nullptr,
                                  bool improve = true) {
     const TemporaryFolder folder;
-    Input read;
     FinishedRun run;
     RunOptions options;
     options.mesher.improve = improve;
-    run.report = run_parts(input, folder.file("out"), parts, read, listener, options);
-    run.report.input = nullptr;  // ends with this function
+    run.report = run_parts(input, folder.file("out"), parts, options, listener);
     expect_verified(run.report, parts);
     run.parts = read_parts(folder.file("out"));
     EXPECT_EQ(run.parts.size(), run.report.parts.size());

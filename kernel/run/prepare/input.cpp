@@ -250,7 +250,6 @@ Input input_of_arrays(Soup soup, const InputOptions& options, const std::functio
     scale(soup, options.scale);
     Input input = to_input(check_soup(std::move(soup), options, 1, check_cancelled), name_of_arrays, options, "");
     input.file_hash = hash;
-    input.is_ready = true;
     return input;
 }
 

@@ -116,7 +116,6 @@ struct Input : InputMeasures {
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< see Soup; empty: none
     std::vector<std::string> notes;                          ///< remarks of the reader and of later stages
     bool is_cad = false;                                     ///< whether the file has curved faces, not triangles
-    bool is_ready = false;                                   ///< whether run() takes it as it is, and reads no file
     /// Edges of the surface as it was read that are creases of a CAD model, flat as they may be.
     std::vector<UndirectedEdge> creases;
     Complex complex;

@@ -231,7 +231,7 @@ class ReportLines {
 
 // Returns the regions, the largest first; of many, the others as a number.
 std::string regions_text(const RunReport& report) {
-    const Input& input = *report.input;
+    const Input& input = report.input;
     if (input.regions.empty()) return "";
     constexpr std::size_t most = 6;
     std::vector<std::int64_t> tets(input.regions.size(), 0);
@@ -251,7 +251,7 @@ std::string regions_text(const RunReport& report) {
 }
 
 void add_input(ReportLines& lines, const RunReport& report, bool all) {
-    const Input& input = *report.input;
+    const Input& input = report.input;
     if (all)
         lines.add("input",
                   fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
@@ -312,7 +312,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
     if (all && !report.mesh.sizes.empty())
         lines.add("sizes",
-                  size_text(report.mesh.sizes, report.input->patch_names, !report.options.mesher.size.is_constant()));
+                  size_text(report.mesh.sizes, report.input.patch_names, !report.options.mesher.size.is_constant()));
     const Distribution& dihedral = report.mesh.quality.all.measures[0];
     const Distribution& ratio = report.mesh.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
@@ -323,7 +323,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
 }
 
 std::string volume_text(const RunReport& report) {
-    const Input& input = *report.input;
+    const Input& input = report.input;
     const double before = volume_before_remeshing(input);
     const double volume = input.volume + (report.curve ? report.curve->volume_gain : 0);
     const bool is_as_read = input.ladder.steps.empty() && !input.wrapped;

@@ -164,7 +164,7 @@ struct FolderReport {
 };
 
 struct RunReport {
-    const Input* input = nullptr;
+    Input input;  ///< facts about the surface that was cut; the surface itself only if it has several regions
     RunOptions options;
     std::optional<FoundSize> found_size;  ///< size that was found for the number of tetrahedra that was asked for
     int ranks = 1;

@@ -189,7 +189,7 @@ Json parts_json(const RunReport& report) {
     Json json = Json::array();
     for (const PartReport& part : report.parts) {
         json.push_back(part_json(part, report.options.mesher.name));
-        if (!report.input->regions.empty()) json.back()["region"] = part.region.value();
+        if (!report.input.regions.empty()) json.back()["region"] = part.region.value();
     }
     return json;
 }
@@ -239,7 +239,7 @@ Json sizes_json(const RunReport& report) {
     if (ratios.empty()) return nullptr;
     Json patches = Json::object();
     for (const auto& [patch, edges] : ratios.by_patch)
-        patches[report.input->patch_names[static_cast<std::size_t>(patch)]] = ratios_json(edges);
+        patches[report.input.patch_names[static_cast<std::size_t>(patch)]] = ratios_json(edges);
     return {{"inside", ratios_json(ratios.inside)},
             {"interfaces", ratios.interfaces.count() > 0 ? ratios_json(ratios.interfaces) : Json()},
             {"patches", patches}};
@@ -308,7 +308,7 @@ std::string to_json(const RunReport& report) {
     Json json = {
         {"schema", 1},
         {"kerf", version},
-        {"input", input_json(*report.input)},
+        {"input", input_json(report.input)},
         {"options", options_json(report.options)},
         {"tree", array_of(report.cut.nodes, node_json)},
         {"parts", parts_json(report)},

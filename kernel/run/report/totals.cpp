@@ -26,7 +26,7 @@ double error_of_splits(const RunReport& report) {
     NodeId last = 1;
     for (const PartReport& part : report.parts) last = std::max(last, part.id);
     const auto levels = static_cast<double>(std::bit_width(static_cast<std::uint64_t>(last)));
-    return levels * 16 * 0x1p-53 * report.input->largest_coordinate * report.input->area;
+    return levels * 16 * 0x1p-53 * report.input.largest_coordinate * report.input.area;
 }
 
 // The volume of a region, and the sum of those of its parts.
@@ -39,7 +39,7 @@ struct RegionVolume {
 };
 
 std::vector<RegionVolume> volumes_of_regions(const RunReport& report) {
-    const Input& input = *report.input;
+    const Input& input = report.input;
     std::vector<RegionVolume> volumes;
     for (const InputRegion& region : input.regions) volumes.push_back({region.volume, 0, region.volume_error});
     if (volumes.empty()) volumes.push_back({input.volume, 0, input.volume_error});
@@ -76,7 +76,7 @@ RunVerification verify_parts(const RunReport& report) {
         [](const RegionVolume& a, const RegionVolume& b) { return a.share_of_bound() < b.share_of_bound(); });
     v.volume_rel_error = worst->relative_error();
     v.volume_rel_bound = worst->relative_bound();
-    v.changed_volumes = count_changed_volumes(*report.input);
+    v.changed_volumes = count_changed_volumes(report.input);
     v.passed = parts_hold && v.all_hold();
     return v;
 }

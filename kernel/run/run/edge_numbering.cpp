@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "files/part/part_indices.h"
 #include "run/run/inside/range_of_rank.h"
 
 namespace kerf {
@@ -20,17 +19,6 @@ EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, 
         return told;
     });
     return EdgeNumbers(outline, gather_items(ranks, own));
-}
-
-void count_nodes(const SecondOrderParts& parts, RunReport& report) {
-    report.mesh.nodes = parts.outline().nodes();
-    report.mesh.curved_nodes = std::ssize(parts.curved().ids);
-    std::vector<NodeId> ids;
-    for (const PartReport& part : report.parts) ids.push_back(part.id);
-    const PartIndices index(ids);
-    for (const PartExtent& extent : parts.outline().parts)
-        report.parts[static_cast<std::size_t>(index.of(extent.id).value())].mesh_nodes =
-            extent.vertices + extent.edge_nodes;
 }
 
 }  // namespace kerf

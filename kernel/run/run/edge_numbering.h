@@ -12,7 +12,4 @@ namespace kerf {
 /// Collective; the same on all ranks. Throws Error on every rank alike.
 EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, RunListener* listener);
 
-/// Enters in the report the number of nodes of the mesh, and that of each part that was meshed.
-void count_nodes(const SecondOrderParts& parts, RunReport& report);
-
 }  // namespace kerf

@@ -1,6 +1,8 @@
 // The order of the stages, written once: the command line, the MPI ranks, the viewer and the tests call it.
 #pragma once
 
+#include <optional>
+
 #include "base/parallel/communicator.h"
 #include "run/report/listener.h"
 #include "run/report/report.h"
@@ -15,9 +17,8 @@ namespace kerf {
 /// exit_code 8. An error that leaves no result, such as a full disk, is thrown as Error on every rank alike; the run
 /// folder then does not exist, but finished parts wait beside it for the next run into it (files/io/run_folder.h),
 /// which has only the other parts to do. With request.dry_run the run ends after on_parts() of the listener, and
-/// nothing is written but the trace. `input` receives the surface that the report refers to. A surface that is there
-/// already (Input::is_ready) is taken instead of a file.
-RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
-              RunListener* listener = nullptr);
+/// nothing is written but the trace. `surface`: taken instead of a file, by the first rank.
+RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks, RunListener* listener = nullptr,
+              std::optional<Input> surface = {});
 
 }  // namespace kerf

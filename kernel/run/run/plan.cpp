@@ -2,18 +2,21 @@
 // its units, a forecast refuses a surface that could not be filled before it is remeshed, then the surface is remeshed
 // and sized; nodes of second order are functions of the surface before it is cut, so they are made next; sizes are
 // taken on the surface that is cut, K follows from its sized volume, and the budget is checked again. The other ranks
-// get the result as bytes (run/run/inside/told_plan.h). Two things are agreed on before that: the cores of a rank are
-// the fewest of any rank, because the defaults of K and workers depend on them and must not differ; and the first rank
-// borrows the processors of the sleeping ranks of its host. "Sized volume" is the volume in which each place counts by
-// the size that is wanted there.
+// get the result as bytes. Two things are agreed on before that: the cores of a rank are the fewest of any rank,
+// because the defaults of K and workers depend on them and must not differ; and the first rank borrows the processors
+// of the sleeping ranks of its host. "Sized volume" is the volume in which each place counts by the size that is wanted
+// there.
 #include "run/run/plan.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "base/core/bytes.h"
 #include "base/core/host_name.h"
 #include "base/core/threads.h"
 #include "base/parallel/on_root.h"
@@ -26,7 +29,6 @@
 #include "run/prepare/size_reader.h"
 #include "run/request/saved_run.h"
 #include "run/run/inside/forecast.h"
-#include "run/run/inside/told_plan.h"
 
 namespace kerf {
 
@@ -134,19 +136,19 @@ class ProcessorsOfHost {
 };
 
 // The options as far as a rank resolves them by itself.
-RunOptions resolved_request(const RunOptions& request, int cores_of_rank, const Input& input) {
+RunOptions resolved_request(const RunOptions& request, int cores_of_rank, const std::optional<Input>& surface) {
     RunOptions options = request;
-    if (input.is_ready) options.input = input.path;
+    if (surface) options.input = surface->path;
     options = resolved(std::move(options), cores_of_rank);
     const bool meshes = options.volume && !options.dry_run;
     if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
     return options;
 }
 
-// Reads the input that plan.options name, and completes them.
-void plan_surface(RunPlan& plan, Input& input, int ranks, StageListener* listener) {
+// Takes the surface, or reads the input that plan.options name, and completes these.
+PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, StageListener* listener) {
     RunOptions wanted = std::move(plan.options);
-    if (!std::exchange(input.is_ready, false)) input = read_input(wanted.input, wanted.input_options, listener);
+    Input input = surface ? *std::move(surface) : read_input(wanted.input, wanted.input_options, listener);
     refuse_changed_input(wanted, input.file_hash);
     wanted.input_options.repairs.weld_tolerance = input.ladder.preparation(RepairKind::merge).amount;
     wanted = with_lengths(std::move(wanted), input.diagonal);
@@ -169,18 +171,113 @@ void plan_surface(RunPlan& plan, Input& input, int ranks, StageListener* listene
         input.notes.push_back(fmt::format("The {} regions are a part each, though -n {} asks for fewer parts.",
                                           input.complex.region_count(), wanted_parts));
     plan.options = std::move(options);
+    return {std::move(plan), std::move(input)};
+}
+
+// Lists the fields of the message from the first rank to the others, for writing and for reading.
+template <class Archive>
+class PlanArchive {
+ public:
+    explicit PlanArchive(Archive& archive) : archive_(archive) {}
+
+    void plan(RunPlan& plan, std::vector<double>& largest_of_regions) {
+        RunOptions& options = plan.options;
+        archive_(options.input, options.decompose.parts, options.mesher, largest_of_regions);
+        length(options.input_options.weld_tolerance);
+        length(options.deviation);
+        sizes(options.sizes);
+        found(plan.found_size);
+        archive_(plan.surface_nodes.edges, plan.surface_nodes.points, plan.surface_nodes.surface_edges);
+    }
+    void input(Input& input) {
+        archive_(input.path, input.file_hash, input.vertices, input.facets, input.components, input.genus);
+        archive_(input.volume, input.volume_error, input.area, input.largest_coordinate, input.diagonal);
+        archive_(input.weld_tolerance, input.patch_names, input.patch_colours, input.notes, input.is_cad);
+        regions(input.regions);
+    }
+
+ private:
+    void length(Length& length) {
+        double number = length.number();
+        bool is_percent = length.is_percent();
+        archive_(number, is_percent);
+        length = is_percent ? Length::percent(number) : Length(number);
+    }
+    void sizes(SizeOptions& sizes) {
+        length(sizes.size);
+        length(sizes.chord_error);
+        archive_(sizes.max_volume, sizes.cells, sizes.fineness, sizes.inside, sizes.on, sizes.near, sizes.in_region);
+        archive_(sizes.growth, sizes.segments_per_turn, sizes.cells_across);
+    }
+    void regions(std::vector<InputRegion>& regions) {
+        auto count = static_cast<std::uint64_t>(regions.size());
+        archive_(count);
+        regions.resize(count);
+        for (InputRegion& region : regions)
+            archive_(region.facets, region.components, region.volume, region.volume_error, region.area);
+    }
+    void found(std::optional<FoundSize>& found) {
+        FoundSize size = found.value_or(FoundSize());
+        bool is_found = found.has_value();
+        archive_(is_found, size.cells, size.size, size.tets, size.remeshings);
+        found = is_found ? std::optional(size) : std::nullopt;
+    }
+
+    Archive& archive_;
+};
+
+// Returns the plan and its input as bytes. O(#F) for several regions, else a few kilobytes beside sources of sizes, and
+// nodes on edges.
+Bytes bytes_of_plan(const PlannedRun& run) {
+    const auto& [plan, input] = run;
+    Bytes bytes;
+    ByteWriter writer(bytes);
+    PlanArchive<ByteWriter> archive(writer);
+    // An archive that writes bytes does not change its fields.
+    std::vector<double> largest_of_regions = plan.options.decompose.region_sizes.max_volumes();
+    archive.plan(const_cast<RunPlan&>(plan), largest_of_regions);
+    archive.input(const_cast<Input&>(input));
+    const std::span<const std::string> names = input.complex.region_names();
+    const std::span<const FacetSides> sides = input.complex.all_sides();
+    writer(std::vector<std::string>(names.begin(), names.end()));
+    if (!names.empty()) writer(input.complex.arrays(), std::vector<FacetSides>(sides.begin(), sides.end()));
+    return bytes;
+}
+
+// Returns the plan and its input from such bytes. `own`: with the options as far as a rank resolves them by itself.
+// O(#F log #F) for several regions.
+PlannedRun told_plan(const Bytes& told, RunPlan own) {
+    PlannedRun run{std::move(own), {}};
+    auto& [plan, input] = run;
+    ByteReader reader(told);
+    PlanArchive<ByteReader> archive(reader);
+    std::vector<double> largest_of_regions;
+    archive.plan(plan, largest_of_regions);
+    plan.options = with_sizes(std::move(plan.options), SizeField(plan.options.mesher.size));
+    plan.options.decompose.region_sizes = RegionSizes(std::move(largest_of_regions));
+    archive.input(input);
+    std::vector<std::string> names;
+    reader(names);
+    if (names.empty()) return run;
+    SurfaceArrays facets;
+    std::vector<FacetSides> sides;
+    reader(facets, sides);
+    input.complex = Complex(std::move(facets), std::move(sides), std::move(names));
+    return run;
 }
 
 }  // namespace
 
-RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
-                 StageListener* listener) {
+PlannedRun plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, StageListener* listener,
+                    std::optional<Input> surface) {
     // Hosts may differ, but the defaults of K and workers must not.
     for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
     const ProcessorsOfHost host(ranks);
-    RunPlan plan;
+    PlannedRun run;
+    RunPlan& plan = run.plan;
     in_agreement(ranks, [&] {
-        plan.options = resolved_request(request, cores_of_rank, input);
+        plan.options = resolved_request(request, cores_of_rank, surface);
+        if (ranks.rank() != 0) surface.reset();
         const bool meshes = plan.options.volume && !plan.options.dry_run;
         if (meshes && !plan.options.transient) plan.worker_hash = describe_file("", plan.options.worker_program).hash;
         if (listener) listener->on_progress("read", 0, 1);
@@ -188,14 +285,14 @@ RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ran
     });
     const int threads = plan.options.workers;
     const auto of_root = [&] {
-        host.lend(threads, [&] { plan_surface(plan, input, ranks.size(), listener); });
-        return ranks.size() > 1 ? bytes_of_plan(plan, input) : Bytes();
+        host.lend(threads, [&] { run = plan_surface(std::move(plan), std::move(surface), ranks.size(), listener); });
+        return ranks.size() > 1 ? bytes_of_plan(run) : Bytes();
     };
     const Bytes told = bytes_of_root(ranks, of_root, [&] { end_if_cancelled(listener); });
     in_agreement(ranks, [&] {
-        if (ranks.rank() != 0) take_plan(told, plan, input);
+        if (ranks.rank() != 0) run = told_plan(told, std::move(plan));
     });
-    return plan;
+    return run;
 }
 
 }  // namespace kerf

@@ -22,15 +22,21 @@ struct RunPlan {
     SurfaceNodes surface_nodes = {};  ///< nodes on edges, for cells of order 2; else none
 };
 
-/// Reads the surface into `input`, unless it is there already (Input::is_ready), remeshes it where that is asked for,
+/// A plan, and the surface that it is about.
+struct PlannedRun {
+    RunPlan plan;
+    Input input;  ///< on other ranks than the first: numbers and names, and the surface only if it has several regions;
+                  ///< repairs and remeshing are known to the first rank alone
+};
+
+/// Reads the surface, or takes the `surface` of the first rank instead of a file, remeshes it where that is asked for,
 /// puts it on the faces of a CAD file where cells of order 2 are to have curved edges (run/prepare/surface_nodes.h),
 /// and resolves the request. Throws Error on every rank alike; a run that cannot end well (check_budget()) is refused
 /// before the surface is remeshed or cut.
 ///
 /// Collective; the same plan on every rank. The first rank does the work, with the processors of all ranks of its host,
-/// which sleep meanwhile. The `input` of other ranks gets numbers and names, and the surface only if it has several
-/// regions: repairs and remeshing are known to the first rank alone.
-RunPlan plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, Input& input,
-                 StageListener* listener);
+/// which sleep meanwhile.
+PlannedRun plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, StageListener* listener,
+                    std::optional<Input> surface = {});
 
 }  // namespace kerf

@@ -46,8 +46,6 @@ TEST(MakeInput, IsThatOfAFile) {
     EXPECT_EQ(made.complex.arrays().patch, read.complex.arrays().patch);
     EXPECT_EQ(made.patch_names, read.patch_names);
     EXPECT_EQ(made.volume, read.volume);
-    EXPECT_TRUE(made.is_ready);
-    EXPECT_FALSE(read.is_ready);
 }
 
 TEST(MakeInput, PatchesMayHaveNoNamesOrNotBeThere) {

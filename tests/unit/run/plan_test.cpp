@@ -11,16 +11,10 @@
 namespace kerf {
 namespace {
 
-struct PlanOfRank {
-    RunPlan plan;
-    Input input;
-};
-
-std::vector<PlanOfRank> plans_of_ranks(int size, const RunOptions& request) {
-    std::vector<PlanOfRank> plans(static_cast<std::size_t>(size));
+std::vector<PlannedRun> plans_of_ranks(int size, const RunOptions& request) {
+    std::vector<PlannedRun> plans(static_cast<std::size_t>(size));
     test::run_ranks(size, [&](Communicator& ranks) {
-        PlanOfRank& own = plans[static_cast<std::size_t>(ranks.rank())];
-        own.plan = plan_run(request, 2 + ranks.rank(), ranks, own.input, nullptr);
+        plans[static_cast<std::size_t>(ranks.rank())] = plan_run(request, 2 + ranks.rank(), ranks, nullptr);
     });
     return plans;
 }
@@ -34,7 +28,7 @@ bool have_same_sizes(const SizeField& a, const SizeField& b, const Vec3& low, do
     return true;
 }
 
-void expect_same(const PlanOfRank& a, const PlanOfRank& b) {
+void expect_same(const PlannedRun& a, const PlannedRun& b) {
     EXPECT_TRUE(to_bytes(option_texts(a.plan.options, false)) == to_bytes(option_texts(b.plan.options, false)));
     const DecomposeOptions &cuts = a.plan.options.decompose, &others = b.plan.options.decompose;
     EXPECT_EQ(cuts.parts, others.parts);
@@ -70,9 +64,9 @@ class PlanOnRanks : public testing::Test {
         return options;
     }
     static void expect_same_on_all(const RunOptions& request) {
-        const std::vector<PlanOfRank> plans = plans_of_ranks(3, request);
+        const std::vector<PlannedRun> plans = plans_of_ranks(3, request);
         EXPECT_GT(plans[0].input.facets, 0);
-        for (const PlanOfRank& other : {plans[1], plans[2]}) expect_same(plans[0], other);
+        for (const PlannedRun& other : {plans[1], plans[2]}) expect_same(plans[0], other);
     }
     test::TemporaryFolder folder_;
 };
@@ -114,9 +108,8 @@ TEST_F(PlanOnRanks, HasTheSurfaceOfRegionsEverywhere) {
 
 TEST_F(PlanOnRanks, AnErrorOfTheFirstRankIsThrownOnAll) {
     test::run_ranks(3, [&](Communicator& ranks) {
-        Input input;
         try {
-            plan_run(request(folder_.file("missing.stl")), 1, ranks, input, nullptr);
+            plan_run(request(folder_.file("missing.stl")), 1, ranks, nullptr);
             ADD_FAILURE() << "nothing was thrown";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::io);

@@ -42,8 +42,7 @@ class TracedRun : public testing::TestWithParam<std::string> {
         options.decompose.parts = parts;
         options.workers = 2;  // threads that write parts
         SingleRank rank;
-        Input input;
-        ASSERT_EQ(run(options, 2, rank, input, &witness_).exit_code, 0);
+        ASSERT_EQ(run(options, 2, rank, &witness_).exit_code, 0);
         trace_ = read_trace(path_);
     }
 

@@ -108,8 +108,7 @@ RunReport run_sized(const TemporaryFolder& folder, const Soup& soup, const SizeO
     options.decompose.parts = parts;
     options.sizes = sizes;
     SingleRank rank;
-    Input input;
-    return run(options, 2, rank, input);
+    return run(options, 2, rank);
 }
 
 // Parts of equal work, the same on both sides of interfaces, and all obey the field.

@@ -75,10 +75,8 @@ TEST(PartJob, SaysHowMuchBetterItsCellsHaveBecome) {
 
 TEST(ReportOfParts, SaysWhatImprovementHasGained) {
     const test::TemporaryFolder folder;
-    Input input;
-    input.path = "ball.stl";
     RunReport report;
-    report.input = &input;
+    report.input.path = "ball.stl";
     report.mesh.quality = PartQuality(1);
     EXPECT_TRUE(nlohmann::json::parse(to_json(report)).at("improvement").is_null());
     report.parts.resize(2);
@@ -100,10 +98,8 @@ TEST(ReportOfParts, SaysWhatImprovementHasGained) {
 
 TEST(ReportOfParts, SaysWhichCellsTheSurfaceForces) {
     const test::TemporaryFolder folder;
-    Input input;
-    input.path = "plate.stl";
     RunReport report;
-    report.input = &input;
+    report.input.path = "plate.stl";
     const auto told = [&](const Soup& body, ReportDetail detail) {
         report.mesh.quality = run_part_job(job_of(body), {}, folder.file("part")).quality;
         return to_text(report, detail).find("forced      by the surface: ") != std::string::npos;
@@ -312,11 +308,9 @@ TEST(PartJob, CountsTheFacetsThatWereRecovered) {
 // The sums are those of parts that were filled, and TetGen is named where it was not asked for.
 TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
     const test::TemporaryFolder folder;
-    Input input;
-    input.path = "box.stl";
-    input.volume = 1;
     RunReport report;
-    report.input = &input;
+    report.input.path = "box.stl";
+    report.input.volume = 1;
     report.options.workers = 1;
     report.mesh.quality = run_part_job(job_of(test::box()), {}, folder.file("part")).quality;
     report.parts.resize(6);
@@ -361,10 +355,8 @@ TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
 // A part that has not been meshed goes to the mesher that was asked for.
 TEST(ReportOfParts, SaysWhichMesherFilledEachAndWhichWayItWent) {
     const test::TemporaryFolder folder;
-    Input input;
-    input.path = "box.stl";
     RunReport report;
-    report.input = &input;
+    report.input.path = "box.stl";
     report.parts.resize(3);
     MesherCall tetgen;
     tetgen.options.name = "tetgen";

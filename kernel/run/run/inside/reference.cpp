@@ -40,7 +40,7 @@ PartOutcome mesh_in_one_piece(const RunFolder& folder, const Surface& surface, d
 
 Reference compare_with_whole(const RunFolder& folder, const RunReport& report, PartOutcome whole) {
     if (whole.result.code) return {std::move(whole), ""};
-    const std::string name = std::filesystem::path(report.input->path).filename().string();
+    const std::string name = std::filesystem::path(report.input.path).filename().string();
     MeshQuality parts, one;
     parts.name = fmt::format("{} in {} parts", name, report.parts.size());
     parts.parts = static_cast<std::int64_t>(report.parts.size());

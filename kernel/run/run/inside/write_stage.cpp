@@ -136,6 +136,10 @@ std::vector<RunFile> list_files_of(const std::vector<FormatFiles>& formats, cons
 
 }  // namespace
 
+bool has_vtu(const std::vector<const Format*>& formats) {
+    return std::find(formats.begin(), formats.end(), &find_format("vtu")) != formats.end();
+}
+
 std::vector<FormatPlace> places_in_run_folder(const std::vector<const Format*>& formats) {
     std::vector<FormatPlace> places;
     for (const Format* format : formats)

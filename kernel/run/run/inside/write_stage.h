@@ -22,6 +22,9 @@ struct FormatPlace {
 /// Returns the places of formats in a run folder: export/NAME, but for `vtu` the folder itself.
 std::vector<FormatPlace> places_in_run_folder(const std::vector<const Format*>& formats);
 
+/// Returns whether vtu is among the formats, which holds all that the store of a part does.
+bool has_vtu(const std::vector<const Format*>& formats);
+
 /// The place of an export and its options, as ExportFiles takes them.
 struct WriteTarget {
     std::string folder;

@@ -1,0 +1,138 @@
+// The folder of a run lies beside its final place until finish_run() moves it there. It is kept from the beginning,
+// with the options of the run in it, so that after an error or a kill the next run into it finds finished parts, and a
+// user can go on by its name alone. Options that finished parts were made with are replaced only when this run has cut
+// its surface: until then it may still fail, and the parts would be lost to a run with the older options. A transient
+// run, that of a mesh in memory, has a temporary folder without journal, saved options and hashes.
+#include "run/run/inside/result_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/parallel/process_memory.h"
+#include "files/io/output_file.h"
+#include "files/io/text_file.h"
+#include "files/part/part_store.h"
+#include "run/request/saved_run.h"
+#include "run/run/inside/run_files.h"
+#include "run/run/inside/write_stage.h"
+#include "run/run/shared_folder.h"
+
+namespace kerf {
+
+namespace {
+
+// Saves the options: a run that is continued by the name of its folder has nothing else to go by.
+void save(const RunOptions& options, const Input& input, const RunFolder& folder) {
+    std::error_code ignored;
+    if (options.sizes.background)
+        std::filesystem::remove(folder.saved_run_file(), ignored);
+    else
+        save_run(folder.saved_run_file(), options, input.file_hash);
+}
+
+// Files of vtu hold all that those of the store do; a run with failed parts is continued from the latter.
+void remove_stored_parts(const RunOptions& options, const RunFolder& folder, int exit_code) {
+    if (!has_vtu(parse_formats(options.formats)) || exit_code != 0) return;
+    remove_run_files(folder.partial_path(), [](const std::string& file) { return is_stored_part(file); });
+}
+
+// Sum of the peaks of the ranks, each with that of the largest worker for each of its workers.
+std::int64_t peak_memory(const RunContext& run, const std::vector<PartReport>& parts) {
+    std::int64_t largest_worker = 0, sum = 0;
+    for (const PartReport& part : parts) largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
+    for (const std::int64_t bytes : all_gather(run.ranks, own_peak_rss_bytes()))
+        sum += bytes + run.plan.options.workers * largest_worker;
+    return sum;
+}
+
+}  // namespace
+
+RunFolder open_folder(const RunContext& run, const Input& input) {
+    const RunOptions& options = run.plan.options;
+    return open_together(run.ranks, [&] {
+        if (options.transient) return RunFolder::create_transient(options.output);
+        return RunFolder::create(options.output, [&](const std::string& saved) {
+            return options.volume && is_same_run(saved, options, input.file_hash);
+        });
+    });
+}
+
+void keep_folder(const RunContext& run, const Input& input, RunFolder& folder) {
+    const RunOptions& options = run.plan.options;
+    in_agreement(run.ranks, [&] {
+        if (!run.is_root() || !options.volume || options.transient) return;
+        if (folder.finished_parts() == 0) save(options, input, folder);  // else the options are those of the finished
+        folder.keep();                                                   // parts, until this run knows its own
+    });
+}
+
+std::size_t clear_folder(const RunContext& run, const Input& input, RunFolder& folder,
+                         const std::vector<PartReport>& parts) {
+    const RunOptions& options = run.plan.options;
+    return in_agreement(run.ranks, [&] {
+        if (!run.is_root() || options.transient) return std::size_t{0};
+        const std::size_t finished = folder.finished_parts();
+        std::vector<int> leaves;
+        if (options.volume)
+            for (const PartReport& part : parts) leaves.push_back(part.id);
+        folder.keep_only(leaves);
+        if (options.volume) save(options, input, folder);
+        return finished;
+    });
+}
+
+RunReport finish_run(const RunContext& run, std::optional<RunFolder>& folder, RunReport report) {
+    const RunOptions& options = run.plan.options;
+    report.peak_rss_bytes = peak_memory(run, report.parts);
+    if (options.transient) {
+        report.seconds.wall = run.longest(run.whole);
+        in_agreement(run.ranks, [&] {
+            if (run.is_root() && !options.report_file.empty()) write_output_file(options.report_file, to_json(report));
+        });
+        return report;
+    }
+    report.folder.files = run.timed(report.seconds.hash, [&] {
+        in_agreement(run.ranks, [&] {
+            if (run.is_root() && options.volume) remove_stored_parts(options, *folder, report.exit_code);
+        });
+        return list_run_files(
+            run.ranks, *folder, report.parts, std::move(report.folder.files),
+            [&](std::size_t done, std::size_t total) { tell_progress(run.listener, "hash", done, total); });
+    });
+    if (!run.is_root()) folder.reset();  // nobody uses it when it moves
+    report.seconds.wall = run.longest(run.whole);
+    in_agreement(run.ranks, [&] {
+        if (!run.is_root()) return;
+        const std::string json = to_json(report);
+        write_text_file(folder->file("report.json"), json);
+        report.folder.path = folder->commit(report.exit_code == 0);
+        report.folder.kept_valid_run = report.folder.path != folder->final_path();
+        if (!options.report_file.empty()) write_output_file(options.report_file, json);
+    });
+    return report;
+}
+
+Error with_way_to_go_on(const RunOptions& options, std::optional<RunFolder>& folder, const Error& error) {
+    if (!folder || !options.volume || options.transient) return error;
+    std::size_t finished = 0;
+    try {
+        finished = folder->finished_parts();
+    } catch (const Error&) {  // it cannot be read
+        return error;
+    }
+    if (finished == 0 && error.code() != ErrorCode::cancelled) {
+        folder->discard();
+        return error;
+    }
+    const bool are_all = finished >= static_cast<std::size_t>(options.decompose.parts);
+    const std::string again = options.sizes.background ? "the same call into " : "kerf mesh --resume ";
+    return {error.code(),
+            fmt::format("{} {}{} parts are finished; {}{} {}.", error.what(), are_all ? "All " : "", finished, again,
+                        options.output, are_all ? "writes the files that are missing" : "does the others"),
+            error.elements()};
+}
+
+}  // namespace kerf
