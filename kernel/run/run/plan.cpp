@@ -183,7 +183,7 @@ class PlanArchive {
     void plan(RunPlan& plan, std::vector<double>& largest_of_regions) {
         RunOptions& options = plan.options;
         archive_(options.input, options.decompose.parts, options.mesher, largest_of_regions);
-        length(options.input_options.weld_tolerance);
+        length(options.input_options.repairs.weld_tolerance);
         length(options.deviation);
         sizes(options.sizes);
         found(plan.found_size);
@@ -192,7 +192,7 @@ class PlanArchive {
     void input(Input& input) {
         archive_(input.path, input.file_hash, input.vertices, input.facets, input.components, input.genus);
         archive_(input.volume, input.volume_error, input.area, input.largest_coordinate, input.diagonal);
-        archive_(input.weld_tolerance, input.patch_names, input.patch_colours, input.notes, input.is_cad);
+        archive_(input.patch_names, input.patch_colours, input.notes, input.is_cad);
         regions(input.regions);
     }
 

@@ -2,25 +2,32 @@
 // files of all formats. The store of a part goes as soon as its files are there, if no format asks for the part again:
 // the disk never holds both, and a run that continues makes the store of the file of vtu again (restore_stored_part()).
 // Of a mesh with parts missing, which no solver can read, only vtu is written, so that people can look at it. A
-// transient run gives its store to the listener instead of writing formats.
+// transient run gives its store to the listener instead of writing formats. A reference, where one is asked for, is the
+// mesh of the whole in one piece, beside which the mesh in parts can be judged.
 #include "run/run/inside/mesh_stage.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/geometry/box.h"
+#include "files/io/run_manifest.h"
+#include "files/io/text_file.h"
 #include "files/part/curved_nodes_file.h"
 #include "files/part/part_indices.h"
 #include "files/part/part_store.h"
 #include "files/part/second_order_parts.h"
+#include "files/quality/quality_sheet.h"
+#include "files/quality/quality_text.h"
 #include "run/report/totals.h"
 #include "run/run/edge_numbering.h"
 #include "run/run/inside/curve_stage.h"
-#include "run/run/inside/reference.h"
 #include "run/run/inside/write_stage.h"
+#include "run/work/part_queue.h"
 
 namespace kerf {
 
@@ -49,13 +56,56 @@ StoredParts number_parts(const RunFolder& folder, const RunReport& report, std::
     return {std::move(outline), places};
 }
 
+// Fills the whole surface in a worker of its own, as a part is filled, but with all the memory that there is. The files
+// that it writes into the folder are gone when this returns. That there is no mesh is said by the outcome.
+PartOutcome mesh_in_one_piece(const RunContext& run, const RunFolder& folder, const Surface& surface,
+                              double length_scale) {
+    const RunOptions& options = run.plan.options;
+    constexpr int no_leaf = 0;
+    PartJob job;
+    job.part = no_leaf;
+    job.surface = surface.arrays();
+    job.boundary_id.assign(job.surface.vertices.size(), -1);
+    job.neighbour.assign(job.surface.facets.size(), -1);
+    job.length_scale = length_scale;
+    const std::string job_file = folder.job_file(no_leaf), part_file = folder.stored_part_file(no_leaf);
+    write_job(job_file, job);
+    PartQueue queue({{job_file, part_file, options.mesher.size, box_around(job.surface.vertices)}},
+                    {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts});
+    queue.add(0);
+    std::optional<PartQueue::Finished> finished;
+    while (!finished) {
+        tell_progress(run.listener, "reference", 0, 1);
+        finished = queue.step(0.1);
+    }
+    remove_run_files(folder.partial_path(), [&](const std::string& file) {
+        return folder.file(file) == job_file || folder.file(file) == part_file;
+    });
+    return std::move(finished->outcome);
+}
+
+// Returns the quality of the report's parts beside that of the whole as text, and writes both into the folder as a
+// sheet of pictures.
+Reference compare_with_whole(const RunFolder& folder, const RunReport& report, PartOutcome whole) {
+    if (whole.result.code) return {std::move(whole), ""};
+    const std::string name = std::filesystem::path(report.input.path).filename().string();
+    MeshQuality parts, one;
+    parts.name = fmt::format("{} in {} parts", name, report.parts.size());
+    parts.parts = static_cast<std::int64_t>(report.parts.size());
+    parts.vertices = report.mesh.vertices;
+    parts.cells = report.mesh.quality;
+    one.name = name + " in one piece";
+    one.vertices = whole.result.vertices;
+    one.cells = whole.result.quality;
+    write_text_file(folder.file("comparison.svg"), comparison_sheet(one, parts));
+    return {std::move(whole), comparison_text(one, parts)};
+}
+
 std::optional<Reference> mesh_reference(const RunContext& run, const RunFolder& folder, const RunReport& report,
                                         const std::optional<Surface>& whole) {
     return in_agreement(run.ranks, [&]() -> std::optional<Reference> {
         if (!whole) return std::nullopt;
-        PartOutcome outcome = mesh_in_one_piece(folder, *whole, report.input.diagonal, run.plan.options,
-                                                [&] { tell_progress(run.listener, "reference", 0, 1); });
-        return compare_with_whole(folder, report, std::move(outcome));
+        return compare_with_whole(folder, report, mesh_in_one_piece(run, folder, *whole, report.input.diagonal));
     });
 }
 

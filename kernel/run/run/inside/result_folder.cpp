@@ -7,16 +7,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/parallel/process_memory.h"
+#include "files/io/folder_files.h"
 #include "files/io/output_file.h"
 #include "files/io/text_file.h"
 #include "files/part/part_store.h"
 #include "run/request/saved_run.h"
-#include "run/run/inside/run_files.h"
+#include "run/run/inside/range_of_rank.h"
 #include "run/run/inside/write_stage.h"
 #include "run/run/shared_folder.h"
 
@@ -46,6 +50,57 @@ std::int64_t peak_memory(const RunContext& run, const std::vector<PartReport>& p
     for (const std::int64_t bytes : all_gather(run.ranks, own_peak_rss_bytes()))
         sum += bytes + run.plan.options.workers * largest_worker;
     return sum;
+}
+
+std::vector<std::string> find_other_files(const RunFolder& folder, const std::vector<RunFile>& written) {
+    std::set<std::string> known;
+    for (const RunFile& file : written) known.insert(file.path);
+    std::vector<std::string> files = list_files(folder.partial_path());
+    std::erase_if(files, [&](const std::string& file) {
+        return known.contains(file) || file.starts_with("work/") || file.ends_with('/') ||
+               !is_named_like_run_file(file);
+    });
+    return files;
+}
+
+// The hashes that ranks and workers have told of files that they wrote, by the names of the files.
+std::map<std::string, FileHash> hashes_of_parts(const std::vector<PartReport>& parts) {
+    std::map<std::string, FileHash> hashes;
+    for (const PartReport& part : parts) {
+        hashes["parts/" + part_surface_file_name(part.id)] = part.surface_hash;
+        if (part.result.code == 0) hashes["parts/" + stored_part_file_name(part.id)] = part.result.file_hash;
+    }
+    return hashes;
+}
+
+// Returns all files of the folder but those of the work under way and the report: the `written` ones, which are known,
+// and the others, of which each rank reads a share. The same on every rank. A surface or a stored part that does not
+// have the hash with which it was written is Error(io) on every rank alike.
+std::vector<RunFile> list_run_files(const RunContext& run, const RunFolder& folder,
+                                    const std::vector<PartReport>& parts, std::vector<RunFile> written) {
+    Communicator& ranks = run.ranks;
+    const std::vector<std::string> found = in_agreement(
+        ranks, [&] { return run.is_root() ? find_other_files(folder, written) : std::vector<std::string>(); });
+    const std::vector<std::string> files = all_gather(ranks, found).front();
+    const std::map<std::string, FileHash> expected = hashes_of_parts(parts);
+    const LeafRange share = range_of_rank(static_cast<std::int32_t>(files.size()), ranks);
+    const std::vector<RunFile> own = in_agreement(ranks, [&] {
+        std::vector<RunFile> described;
+        for (std::int32_t i = share.first; i < share.last; ++i) {
+            tell_progress(run.listener, "hash", static_cast<std::size_t>(i), files.size());
+            described.push_back(describe_file(folder.partial_path(), files[static_cast<std::size_t>(i)]));
+            const auto hash = expected.find(described.back().path);
+            if (hash != expected.end() && described.back().hash != hash_text(hash->second))
+                throw Error(ErrorCode::io, fmt::format("{} is not what was written: the disk or the memory has damaged "
+                                                       "it. Continue the run to write it again.",
+                                                       folder.file(hash->first)));
+        }
+        return described;
+    });
+    const std::vector<RunFile> others = gather_items(ranks, own);
+    written.insert(written.end(), others.begin(), others.end());
+    sort_files(written);
+    return written;
 }
 
 }  // namespace
@@ -98,9 +153,7 @@ RunReport finish_run(const RunContext& run, std::optional<RunFolder>& folder, Ru
         in_agreement(run.ranks, [&] {
             if (run.is_root() && options.volume) remove_stored_parts(options, *folder, report.exit_code);
         });
-        return list_run_files(
-            run.ranks, *folder, report.parts, std::move(report.folder.files),
-            [&](std::size_t done, std::size_t total) { tell_progress(run.listener, "hash", done, total); });
+        return list_run_files(run, *folder, report.parts, std::move(report.folder.files));
     });
     if (!run.is_root()) folder.reset();  // nobody uses it when it moves
     report.seconds.wall = run.longest(run.whole);
