@@ -14,12 +14,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/core/number_text.h"
+#include "base/geometry/triangle.h"
 #include "files/io/cad_body.h"
 #include "files/io/json.h"
 #include "run/prepare/region_diagnosis.h"
 #include "run/prepare/slivers.h"
 #include "run/report/repair_json.h"
 #include "run/report/repair_text.h"
+#include "surface/complex/mass_properties.h"
 #include "surface/regions/regions.h"
 
 namespace kerf {
@@ -40,6 +42,38 @@ Json defect_json(const Defect& defect, const Soup& soup) {
     if (!defect.bodies.empty()) json["regions"] = defect.bodies;
     if (is_between_bodies(defect)) json["distance"] = defect.measure;
     return json;
+}
+
+// Returns the regions of a soup that has been repaired, in the order of Soup::region_names; none if it has no sides.
+// O(#F log #F).
+std::vector<RegionSummary> summarize_regions(const Soup& soup) {
+    std::vector<RegionSummary> regions;
+    if (soup.sides.empty()) return regions;
+    const Complex complex = make_complex(soup);
+    for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
+        const Surface surface = complex.surface_of(region);
+        regions.push_back({soup.region_names[static_cast<std::size_t>(region.value())],
+                           enclosed_volume(surface),
+                           find_shells(surface).count,
+                           0,
+                           {}});
+    }
+    std::map<std::pair<std::int32_t, std::int32_t>, double> walls;
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const auto [front, back] = soup.sides[f];
+        const auto [a, b, c] = soup.facets[f];
+        const double area = triangle_area(soup.vertices[a], soup.vertices[b], soup.vertices[c]);
+        if (soup.sides[f].is_wall()) {
+            walls[{front, back}] += area;
+            walls[{back, front}] += area;
+        } else {
+            regions[static_cast<std::size_t>(std::max(front, back))].outer_area += area;
+        }
+    }
+    for (const auto& [sides, area] : walls)
+        regions[static_cast<std::size_t>(sides.first)].walls.push_back(
+            {soup.region_names[static_cast<std::size_t>(sides.second)], area, sides.second});
+    return regions;
 }
 
 // The regions of a surface that can be meshed. Copies of facets that its repairs leave out have sides, too, so they go
@@ -64,6 +98,37 @@ Json regions_json(const std::vector<RegionSummary>& regions) {
                         {"walls", std::move(walls)}});
     }
     return json;
+}
+
+std::string region_tables(const std::vector<RegionSummary>& regions) {
+    if (regions.empty()) return "The surface bounds one region, which has no name.\n";
+    std::string text = fmt::format("{:>12} {:>6} {:>12}  {}\n", "volume", "shells", "outside", "name");
+    std::string walls;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const RegionSummary& region = regions[r];
+        text += fmt::format("{:>12.6g} {:>6} {:>12.6g}  {}\n", region.volume, region.shells, region.outer_area,
+                            region.name);
+        for (const CommonWall& wall : region.walls)
+            if (wall.number > static_cast<std::int32_t>(r))
+                walls += fmt::format("{:>12.6g}  {}  {}\n", wall.area, region.name, wall.region);
+    }
+    return text + (walls.empty() ? "" : fmt::format("\n{:>12}  wall between\n{}", "area", walls));
+}
+
+// Returns a line a region, with its volume, shells and walls; at most 50 lines.
+std::string lines_of_regions(const std::vector<RegionSummary>& regions) {
+    constexpr std::size_t most = 50;
+    std::string text;
+    for (std::size_t r = 0; r < std::min(most, regions.size()); ++r) {
+        const RegionSummary& region = regions[r];
+        text += fmt::format("  region    {}: volume {:.6g}, {} shell{}", region.name, region.volume, region.shells,
+                            region.shells == 1 ? "" : "s");
+        if (region.outer_area > 0) text += fmt::format(", outside {:.6g}", region.outer_area);
+        for (const CommonWall& wall : region.walls) text += fmt::format(", wall to {} {:.6g}", wall.region, wall.area);
+        text += "\n";
+    }
+    if (regions.size() > most) text += fmt::format("{:12}and {} more\n", "", regions.size() - most);
+    return text;
 }
 
 Json surface_json(const FileDiagnosis& found) {
@@ -208,7 +273,7 @@ std::string to_text(const FileDiagnosis& found) {
         fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
                     soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
     for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
-    text += to_text(checked.ladder) + to_text(found.regions);
+    text += to_text(checked.ladder) + lines_of_regions(found.regions);
     text += defects_text(checked);
     const bool clean = found.can_be_meshed();
     if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);

@@ -1,6 +1,7 @@
 // The defects of a surface file, as values, text and JSON.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,12 +10,27 @@
 #include "base/core/error.h"
 #include "run/prepare/input.h"
 #include "run/prepare/remedy.h"
-#include "run/report/inside/region_summary.h"
 #include "run/report/patch_summary.h"
 
 namespace kerf {
 
 inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees", 0, 60};
+
+/// The wall that a region has in common with another one.
+struct CommonWall {
+    std::string region;  ///< name of the other region
+    double area = 0;
+    std::int32_t number = 0;  ///< number of the other region
+};
+
+/// The measures of one region of a surface.
+struct RegionSummary {
+    std::string name;
+    double volume = 0;
+    std::int64_t shells = 0;
+    double outer_area = 0;          ///< area of the facets with nothing on their other side
+    std::vector<CommonWall> walls;  ///< its walls, in the order of the other regions
+};
 
 /// The reason why there is no surface to be diagnosed.
 struct RefusedFile {
@@ -58,8 +74,8 @@ std::string to_json(const FileDiagnosis& found);
 /// Returns lines for people: counts, the ten worst defects of each kind, the ways to mend them, the verdict.
 std::string to_text(const FileDiagnosis& found);
 
-/// Returns the result of region_tables() for the regions of the file. Throws the Error for which the file was refused
-/// or cannot be meshed.
+/// Returns a table with a line for each region of the file, and one with a line for each wall; names are last. Throws
+/// the Error for which the file was refused or cannot be meshed.
 std::string tables_of_regions(const FileDiagnosis& found);
 
 /// Returns the patches that a run would have: those of the file, or those that InputOptions::feature_angle_deg makes.

@@ -1,12 +1,14 @@
-// A job goes through stages, whose times are told apart: the surface is filled (or halved first,
-// run/work/inside/mesh_in_two.h), the laws of the mesh are verified, sizes and quality are measured, the part is
-// hashed, and it is stored. A mesh that breaks a law, or has cells without volume, is an error of the mesher like any
-// other, and is never stored. Memory sets the order: neighbours of cells are freed before the laws are verified,
+// A job goes through stages, whose times are told apart: the surface is filled (or cut in two first, which a mesher
+// gets that has not filled it as a whole), the laws of the mesh are verified, sizes and quality are measured, the part
+// is hashed, and it is stored. A mesh that breaks a law, or has cells without volume, is an error of the mesher like
+// any other, and is never stored. Memory sets the order: neighbours of cells are freed before the laws are verified,
 // nothing is kept twice, and the mesh moves into the part only after it is measured.
 //
 // All errors become part of the result, because the worker's answer is the only way back to the parent; memory that
 // runs out has a result of its own.
 #include "run/work/part_job.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -15,11 +17,13 @@
 #include "base/core/out_of_memory.h"
 #include "base/core/record.h"
 #include "base/core/stopwatch.h"
+#include "cut/cut/bisect.h"
 #include "files/io/checked_file.h"
 #include "files/io/file_bytes.h"
 #include "files/part/vtu_reader.h"
-#include "run/work/inside/mesh_in_two.h"
+#include "fill/volume/meshers.h"
 #include "run/work/mesh_hash.h"
+#include "surface/complex/touching.h"
 
 namespace kerf {
 
@@ -45,6 +49,70 @@ std::string without_volume(std::int64_t count) {
         "{} no volume but for rounding: facets or walls of the surface are as thin. Use --surface remesh, or join what "
         "lies so near with kerf repair.",
         count == 1 ? "1 tetrahedron has" : fmt::format("{} tetrahedra have", count));
+}
+
+constexpr NodeId cut_node = 1;
+
+// Returns the surface with its vertices and facets named by their numbers, so that those of the cut are told from them.
+SurfaceArrays renamed(SurfaceArrays arrays) {
+    for (std::size_t v = 0; v < arrays.vertices.size(); ++v)
+        arrays.vertex_key[v] = make_key(0, static_cast<std::int32_t>(v));
+    for (std::size_t f = 0; f < arrays.facets.size(); ++f)
+        arrays.facet_key[f] = make_key(0, static_cast<std::int32_t>(f));
+    return arrays;
+}
+
+std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const MesherOptions& options) {
+    const Surface surface = separated_surface(renamed(arrays));
+    const MassProperties mass = mass_properties(surface);
+    CutOptions cut;
+    cut.size = cut.load.size = options.size;
+    cut.load.volume_weight = find_mesher(options.name).forecast.volume_weight;
+    cut = cut.of(surface);
+    const Bisection bisection = bisect(surface, mass, cut_node, choose_place(surface, mass, 2, cut), cut, false);
+    if (!bisection.cut.made())
+        throw Error(ErrorCode::subdomain, "The part has no contour of edges that would cut it in two.");
+    return {joined_by_key(bisection.halves[0].arrays()), joined_by_key(bisection.halves[1].arrays())};
+}
+
+// Fills a surface as mesh_volume(), by a cut of it: both halves are filled, improved and joined at the interface, whose
+// vertices become interior ones. The boundary keeps every facet, so the neighbours of the part do not notice. Throws
+// Error(subdomain) if the surface has no contour of edges near its middle, or if a half is not filled either.
+// Deterministic.
+Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) {
+    Filling filling;
+    TetMesh& joined = filling.mesh;
+    joined.vertices = surface.vertices;
+    joined.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
+    for (const SurfaceArrays& half : halves_of(surface, options)) {
+        const Filling of_half = mesh_volume(half, options);
+        filling.recovery.add(of_half.recovery);
+        filling.improvement.add(of_half.improvement);
+        filling.improve_seconds += of_half.improve_seconds;
+        const TetMesh& mesh = of_half.mesh;
+        if (filling.strategy.find(of_half.strategy) == std::string::npos)
+            filling.strategy += (filling.strategy.empty() ? "" : ", ") + of_half.strategy;
+        if (filling.reason.empty()) filling.reason = of_half.reason;
+        std::vector<std::int32_t> number(mesh.vertices.size());
+        const auto place = [&](std::size_t vertex, std::int32_t at) {
+            if (static_cast<std::size_t>(at) >= joined.vertices.size()) joined.vertices.resize(at + 1);
+            joined.vertices[at] = mesh.vertices[vertex];
+            number[vertex] = at;
+        };
+        for (std::size_t v = 0; v < half.vertices.size(); ++v) {
+            const Key key = half.vertex_key[v];
+            place(v, key_index(key) + (key_node(key) == cut_node ? joined.boundary_vertex_count : 0));
+        }
+        for (std::size_t v = half.vertices.size(); v < mesh.vertices.size(); ++v)
+            place(v, static_cast<std::int32_t>(joined.vertices.size()));
+        const std::size_t before = joined.tets.size();
+        for (const Tetrahedron& t : mesh.tets)
+            joined.tets.push_back({number[t[0]], number[t[1]], number[t[2]], number[t[3]]});
+        const auto first = joined.tets.begin() + static_cast<std::ptrdiff_t>(before);
+        std::rotate(joined.tets.begin() + filling.core_tets, first, first + of_half.core_tets);  // the cores come first
+        filling.core_tets += of_half.core_tets;
+    }
+    return filling;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "run/request/options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
