@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "python/arrays.h"
+#include "python/bindings.h"
 #include "python/defects.h"
 #include "python/options.h"
 #include "python/surface_arrays.h"

@@ -1,11 +1,10 @@
-#include "python/distributed.h"
-
 #include <pybind11/stl.h>
 
 #include "base/parallel/communicator.h"
 #include "kerf/mesh_on_ranks.h"
 #include "kerf/rank_mesh.h"
 #include "python/arrays.h"
+#include "python/bindings.h"
 #include "python/options.h"
 #include "python/surface_object.h"
 

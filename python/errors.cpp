@@ -1,11 +1,10 @@
-#include "python/errors.h"
-
 #include <utility>
 
 #include <pybind11/stl.h>
 
 #include "base/core/error.h"
 #include "kerf/kerf.h"
+#include "python/bindings.h"
 #include "python/defects.h"
 #include "python/text.h"
 

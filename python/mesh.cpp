@@ -2,11 +2,10 @@
 // needs no C++. Long calls release the interpreter's lock and ask a Watch, which takes it back for a moment. A pickle
 // is a dict of arrays by names, so that it does not depend on the version of Kerf, and names are bytes in it, since
 // they may be no UTF-8.
-#include "python/mesh.h"
-
 #include <pybind11/stl.h>
 
 #include "python/arrays.h"
+#include "python/bindings.h"
 #include "python/options.h"
 #include "python/pickling.h"
 #include "python/sizes.h"

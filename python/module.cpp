@@ -1,15 +1,5 @@
 // The module kerf._kerf: the facade (kerf/kerf.h) with arrays of numpy.
-#include "python/defects.h"
-#include "python/distributed.h"
-#include "python/errors.h"
-#include "python/mesh.h"
-#include "python/options.h"
-#include "python/part.h"
-#include "python/plotting.h"
-#include "python/run.h"
-#include "python/sizes.h"
-#include "python/surface.h"
-#include "python/tree.h"
+#include "python/bindings.h"
 
 #include "files/io/program_finder.h"
 #include "kerf/kerf.h"

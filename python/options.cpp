@@ -11,6 +11,7 @@
 #include <pybind11/stl.h>
 
 #include "help/nearest.h"
+#include "python/bindings.h"
 #include "python/sizes.h"
 #include "run/request/options.h"
 

@@ -17,9 +17,6 @@ namespace kerf::python {
 /// option, and TypeError for a value that has no text.
 NamedOptions named_options(const pybind11::kwargs& options);
 
-/// Registers the table of options, and the search for the option that a wrong name may mean.
-void register_options(pybind11::module_& module);
-
 /// The questions of a long call to Python: it calls `progress` with (stage, done, total), and asks whether the user has
 /// pressed Ctrl-C. Ends the work where `progress` returns False or raises. Any thread may ask.
 class Watch {

@@ -2,14 +2,13 @@
 // regions, owners) are copies, made each time. In arrays over nodes the vertices come first, then the nodes on edges. A
 // pickle has the bytes in which processes of Kerf send values to each other, which only the same version reads; the
 // table of edges is left out, because it follows from the tetrahedra.
-#include "python/part.h"
-
 #include <algorithm>
 
 #include <pybind11/stl.h>
 
 #include "files/part/part.h"
 #include "python/arrays.h"
+#include "python/bindings.h"
 #include "python/pickling.h"
 
 namespace kerf::python {

@@ -1,6 +1,5 @@
-#include "python/plotting.h"
-
 #include "kerf/viewed_files.h"
+#include "python/bindings.h"
 #include "python/surface_object.h"
 
 namespace kerf::python {

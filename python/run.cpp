@@ -2,8 +2,6 @@
 // time, without the interpreter's lock, when Python asks for them; names of patches and regions are those of the whole
 // run, so that numbers mean the same in all parts. The commands on folders (verify, quality, export, merge) are the
 // functions of the command line, whose JSON and text are returned as they are.
-#include "python/run.h"
-
 #include <pybind11/stl.h>
 
 #include "base/parallel/processors.h"
@@ -13,6 +11,7 @@
 #include "files/quality/compared_quality.h"
 #include "kerf/progress_listener.h"
 #include "python/arrays.h"
+#include "python/bindings.h"
 #include "python/options.h"
 #include "python/surface_object.h"
 #include "run/run/export_run.h"

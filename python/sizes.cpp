@@ -1,6 +1,7 @@
 #include "python/sizes.h"
 
 #include "python/arrays.h"
+#include "python/bindings.h"
 
 namespace kerf::python {
 

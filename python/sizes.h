@@ -14,6 +14,4 @@ struct SizesObject {
     std::shared_ptr<const GivenSizes> sizes;
 };
 
-void register_sizes(pybind11::module_& module);
-
 }  // namespace kerf::python

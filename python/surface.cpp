@@ -2,11 +2,10 @@
 // that needs no C++. Long calls release the interpreter's lock and ask a Watch. Names go through decoded(), because
 // they may be no UTF-8. A matrix of axes has them as columns in the kernel and as rows in Python: its memory is handed
 // over as it is.
-#include "python/surface.h"
-
 #include <pybind11/stl.h>
 
 #include "python/arrays.h"
+#include "python/bindings.h"
 #include "python/options.h"
 #include "python/surface_arrays.h"
 #include "python/surface_object.h"

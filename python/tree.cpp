@@ -2,12 +2,11 @@
 // them keeps alive, and their points and contours are views of its memory. Matrices are copied element by element, so
 // that row and column mean the same as in the kernel: `principal_axes` has the axes as columns here, and as rows in
 // python/surface.cpp.
-#include "python/tree.h"
-
 #include <pybind11/stl.h>
 
 #include "kerf/cut_tree.h"
 #include "python/arrays.h"
+#include "python/bindings.h"
 #include "python/options.h"
 #include "python/pickling.h"
 #include "python/surface_object.h"
