@@ -6,6 +6,7 @@
 #include "python/options.h"
 #include "python/surface_arrays.h"
 #include "python/text.h"
+#include "python/values.h"
 
 namespace kerf::python {
 
@@ -60,11 +61,13 @@ py::list defects_of(const std::vector<SurfaceDefect>& defects) {
 }
 
 void register_check(py::module_& module) {
-    py::class_<SurfaceCheck>(module, "Check")
-        .def_readonly("ok", &SurfaceCheck::can_be_meshed)
-        .def_property_readonly("text", [](const SurfaceCheck& self) { return decoded(self.text); })
-        .def_property_readonly("json", [](const SurfaceCheck& self) { return decoded(self.json); })
-        .def_property_readonly("defects", [](const SurfaceCheck& self) { return defects_of(self.defects); });
+    py::class_<SurfaceCheck, std::shared_ptr<SurfaceCheck>>(module, "Check")
+        .def(sharing<SurfaceCheck>(), py::arg("other"))
+        .def_readonly("ok", &SurfaceCheck::can_be_meshed,
+                      "Whether the surface can be meshed, after repairs that do not change its geometry.")
+        .def_property_readonly("_text", [](const SurfaceCheck& self) { return decoded(self.text); })
+        .def_property_readonly("_json", [](const SurfaceCheck& self) { return decoded(self.json); })
+        .def_property_readonly("_defects", [](const SurfaceCheck& self) { return defects_of(self.defects); });
     module.def("check_path", &check_path, py::arg("path"), py::arg("needle_angle"));
     module.def("check_arrays", &check_given, py::arg("points"), py::arg("triangles"), py::arg("patches"),
                py::arg("names"), py::arg("sides"), py::arg("regions"), py::arg("needle_angle"));

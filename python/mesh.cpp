@@ -1,7 +1,7 @@
-// kerf._kerf.Mesh holds MeshArrays, and its properties are views that keep it alive; kerf/mesh.py adds everything that
-// needs no C++. Long calls release the interpreter's lock and ask a Watch, which takes it back for a moment. A pickle
-// is a dict of arrays by names, so that it does not depend on the version of Kerf, and names are bytes in it, since
-// they may be no UTF-8.
+// kerf._kerf.Mesh holds MeshArrays, and its properties are views that keep it alive; kerf.Mesh (kerf/mesh.py) inherits
+// them, and adds everything that needs no C++, by the members with an underscore. Long calls release the interpreter's
+// lock and ask a Watch, which takes it back for a moment. A pickle is a dict of arrays by names, so that it does not
+// depend on the version of Kerf, and names are bytes in it, since they may be no UTF-8.
 #include <pybind11/stl.h>
 
 #include "python/arrays.h"
@@ -10,6 +10,7 @@
 #include "python/pickling.h"
 #include "python/sizes.h"
 #include "python/surface_object.h"
+#include "python/values.h"
 
 namespace kerf::python {
 
@@ -82,45 +83,78 @@ std::shared_ptr<MeshArrays> mesh_of_state(const py::dict& state) {
                    .quadratic_triangles = rows_of_state<std::int64_t, 6>(state, "triangle6")});
 }
 
-}  // namespace
+using MeshClass = py::class_<MeshArrays, std::shared_ptr<MeshArrays>>;
 
-void register_mesh(py::module_& module) {
-    py::class_<MeshArrays, std::shared_ptr<MeshArrays>>(module, "Mesh")
-        .def(py::pickle(&state_of, &mesh_of_state))
-        .def_property_readonly("points", array_of(&MeshArrays::vertices))
-        .def_property_readonly("tetrahedra", array_of(&MeshArrays::tets))
-        .def_property_readonly("order", [](const MeshArrays& self) { return self.quadratic_tets.empty() ? 1 : 2; })
-        .def_property_readonly("tetra10", array_of(&MeshArrays::quadratic_tets))
-        .def_property_readonly("triangle6", array_of(&MeshArrays::quadratic_triangles))
-        .def_property_readonly("part", array_of(&MeshArrays::part))
-        .def_property_readonly("region", array_of(&MeshArrays::region))
-        .def_property_readonly("triangles", array_of(&MeshArrays::triangles))
-        .def_property_readonly("patch", array_of(&MeshArrays::patch))
-        .def_property_readonly("sides", array_of(&MeshArrays::sides))
-        .def_property_readonly("report", [](const MeshArrays& self) { return self.report; })
-        .def("neighbours",
+void add_cells_of_mesh(MeshClass& type) {
+    type.def_property_readonly("points", array_of(&MeshArrays::vertices),
+                               "(n, 3) float64; of order 2 the corners of cells first, then the nodes on edges.")
+        .def_property_readonly(
+            "order", [](const MeshArrays& self) { return self.quadratic_tets.empty() ? 1 : 2; },
+            "Of the cells: 1, or 2 with a node on each edge (order=2 of kerf.mesh()).")
+        .def_property_readonly("tetrahedra", array_of(&MeshArrays::tets),
+                               "(m, 4) int64: corners a, b, c, d as rows of `points`, with det[b-a, c-a, d-a] > 0.")
+        .def_property_readonly(
+            "tetra10", array_of(&MeshArrays::quadratic_tets),
+            "(m, 10) int64 of order 2, else (0, 10): rows of `points`, the corners as in `tetrahedra`, then the nodes\n"
+            "on the edges 01 12 02 03 13 23, as meshio and VTK have them.")
+        .def_property_readonly("part", array_of(&MeshArrays::part),
+                               "(m,) int32: the part of each tetrahedron, by its number in the tree of cuts.")
+        .def_property_readonly("region", array_of(&MeshArrays::region),
+                               "(m,) int32: rows of `region_names`, 0 if there is one region.")
+        .def_property_readonly(
+            "region_names", [](const MeshArrays& self) { return self.region_names; }, "Empty if there is one region.");
+}
+
+void add_triangles_of_mesh(MeshClass& type) {
+    type.def_property_readonly("triangles", array_of(&MeshArrays::triangles),
+                               "(k, 3) int64: the boundary, counter-clockwise seen from outside, and walls between\n"
+                               "regions, each once.")
+        .def_property_readonly(
+            "triangle6", array_of(&MeshArrays::quadratic_triangles),
+            "(k, 6) int64 of order 2, else (0, 6): the corners as in `triangles`, then the nodes on\n"
+            "the edges 01 12 02.")
+        .def_property_readonly("patch", array_of(&MeshArrays::patch), "(k,) int32: rows of `patch_names`.")
+        .def_property_readonly("sides", array_of(&MeshArrays::sides),
+                               "(k, 2) int32: the regions behind and in front of each triangle, -1: outside.")
+        .def_property_readonly(
+            "patch_names", [](const MeshArrays& self) { return self.patch_names; },
+            "Names of the patches, in the order of their numbers.");
+}
+
+// Adds what kerf/mesh.py makes its methods of.
+void add_hidden_of_mesh(MeshClass& type) {
+    type.def_property_readonly("_report", [](const MeshArrays& self) { return self.report; })
+        .def("_neighbours",
              [](const MeshArrays& self) {
                  return owned(measured(self, [](const auto& mesh) { return neighbours_of(mesh); }));
              })
-        .def("cell_quality",
+        .def("_cell_quality",
              [](const MeshArrays& self, const std::string& measure) {
                  return owned(measured(self, [&](const auto& mesh) { return cell_quality(mesh, measure); }));
              })
-        .def("quality",
+        .def("_quality",
              [](const MeshArrays& self) {
                  const QualityTexts texts = measured(self, [](const auto& mesh) { return quality_texts(mesh); });
                  return py::make_tuple(texts.json, texts.text);
              })
-        .def_property_readonly("patch_names", [](const MeshArrays& self) { return self.patch_names; })
-        .def_property_readonly("region_names", [](const MeshArrays& self) { return self.region_names; })
         .def(
-            "save",
+            "_save",
             [](const MeshArrays& self, const std::string& path, const std::string& msh_version, bool msh_ascii) {
                 Watch watch{py::none()};
                 const MeshFileOptions options{msh_version, msh_ascii, watch.is_cancelled()};
                 without_lock(watch, [&] { mesh_to_file(self, path, options); });
             },
             py::arg("path"), py::arg("msh_version"), py::arg("msh_ascii"));
+}
+
+}  // namespace
+
+void register_mesh(py::module_& module) {
+    MeshClass type(module, "Mesh");
+    type.def(sharing<MeshArrays>(), py::arg("other")).def(py::pickle(&state_of, &mesh_of_state));
+    add_cells_of_mesh(type);
+    add_triangles_of_mesh(type);
+    add_hidden_of_mesh(type);
     module.def("mesh", &mesh, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"));
     module.def("mesh_into", &mesh_into, py::arg("of"), py::arg("folder"), py::arg("sizes"), py::arg("progress"),
                py::arg("programs"));

@@ -1,15 +1,17 @@
-// A part as arrays of numpy. Arrays that the part has itself are views; those that are put together (nodes of order 2,
-// regions, owners) are copies, made each time. In arrays over nodes the vertices come first, then the nodes on edges. A
-// pickle has the bytes in which processes of Kerf send values to each other, which only the same version reads; the
-// table of edges is left out, because it follows from the tetrahedra.
+// A part as arrays of numpy: kerf.Part is this class itself. Arrays that the part has itself are views; those that are
+// put together (nodes of order 2, regions, owners) are copies, made each time. In arrays over nodes the vertices come
+// first, then the nodes on edges. A pickle has the bytes in which processes of Kerf send values to each other, which
+// only the same version reads; the table of edges is left out, because it follows from the tetrahedra.
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "files/part/part.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/pickling.h"
+#include "python/values.h"
 
 namespace kerf::python {
 
@@ -76,8 +78,9 @@ py::array_t<NodeId> owners_of(const Part& part) {
 
 py::list shared_of(const py::object& self) {
     py::list list;
+    const py::object type = py::module_::import("kerf.records").attr("SharedPoints");
     for (const SharedGroup& group : self.cast<Part&>().shared)
-        list.append(py::make_tuple(group.parts, view(group.vertices, self)));
+        list.append(type(group.parts, view(group.vertices, self)));
     return list;
 }
 
@@ -130,34 +133,83 @@ void read_part(ByteReader& reader, Part& part) {
     }
 }
 
+using PartClass = py::class_<Part, std::shared_ptr<Part>>;
+
+void add_cells_of_part(PartClass& type) {
+    type.def_readonly("number", &Part::id, "In the tree of cuts: the root is 1, the children of i are 2i and 2i + 1.")
+        .def_property_readonly(
+            "points", &points_of_part,
+            "(n, 3) float64; those of the triangles come first, and of order 2 the nodes on edges behind all corners.")
+        .def_property_readonly("order", &Part::order, "Of the cells: 1 or 2.")
+        .def_property_readonly(
+            "tetra10", &tetra10_of,
+            "(m, 10) int32 of order 2, else (0, 10): rows of `points` as Mesh.tetra10 has them; made\n"
+            "at each call.")
+        .def_property_readonly("triangle6", &triangle6_of,
+                               "(k, 6) int32 of order 2, else (0, 6): as Mesh.triangle6 has them; made at each call.")
+        .def_property_readonly(
+            "boundary_points", [](const Part& self) { return self.mesh.boundary_vertex_count; },
+            "How many corners the triangles have.")
+        .def_property_readonly(
+            "global_ids", &ids_of_part,
+            "(n,) int64: numbers of the points in the whole mesh, from 0, equal in all parts that have the point.")
+        .def_property_readonly(
+            "owner", &owners_of,
+            "(n,) int32: the number of the part that owns each point: the first in `run.parts` that has it.")
+        .def_property_readonly(
+            "tetrahedra", [](const py::object& self) { return view(self.cast<Part&>().mesh.tets, self); },
+            "(m, 4) int32: corners a, b, c, d as rows of `points`, with det[b-a, c-a, d-a] > 0.")
+        .def_property_readonly("region", &regions_of, "(m,) int32: rows of `region_names`, 0 if there is one region.")
+        .def_property_readonly(
+            "region_names", [](const Part& self) { return self.region_names.names(); },
+            "Empty if there is one region.");
+}
+
+void add_triangles_of_part(PartClass& type) {
+    type.def_property_readonly(
+            "triangles", &view_of<&Part::facets>,
+            "(k, 3) int32: corners as rows of `points`, counter-clockwise seen from outside of the part.")
+        .def_property_readonly("patch", &view_of<&Part::patch>, "(k,) int32: rows of `patch_names`, -1 on interfaces.")
+        .def_property_readonly(
+            "patch_names", [](const Part& self) { return self.patch_names.names(); },
+            "Names of the patches, in the order of their numbers.")
+        .def_property_readonly(
+            "neighbour", &view_of<&Part::neighbour>,
+            "(k,) int32: the number of the part behind an interface or a wall, -1 on the outer boundary.")
+        .def_property_readonly("facet", &view_of<&Part::facet>,
+                               "(k,) int32: the triangle of the surface that it is or lies in, -1 on interfaces.")
+        .def_property_readonly("tetrahedron", &view_of<&Part::tet_at_facet>,
+                               "(k,) int32: the row of `tetrahedra` behind each triangle.")
+        .def_property_readonly("shared", &shared_of,
+                               "All points that other parts have, too: what ghosts and exchanges are made of.");
+}
+
+void add_values_of_part(PartClass& type) {
+    type.def_property_readonly(
+            "point_data", [](const py::object& self) { return values_of(self, PartValues::Of::points); },
+            "Of a solution: (n,) or (n, components) floats by name, as \"Displacement\"; else empty.")
+        .def_property_readonly(
+            "cell_data", [](const py::object& self) { return values_of(self, PartValues::Of::tets); },
+            "Of a solution: (m,) or (m, components) floats by name, as \"Stress\"; else empty.");
+}
+
 }  // namespace
 
 void register_part(py::module_& module) {
-    py::class_<Part, std::shared_ptr<Part>>(module, "Part")
-        .def(pickled_as_bytes<Part>(&write_part, &read_part))
-        .def_readonly("number", &Part::id)
-        .def_property_readonly("points", &points_of_part)
-        .def_property_readonly("boundary_points", [](const Part& self) { return self.mesh.boundary_vertex_count; })
-        .def_property_readonly("tetrahedra",
-                               [](const py::object& self) { return view(self.cast<Part&>().mesh.tets, self); })
-        .def_property_readonly("order", &Part::order)
-        .def_property_readonly("tetra10", &tetra10_of)
-        .def_property_readonly("triangle6", &triangle6_of)
-        .def_property_readonly("global_ids", &ids_of_part)
-        .def_property_readonly("region", &regions_of)
-        .def_property_readonly("triangles", &view_of<&Part::facets>)
-        .def_property_readonly("patch", &view_of<&Part::patch>)
-        .def_property_readonly("facet", &view_of<&Part::facet>)
-        .def_property_readonly("neighbour", &view_of<&Part::neighbour>)
-        .def_property_readonly("behind", &view_of<&Part::tet_at_facet>)
-        .def_property_readonly("owner", &owners_of)
-        .def_property_readonly("shared", &shared_of)
-        .def_property_readonly("point_data",
-                               [](const py::object& self) { return values_of(self, PartValues::Of::points); })
-        .def_property_readonly("cell_data",
-                               [](const py::object& self) { return values_of(self, PartValues::Of::tets); })
-        .def_property_readonly("patch_names", [](const Part& self) { return self.patch_names.names(); })
-        .def_property_readonly("region_names", [](const Part& self) { return self.region_names.names(); });
+    PartClass type(module, "Part",
+                   "The mesh of one part, and how it belongs to the whole. Its arrays are read-only views; nothing\n"
+                   "changes them.\n\n"
+                   "Triangles lie on the surface, or where another part has the same triangle, turned, over the same\n"
+                   "global numbers: on an interface, or on a wall between two regions.");
+    type.def(pickled_as_bytes<Part>(&write_part, &read_part))
+        .def("__copy__", [](const py::object& self) { return self; })
+        .def("__repr__", [](const Part& self) {
+            return fmt::format("<kerf.Part {}: {} points, {} tetrahedra>", self.id, self.node_count(),
+                               self.tet_count());
+        });
+    add_cells_of_part(type);
+    add_triangles_of_part(type);
+    add_values_of_part(type);
 }
 
 }  // namespace kerf::python

@@ -14,6 +14,7 @@
 #include "python/bindings.h"
 #include "python/options.h"
 #include "python/surface_object.h"
+#include "python/values.h"
 #include "run/run/export_run.h"
 #include "run/run/verify_folder.h"
 
@@ -21,19 +22,21 @@ namespace kerf::python {
 
 namespace py = pybind11;
 
-namespace {
-
-/// A finished run, or a solution on one.
+// A finished run, or a solution on one.
 struct RunObject {
-    explicit RunObject(const std::string& folder)
-        : solution(find_solution_folder(folder).value_or("")),
+    explicit RunObject(const std::string& of)
+        : folder(of),
+          solution(find_solution_folder(folder).value_or("")),
           mesh(solution.empty() ? folder : mesh_of_solution(solution)),
           parts(std::make_unique<RunParts>(mesh, solution)) {}
 
+    std::string folder;    // as it was given
     std::string solution;  // empty: no solution
     std::string mesh;
     std::unique_ptr<PartSource> parts;
 };
+
+namespace {
 
 std::shared_ptr<RunObject> open_run(const std::string& folder) {
     const py::gil_scoped_release released;
@@ -46,6 +49,12 @@ py::array_t<Count> of_parts(const RunObject& run, Count PartExtent::*count) {
     Count* to = counts.mutable_data();
     for (const PartExtent& part : run.parts->outline().parts) *to++ = part.*count;
     return counts;
+}
+
+std::int64_t tetrahedra_count(const RunObject& run) {
+    std::int64_t count = 0;
+    for (const PartExtent& part : run.parts->outline().parts) count += part.tets;
+    return count;
 }
 
 std::shared_ptr<Part> load_part_of(const RunObject& run, std::size_t index) {
@@ -129,15 +138,26 @@ void merge(const std::string& folder, const std::string& output, const std::stri
 void register_run(py::module_& module) {
     py::class_<RunObject, std::shared_ptr<RunObject>>(module, "Run")
         .def(py::init(&open_run), py::arg("folder"))
-        .def_readonly("solution", &RunObject::solution)
-        .def_readonly("mesh", &RunObject::mesh)
-        .def_property_readonly("order", [](const RunObject& self) { return self.parts->outline().order; })
-        .def_property_readonly("points", [](const RunObject& self) { return self.parts->outline().nodes(); })
-        .def_property_readonly("numbers", [](const RunObject& self) { return of_parts(self, &PartExtent::id); })
-        .def_property_readonly("tetrahedra", [](const RunObject& self) { return of_parts(self, &PartExtent::tets); })
-        .def_property_readonly("patch_names", [](const RunObject& self) { return self.parts->outline().patch_names; })
-        .def_property_readonly("region_names", [](const RunObject& self) { return self.parts->outline().region_names; })
-        .def("load", &load_part_of, py::arg("index"));
+        .def_readonly("folder", &RunObject::folder, "Absolute path.")
+        .def_readonly("mesh_folder", &RunObject::mesh,
+                      "That of the mesh on which a solution stands; of a run `folder`.")
+        .def_property_readonly(
+            "order", [](const RunObject& self) { return self.parts->outline().order; },
+            "Of the cells: 1 or 2. Of a solution that of the solution.")
+        .def_property_readonly(
+            "points_count", [](const RunObject& self) { return self.parts->outline().nodes(); },
+            "Of the whole mesh: one that several parts have counts once. Of order 2 with the nodes on edges.")
+        .def_property_readonly("tetrahedra_count", &tetrahedra_count, "Of all parts.")
+        .def_property_readonly(
+            "patch_names", [](const RunObject& self) { return self.parts->outline().patch_names; },
+            "Names of the patches, in the order of their numbers.")
+        .def_property_readonly(
+            "region_names", [](const RunObject& self) { return self.parts->outline().region_names; },
+            "Empty if there is one region.")
+        .def_readonly("_solution", &RunObject::solution)
+        .def_property_readonly("_numbers", [](const RunObject& self) { return of_parts(self, &PartExtent::id); })
+        .def_property_readonly("_tetrahedra", [](const RunObject& self) { return of_parts(self, &PartExtent::tets); })
+        .def("_load", &load_part_of, py::arg("index"));
     module.def("verify", &verify, py::arg("folder"), py::arg("input"), py::arg("without_input"));
     module.def("quality", &quality, py::arg("path"));
     module.def("export", &export_parts, py::arg("folder"), py::arg("formats"), py::arg("output"), py::arg("into"),

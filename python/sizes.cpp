@@ -21,11 +21,14 @@ void register_sizes(py::module_& module) {
     py::class_<SizesObject, std::shared_ptr<SizesObject>>(module, "SizeField")
         .def(py::init(&make_sizes), py::arg("points"), py::arg("tetrahedra"), py::arg("sizes"))
         .def_property_readonly(
-            "points", [](const py::object& self) { return view(self.cast<SizesObject&>().sizes->vertices, self); })
-        .def_property_readonly("tetrahedra",
-                               [](const py::object& self) { return view(self.cast<SizesObject&>().sizes->tets, self); })
+            "points", [](const py::object& self) { return view(self.cast<SizesObject&>().sizes->vertices, self); },
+            "(n, 3) float64.")
         .def_property_readonly(
-            "sizes", [](const py::object& self) { return view(self.cast<SizesObject&>().sizes->sizes, self); });
+            "tetrahedra", [](const py::object& self) { return view(self.cast<SizesObject&>().sizes->tets, self); },
+            "(m, 4) int32: rows of `points`.")
+        .def_property_readonly(
+            "sizes", [](const py::object& self) { return view(self.cast<SizesObject&>().sizes->sizes, self); },
+            "(n,) float64: of the points.");
 }
 
 }  // namespace kerf::python

@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include "kerf/kerf.h"
+#include "python/values.h"
 
 namespace kerf::python {
 

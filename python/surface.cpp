@@ -1,7 +1,7 @@
-// kerf._kerf.Surface holds a ClosedSurface with its arrays (python/surface_object.h); kerf/surface.py adds everything
-// that needs no C++. Long calls release the interpreter's lock and ask a Watch. Names go through decoded(), because
-// they may be no UTF-8. A matrix of axes has them as columns in the kernel and as rows in Python: its memory is handed
-// over as it is.
+// kerf._kerf.Surface holds a ClosedSurface with its arrays (python/surface_object.h); kerf.Surface
+// (kerf/surface.py) inherits its properties, and adds everything that needs no C++, by the members with an underscore.
+// Long calls release the interpreter's lock and ask a Watch. Names go through decoded(), because they may be no UTF-8.
+// A matrix of axes has them as columns in the kernel and as rows in Python: its memory is handed over as it is.
 #include <pybind11/stl.h>
 
 #include "python/arrays.h"
@@ -10,6 +10,7 @@
 #include "python/surface_arrays.h"
 #include "python/surface_object.h"
 #include "python/text.h"
+#include "python/values.h"
 #include "run/prepare/input.h"
 #include "run/report/repair_json.h"
 #include "surface/complex/solid_properties.h"
@@ -67,41 +68,67 @@ py::object wrapped(const SurfaceObject& self) {
 
 SolidProperties solid_of(const SurfaceObject& self) { return solid_properties(self.surface.input().complex); }
 
-py::array array_of(const Vec3& vector) { return py::array_t<double>(3, vector.data()); }
+py::array copied(const Vec3& vector) { return py::array_t<double>(3, vector.data()); }
 // Returns the columns as rows: a column of Eigen's matrix is in one piece of memory, and so is a row of numpy's.
-py::array array_of(const Eigen::Matrix3d& columns) { return py::array_t<double>({3, 3}, columns.data()); }
+py::array copied(const Eigen::Matrix3d& columns) { return py::array_t<double>({3, 3}, columns.data()); }
+
+using SurfaceClass = py::class_<SurfaceObject, std::shared_ptr<SurfaceObject>>;
+
+void add_arrays_of_surface(SurfaceClass& type) {
+    type.def_property_readonly("points", array_of(&SurfaceObject::points), "(n, 3) float64.")
+        .def_property_readonly(
+            "triangles", array_of(&SurfaceObject::triangles),
+            "(m, 3) int32: corners, counter-clockwise seen from outside, or from in front of a wall.")
+        .def_property_readonly("patches", array_of(&SurfaceObject::patches), "(m,) int32: rows of `names`.")
+        .def_property_readonly(
+            "names", [](const SurfaceObject& self) { return decoded(self.surface.patch_names()); }, "Of the patches.")
+        .def_property_readonly("sides", array_of(&SurfaceObject::sides),
+                               "(m, 2) int32: the regions behind and in front of each triangle, -1: outside.")
+        .def_property_readonly(
+            "regions", [](const SurfaceObject& self) { return decoded(self.surface.region_names()); },
+            "Names; empty if there is one region.");
+}
+
+void add_measures_of_surface(SurfaceClass& type) {
+    type.def_property_readonly(
+            "volume", [](const SurfaceObject& self) { return self.surface.volume(); },
+            "Enclosed, of all regions, in cubed units of the points.")
+        .def_property_readonly(
+            "area", [](const SurfaceObject& self) { return self.surface.area(); },
+            "Each triangle once, in squared units of the points.")
+        .def_property_readonly(
+            "centroid", [](const SurfaceObject& self) { return copied(solid_of(self).centroid); },
+            "(3,) float64: of the volume of all regions. O(m), as the inertia and the axes.")
+        .def_property_readonly(
+            "inertia", [](const SurfaceObject& self) { return copied(solid_of(self).inertia); },
+            "(3, 3) float64: of the volume of all regions about the centroid, with a density of 1, so in units^5.")
+        .def_property_readonly(
+            "principal_axes", [](const SurfaceObject& self) { return copied(solid_of(self).principal.axes); },
+            "(3, 3) float64: unit vectors as rows, in the order of `principal_moments`: the first is the long "
+            "direction\n"
+            "of the body. The largest component of each is positive; of equal moments they are the coordinate axes, "
+            "if\n"
+            "can be.")
+        .def_property_readonly(
+            "principal_moments", [](const SurfaceObject& self) { return copied(solid_of(self).principal.moments); },
+            "(3,) float64: of the inertia, ascending.");
+}
 
 }  // namespace
 
 void register_surface(py::module_& module) {
-    py::class_<SurfaceObject, std::shared_ptr<SurfaceObject>>(module, "Surface")
-        .def(py::init(&make_surface), py::arg("points"), py::arg("triangles"), py::arg("patches") = py::none(),
-             py::arg("names") = py::none(), py::arg("sides") = py::none(), py::arg("regions") = py::none())
-        .def_property_readonly("points",
-                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().points, self); })
-        .def_property_readonly("triangles",
-                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().triangles, self); })
-        .def_property_readonly("patches",
-                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().patches, self); })
-        .def_property_readonly("sides",
-                               [](const py::object& self) { return view(self.cast<SurfaceObject&>().sides, self); })
-        .def_property_readonly("names", [](const SurfaceObject& self) { return decoded(self.surface.patch_names()); })
-        .def_property_readonly("regions",
-                               [](const SurfaceObject& self) { return decoded(self.surface.region_names()); })
-        .def_property_readonly("volume", [](const SurfaceObject& self) { return self.surface.volume(); })
-        .def_property_readonly("area", [](const SurfaceObject& self) { return self.surface.area(); })
-        .def_property_readonly("centroid", [](const SurfaceObject& self) { return array_of(solid_of(self).centroid); })
-        .def_property_readonly("inertia", [](const SurfaceObject& self) { return array_of(solid_of(self).inertia); })
-        .def_property_readonly("principal_moments",
-                               [](const SurfaceObject& self) { return array_of(solid_of(self).principal.moments); })
-        .def_property_readonly("principal_axes",
-                               [](const SurfaceObject& self) { return array_of(solid_of(self).principal.axes); })
-        .def_property_readonly("repairs",
+    SurfaceClass type(module, "Surface");
+    type.def(sharing<SurfaceObject>(), py::arg("other"));
+    add_arrays_of_surface(type);
+    add_measures_of_surface(type);
+    type.def_property_readonly("_repairs",
                                [](const SurfaceObject& self) { return decoded(to_json(self.surface.input().ladder)); })
-        .def_property_readonly("wrapped", &wrapped)
-        .def("remesh", &remesh, py::arg("progress"))
-        .def("save", &save, py::arg("path"));
+        .def_property_readonly("_wrapped", &wrapped)
+        .def("_remesh", &remesh, py::arg("progress"))
+        .def("_save", &save, py::arg("path"));
     module.def("read", &read, py::arg("path"));
+    module.def("surface_of_arrays", &make_surface, py::arg("points"), py::arg("triangles"), py::arg("patches"),
+               py::arg("names"), py::arg("sides"), py::arg("regions"));
 }
 
 }  // namespace kerf::python

@@ -9,7 +9,7 @@ namespace kerf::python {
 
 namespace {
 
-// `names`: a list of bytes as kerf/surface.py encodes it, or None.
+// `names`: a list of bytes as kerf/paths.py encodes it, or None.
 std::vector<std::string> names_of(const py::object& names) {
     return names.is_none() ? std::vector<std::string>() : names.cast<std::vector<std::string>>();
 }

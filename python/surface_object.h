@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kerf/kerf.h"
+#include "python/values.h"
 
 namespace kerf::python {
 

@@ -11,19 +11,21 @@
         part.points, part.tetrahedra, part.global_ids, part.shared
 """
 
-from ._kerf import __version__
+from ._kerf import LocalMesh, Part, __version__
 from .check import Check, check
 from .defect import Defect
 from .distributed import DistributedMesh, distributed
+from .drawing import Picture
 from .errors import (Cancelled, ConvergenceError, Error, FailedPart, FileError, InputError, MeshingError, OutOfMemory,
                      QualityError, UsageError, VerificationError)
 from .ghost_cells import GhostCells
-from .local_mesh import LocalMesh
-from .mesh import Mesh, Tetrahedralization, mesh, tetrahedralize
-from .options import Option, options
-from .part import Part, Parts, SharedPoints
-from .plotting import Picture, plot
+from .mesh import Mesh
+from .meshing import Tetrahedralization, mesh, tetrahedralize
+from .option_table import Option, options
+from .part import Parts
+from .plotting import plot
 from .quality import Distribution, Quality, RegionQuality
+from .records import SharedPoints
 from .repairs import Repair, Wrapping
 from .run import Run, open
 from .sizes import SizeField, sample_sizes

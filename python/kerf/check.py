@@ -9,35 +9,29 @@ from typing import Any, Optional, Sequence, Union
 from numpy.typing import ArrayLike
 
 from . import _kerf
+from ._kerf import Surface
 from .defect import Defect
-from .options import in_python
-from .surface import Path, Surface, encoded, encoded_names
+from .option_table import in_python
+from .paths import Path, encoded, encoded_names
 
 
-class Check:
+class Check(_kerf.Check):
     """What check() has found. str() of it is what `kerf check` prints."""
 
-    def __init__(self, native: _kerf.Check) -> None:
-        self._native = native
-        self._defects: Optional[list[Defect]] = None
-
-    @property
-    def ok(self) -> bool:
-        """Whether the surface can be meshed, after repairs that do not change its geometry."""
-        return self._native.ok
+    _found: Optional[list[Defect]] = None
 
     @property
     def text(self) -> str:
         """Lines for people: counts, regions, the worst defects of each kind, what to do, the verdict."""
-        return in_python(self._native.text)
+        return in_python(self._text)
 
     @property
     def defects(self) -> list[Defect]:
         """In the order of their kinds, the most fundamental first. Where no surface could be made of what was given,
         the only one says why. At most 10,000 self-intersections, and the 1000 worst needles and shortest edges."""
-        if self._defects is None:
-            self._defects = self._native.defects
-        return self._defects
+        if self._found is None:
+            self._found = self._defects
+        return self._found
 
     @property
     def errors(self) -> list[Defect]:
@@ -47,7 +41,7 @@ class Check:
     @property
     def report(self) -> dict[str, Any]:
         """What `kerf check --json` prints: counts, repairs, regions with volumes and walls, notes, and all defects."""
-        return json.loads(self._native.json)
+        return json.loads(self._json)
 
     def __str__(self) -> str:
         return self.text

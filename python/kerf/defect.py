@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .option_table import in_python
+
 
 @dataclass(frozen=True, eq=False)
 class Defect:
@@ -34,8 +36,6 @@ class Defect:
     advice: str = ""
 
     def __post_init__(self) -> None:
-        from .options import in_python
-
         for name in ("text", "advice"):
             object.__setattr__(self, name, in_python(getattr(self, name)))
 

@@ -21,28 +21,15 @@ import numpy as np
 from . import _kerf, programs
 from .errors import FileError, UsageError
 from .ghost_cells import GhostCells, ghost_cells_of
-from .local_mesh import LocalMesh
-from .mesh import surface_and_options
+from .paths import Path
 from .progress import Progress, caller
 from .ranks import check_communicator, swap, together
+from .records import Neighbour
 from .sizes import Size, split_size
-from .surface import Path, Surface
+from .surface import Surface, surface_and_options
 
 if TYPE_CHECKING:
     from mpi4py.MPI import Comm
-
-
-@dataclass(frozen=True)
-class Neighbour:
-    """Another rank that has some of the same points. Everything is in the same order on both sides."""
-
-    rank: int
-    #: (s,) int64: rows of the local points, ascending by their global numbers.
-    points: np.ndarray
-    #: (t, 3) int64: faces between cells of both, rows of the local points, counter-clockwise seen from the other side.
-    triangles: np.ndarray
-    #: (t,) int64: rows of the local tetrahedra that have these faces.
-    cells: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -56,7 +43,7 @@ class Rows:
     of_points: np.ndarray
 
 
-class DistributedMesh:
+class DistributedMesh(_kerf.DistributedMesh):
     """A mesh of which each rank has some of the parts, joined, and no rank has all of them.
 
         mesh = kerf.mesh("pump.stl", parts=64, size=0.5, comm=MPI.COMM_WORLD)   # under mpirun -n P python3 script.py
@@ -76,11 +63,10 @@ class DistributedMesh:
     where it had to end the others. Methods that are called collective are so in the same way.
     """
 
-    def __init__(self, comm: Comm, native: _kerf.RankMesh) -> None:
-        self._native = native
+    def __init__(self, comm: Comm, native: _kerf.DistributedMesh) -> None:
+        super().__init__(native)
         self._comm = comm
-        self._local = LocalMesh(native)
-        self._neighbours = [Neighbour(*each) for each in native.neighbours]
+        self._neighbours = [Neighbour(*each) for each in self._neighbour_rows]
 
     @property
     def comm(self) -> Comm:
@@ -88,34 +74,9 @@ class DistributedMesh:
         return self._comm
 
     @property
-    def local(self) -> LocalMesh:
-        """What this rank has."""
-        return self._local
-
-    @property
     def neighbours(self) -> List[Neighbour]:
         """The ranks that share points with this one, ascending."""
         return self._neighbours
-
-    @property
-    def point_count(self) -> int:
-        """Of the whole mesh, each point once."""
-        return self._native.point_count
-
-    @property
-    def cell_count(self) -> int:
-        """Of the whole mesh."""
-        return self._native.cell_count
-
-    @property
-    def patch_names(self) -> List[str]:
-        """The same on every rank."""
-        return self._native.patch_names
-
-    @property
-    def region_names(self) -> List[str]:
-        """The same on every rank; empty if there is one region."""
-        return self._native.region_names
 
     def rows(self) -> Rows:
         """Rows of the points in vectors and matrices that are distributed as the points are owned. Collective."""
@@ -159,7 +120,7 @@ class DistributedMesh:
         Raises UsageError for others. Cost: messages to the neighbours with the cells that touch them.
         """
         together(self.comm, lambda: _require_one(layers))
-        return ghost_cells_of(self)
+        return ghost_cells_of(self.comm, self.local, self.neighbours)
 
     def _of_points(self, values: np.ndarray) -> np.ndarray:
         values = together(self.comm, lambda: self._checked(values))
@@ -257,7 +218,7 @@ def _mesh_into(surface: Surface, comm: Comm, folder: str, sizes: Optional[_kerf.
 
     told = caller(progress) if progress is not True or comm.rank == 0 else None
     _mpi().with_ranks(MPI._addressof(comm), lambda ranks, processors: _kerf.mesh_on_ranks(
-        ranks, processors, surface._native, folder, sizes, told, programs.folder(), **options))
+        ranks, processors, surface, folder, sizes, told, programs.folder(), **options))
 
 
 def _mpi() -> ModuleType:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Iterable, Optional
+from typing import Any, Iterable, Optional
 
-if TYPE_CHECKING:
-    from .defect import Defect
+import numpy as np
+
+from .defect import Defect
+from .option_table import in_python
 
 
 @dataclass(frozen=True)
@@ -108,10 +110,6 @@ _classes = {each.code: each for each in _kinds}
 
 def _defect_of(message: str, elements: list[dict[str, Any]]) -> Defect:
     """The only one of an error that is not about the defects of a surface."""
-    import numpy as np
-
-    from .defect import Defect
-
     def ids(*kinds: str) -> np.ndarray:
         return np.array([i for each in elements if each["kind"] in kinds for i in each["ids"]], np.int64)
 
@@ -122,8 +120,6 @@ def _defect_of(message: str, elements: list[dict[str, Any]]) -> Defect:
 def error_of(code: int, message: str, elements: Iterable[dict[str, Any]],
              failed_parts: Iterable[tuple[int, list[float], str, str]] = (), defects: Iterable[Defect] = ()) -> Error:
     """The exception of an exit code; its message has the names of Python for options and arrays."""
-    from .options import in_python
-
     kind = _classes.get(code, Error)
     message = in_python(message)
     error = InputError(message, elements, defects) if kind is InputError else kind(message, elements)

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Dict, List
 
 import numpy as np
 
+from ._kerf import LocalMesh
 from .ranks import swap
+from .records import Neighbour
 
 if TYPE_CHECKING:
-    from .distributed import DistributedMesh
+    from mpi4py.MPI import Comm
 
 
 @dataclass(frozen=True)
@@ -33,30 +35,29 @@ class GhostCells:
     point_owner: np.ndarray
 
 
-def ghost_cells_of(mesh: DistributedMesh) -> GhostCells:
+def ghost_cells_of(comm: Comm, local: LocalMesh, neighbours: List[Neighbour]) -> GhostCells:
     """Collective. A cell travels once to each rank that it touches, with its corners."""
-    local = mesh.local
-    cells = _cells_for_neighbours(mesh)
+    cells = _cells_for_neighbours(local, neighbours)
     rows = {rank: np.unique(local.tetrahedra[own]) for rank, own in cells.items()}
     told = {rank: np.column_stack([local.global_cells[own], local.region[own],
                                    local.global_points[local.tetrahedra[own]]]) for rank, own in cells.items()}
     numbers = {rank: np.column_stack([local.global_points[own], local.owner[own]]) for rank, own in rows.items()}
-    told = swap(mesh.comm, told, np.empty((0, 6), np.int64))
-    numbers = swap(mesh.comm, numbers, np.empty((0, 2), np.int64))
-    points = swap(mesh.comm, {rank: local.points[own] for rank, own in rows.items()}, np.empty((0, 3)))
+    told = swap(comm, told, np.empty((0, 6), np.int64))
+    numbers = swap(comm, numbers, np.empty((0, 2), np.int64))
+    points = swap(comm, {rank: local.points[own] for rank, own in rows.items()}, np.empty((0, 3)))
     owner = np.repeat(np.array(sorted(told), np.int32), [len(told[rank]) for rank in sorted(told)])
-    return _assembled(mesh, _rows_of_all(told, 6, np.int64), owner, _rows_of_all(numbers, 2, np.int64),
+    return _assembled(local, neighbours, _rows_of_all(told, 6, np.int64), owner, _rows_of_all(numbers, 2, np.int64),
                       _rows_of_all(points, 3, np.float64))
 
 
-def _cells_for_neighbours(mesh: DistributedMesh) -> Dict[int, np.ndarray]:
+def _cells_for_neighbours(local: LocalMesh, neighbours: List[Neighbour]) -> Dict[int, np.ndarray]:
     """The own cells that touch each neighbour."""
-    tetrahedra, cells = mesh.local.tetrahedra, {}
-    is_shared = np.zeros(len(mesh.local.points), bool)
-    for neighbour in mesh.neighbours:
+    tetrahedra, cells = local.tetrahedra, {}
+    is_shared = np.zeros(len(local.points), bool)
+    for neighbour in neighbours:
         is_shared[neighbour.points] = True
     near = np.flatnonzero(is_shared[tetrahedra].any(axis=1))
-    for neighbour in mesh.neighbours:
+    for neighbour in neighbours:
         is_shared[:] = False
         is_shared[neighbour.points] = True
         cells[neighbour.rank] = near[is_shared[tetrahedra[near]].any(axis=1)]
@@ -68,11 +69,10 @@ def _rows_of_all(rows: Dict[int, np.ndarray], width: int, dtype: type) -> np.nda
     return np.concatenate(none + [rows[rank] for rank in sorted(rows)])
 
 
-def _assembled(mesh: DistributedMesh, told: np.ndarray, owner: np.ndarray, numbers: np.ndarray,
+def _assembled(local: LocalMesh, neighbours: List[Neighbour], told: np.ndarray, owner: np.ndarray, numbers: np.ndarray,
                points: np.ndarray) -> GhostCells:
     """Of rows (cell, region, corners) and (point, owner), with coordinates, of which several ranks may tell."""
-    local = mesh.local
-    known = np.unique(np.concatenate([np.empty(0, np.int64)] + [each.points for each in mesh.neighbours]))
+    known = np.unique(np.concatenate([np.empty(0, np.int64)] + [each.points for each in neighbours]))
     is_new = ~np.isin(numbers[:, 0], local.global_points[known])
     new, first = np.unique(numbers[is_new, 0], return_index=True)
     all_numbers = np.concatenate([local.global_points[known], new])

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 
 import numpy as np
 
-from .surface import Surface
+from . import _kerf
 
 if TYPE_CHECKING:
     import meshio
     import pyvista
     import vtkmodules.vtkCommonDataModel as vtk
 
-    from .mesh import Mesh
-    from .run import Run
+#: The arguments of Surface() up to the names.
+SurfaceArrays = tuple[np.ndarray, np.ndarray, Optional[np.ndarray], Optional[list[str]]]
 
 
 @dataclass
@@ -24,26 +24,6 @@ class Values:
 
     points: dict[str, np.ndarray] = field(default_factory=dict)
     cells: dict[str, np.ndarray] = field(default_factory=dict)
-
-
-def values_of(run: Run) -> Values:
-    """Of a solution, in the order of run.mesh(): of a point in several parts those of the first. Of a run none."""
-    values = Values()
-    if run.mesh_folder == run.folder:
-        return values
-    first = 0
-    is_set = np.zeros(run.points_count, bool)
-    for part in run.parts:
-        new = ~is_set[part.global_ids]
-        for name, own in part.point_data.items():
-            whole = values.points.setdefault(name, np.empty((run.points_count, *own.shape[1:]), own.dtype))
-            whole[part.global_ids[new]] = own[new]
-        for name, own in part.cell_data.items():
-            whole = values.cells.setdefault(name, np.empty((run.tetrahedra_count, *own.shape[1:]), own.dtype))
-            whole[first:first + len(own)] = own
-        is_set[part.global_ids] = True
-        first += len(part.tetrahedra)
-    return values
 
 
 @dataclass
@@ -62,12 +42,12 @@ class _Block:
         return kinds[self.cells.shape[1]]
 
 
-def _nodes_of_cells(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+def _nodes_of_cells(mesh: _kerf.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Of the tetrahedra and of the triangles: of order 2 those on edges, too."""
     return (mesh.tetra10, mesh.triangle6) if mesh.order == 2 else (mesh.tetrahedra, mesh.triangles)
 
 
-def _blocks_of(mesh: Mesh) -> list[_Block]:
+def _blocks_of(mesh: _kerf.Mesh) -> list[_Block]:
     blocks = []
     tets, triangles = _nodes_of_cells(mesh)
     for region in range(max(1, len(mesh.region_names))):
@@ -106,7 +86,7 @@ def _entities_of_points(count: int, blocks: list[_Block]) -> np.ndarray:
     return entities
 
 
-def to_meshio(mesh: Mesh, values: Optional[Values] = None) -> meshio.Mesh:
+def to_meshio(mesh: _kerf.Mesh, values: Optional[Values] = None) -> meshio.Mesh:
     """Mesh.to_meshio(), with the values of a solution."""
     import meshio
 
@@ -130,7 +110,7 @@ def to_meshio(mesh: Mesh, values: Optional[Values] = None) -> meshio.Mesh:
                        cell_sets=sets)
 
 
-def to_vtk(mesh: Mesh, values: Optional[Values] = None) -> vtk.vtkUnstructuredGrid:
+def to_vtk(mesh: _kerf.Mesh, values: Optional[Values] = None) -> vtk.vtkUnstructuredGrid:
     """Mesh.to_vtk(), with the values of a solution."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -184,7 +164,7 @@ def _vtk_ids(*pieces: np.ndarray) -> Any:
     return ids
 
 
-def to_pyvista(mesh: Mesh, values: Optional[Values] = None) -> pyvista.UnstructuredGrid:
+def to_pyvista(mesh: _kerf.Mesh, values: Optional[Values] = None) -> pyvista.UnstructuredGrid:
     """Mesh.to_pyvista(), with the values of a solution."""
     try:
         import pyvista
@@ -204,19 +184,19 @@ def _names_of_bytes(array: np.ndarray) -> list[str]:
 
 
 def _surface(points: np.ndarray, triangles: np.ndarray, patches: Optional[np.ndarray],
-             names: Union[Mapping[int, str], list[str], None], options: Mapping[str, Any]) -> Surface:
+             names: Union[Mapping[int, str], list[str], None]) -> SurfaceArrays:
     """Without points that no triangle has; patches numbered from 0 in the order of their numbers."""
     used, corners = np.unique(triangles, return_inverse=True)
     points, triangles = np.asarray(points)[used], corners.reshape(-1, 3)
     if patches is None or isinstance(names, list):
-        return Surface(points, triangles, patches, names if isinstance(names, list) else None, **options)
+        return points, triangles, patches, names if isinstance(names, list) else None
     numbers, patches = np.unique(patches, return_inverse=True)
     of_number = dict(names or {})
-    return Surface(points, triangles, patches, [of_number.get(int(n), f"patch_{n}") for n in numbers], **options)
+    return points, triangles, patches, [of_number.get(int(n), f"patch_{n}") for n in numbers]
 
 
-def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str], options: Mapping[str, Any]) -> Surface:
-    """Surface.from_meshio()."""
+def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str]) -> SurfaceArrays:
+    """For Surface.from_meshio()."""
     rows = [i for i, block in enumerate(mesh.cells) if block.type == "triangle"]
     others = sorted({block.type for block in mesh.cells if block.type.startswith(("quad", "polygon", "triangle"))})
     if others not in ([], ["triangle"]):
@@ -231,8 +211,8 @@ def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str], options: Mappin
     if key is not None:
         names = {int(value[0]): name for name, value in mesh.field_data.items()
                  if key == "gmsh:physical" and np.size(value) == 2 and value[1] == 2}
-        return _surface(mesh.points, triangles, np.concatenate([mesh.cell_data[key][i] for i in rows]), names, options)
-    return _surface(mesh.points, triangles, *_patches_of_sets(mesh, rows, len(triangles)), options)
+        return _surface(mesh.points, triangles, np.concatenate([mesh.cell_data[key][i] for i in rows]), names)
+    return _surface(mesh.points, triangles, *_patches_of_sets(mesh, rows, len(triangles)))
 
 
 def _patches_of_sets(mesh: meshio.Mesh, rows: list[int],
@@ -250,9 +230,8 @@ def _patches_of_sets(mesh: meshio.Mesh, rows: list[int],
     return (patches, names) if names and patches.min() >= 0 else (None, None)
 
 
-def surface_of_polydata(polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patches: Optional[str],
-                        options: Mapping[str, Any]) -> Surface:
-    """Surface.from_pyvista()."""
+def surface_of_polydata(polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patches: Optional[str]) -> SurfaceArrays:
+    """For Surface.from_pyvista()."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if polydata.GetNumberOfPolys() == 0:
@@ -267,8 +246,8 @@ def surface_of_polydata(polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patc
     if found is None and patches is not None:
         raise ValueError(f"The data set has no cell data {patches!r}.")
     if found is None:
-        return _surface(points, triangles, None, None, options)
+        return _surface(points, triangles, None, None)
     first = polydata.GetNumberOfVerts() + polydata.GetNumberOfLines()
     names = polydata.GetFieldData().GetArray("PatchNames") if patches is None else None
     return _surface(points, triangles, vtk_to_numpy(found)[first:first + len(triangles)],
-                    _names_of_bytes(vtk_to_numpy(names)) if names is not None else None, options)
+                    _names_of_bytes(vtk_to_numpy(names)) if names is not None else None)

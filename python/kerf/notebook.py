@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import base64
 import html
-from typing import Any, Mapping, Optional
+from typing import Mapping, Optional, Union
 
+from . import _kerf
+from .drawing import draw
 from .errors import Error
 
+#: What there are pictures of, or its folder.
+Drawn = Union[_kerf.Surface, _kerf.Mesh, str]
 #: Triangles or tetrahedra: what has more is shown without a picture.
 MOST_ELEMENTS_OF_PICTURE = 300_000
 _SECONDS_OF_PICTURE = 5
 
 
-def html_of(what: object, title: str, rows: Mapping[str, object], elements: int, **options: object) -> str:
-    """For a notebook: `rows` as a table and, of so many elements unless they are too many, plot(**options)."""
+def html_of(what: Drawn, title: str, rows: Mapping[str, object], elements: int, **options: object) -> str:
+    """For a notebook: `rows` as a table and, unless the elements are too many, a picture with the options."""
     right = "style='text-align:right'"
     cells = "".join(f"<tr><td>{html.escape(name)}</td><td {right}>{html.escape(_text(value))}</td></tr>"
                     for name, value in rows.items())
@@ -30,10 +34,8 @@ def _text(value: object) -> str:
     return f"{value:,}" if isinstance(value, int) else f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _picture(what: object, options: Mapping[str, Any]) -> Optional[bytes]:
-    from .plotting import plot
-
+def _picture(what: Drawn, options: Mapping[str, object]) -> Optional[bytes]:
     try:
-        return plot(what, size=(720, 540), timeout=_SECONDS_OF_PICTURE, **options)
+        return draw(what, options, (720, 540), _SECONDS_OF_PICTURE)
     except Error:  # no program, no time, nothing to be seen: there is the table
         return None

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import functools
-import keyword
 import numbers
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Optional
 
 import numpy as np
 
 from . import _kerf
 from .errors import UsageError
+from .option_table import Option, table
 
 #: Options of `kerf mesh` that a mesh in memory has no use for, and why.
 NOT_IN_MEMORY = {
@@ -28,60 +26,11 @@ NOT_IN_MEMORY = {
 }
 
 
-@dataclass(frozen=True)
-class Option:
-    """An option of `kerf mesh`.
-
-    name          as a keyword argument: max_volume for --max-volume
-    flag          on the command line: "--max-volume"
-    group         under which the help lists it: "Input", "Cuts", "Sizes", "Meshing", "Output", "Running", "Expert"
-    kind          "flag", "whole number", "number", "length" (with % of the diagonal, too), "memory" (as "2G"),
-                  "count" (as "50k"), "text", "choice" or "list"
-    form          of a value, as "NAME=H"; empty for flags and choices
-    help          one sentence, in the words of the command line
-    default       its value, as text, where it is not given; empty: none
-    choices       of a choice
-    is_of_surface whether it belongs to kerf.Surface() and kerf.read(), and not to the mesh
-    """
-
-    name: str
-    flag: str
-    group: str
-    kind: str
-    form: str
-    help: str
-    default: str
-    choices: tuple[str, ...]
-    is_of_surface: bool
-
-
-def options() -> list[Option]:
-    """All options of `kerf mesh`, in the order of its table. kerf.mesh() takes them as keyword arguments.
-
-    A flag is True or False; a length is a number or a text such as "2%"; a list is a list, a tuple, a single value or,
-    where its form has a =, a dict: size_region={"bone": 0.1}, region={"bone": (0, 1, 0)}, size_near={"top": (0.1, 2)}.
-    Paths may be os.PathLike. None is as if the option was not given.
-    """
-    return list(_table().values())
-
-
-@functools.lru_cache(maxsize=None)
-def _table() -> dict[str, Option]:
-    """By the names on the command line, without dashes."""
-    table = {}
-    for row in _kerf.option_rows():
-        flag = row.pop("name")
-        name = flag.replace("-", "_")
-        table[flag] = Option(name=name + "_" if keyword.iskeyword(name) else name, flag="--" + flag,
-                             choices=tuple(row.pop("choices")), **row)
-    return table
-
-
 def find(name: str) -> Option:
     """The option with this keyword. Raises UsageError, with what it may have been meant to be, if there is none."""
-    option = _table().get(name.rstrip("_").replace("_", "-"))
+    option = table().get(name.rstrip("_").replace("_", "-"))
     if option is None:
-        meant = _kerf.did_you_mean(name, [each.name for each in _table().values()])
+        meant = _kerf.did_you_mean(name, [each.name for each in table().values()])
         raise UsageError(f"{name} is no option.{meant} kerf.options() lists them all.")
     return option
 
@@ -163,26 +112,3 @@ def _word(option: Option, value: Any) -> str:
 def _short(value: Any) -> str:
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
-
-
-#: What the kernel calls the arrays.
-_ARRAYS = {"facets": "triangles", "vertices": "points", "patch": "patches"}
-
-
-def in_python(text: str) -> str:
-    """A text of the command line as Python has it: --max-volume is max_volume, --voids parity is voids="parity"."""
-    text = re.sub(r"--([a-z]+(?:-[a-z]+)*)(?: ([a-z]+(?:-[a-z]+)*|\d+))?", _name_in_python, text)
-    return re.sub(r"\b(facets|vertices|patch)\[", lambda found: _ARRAYS[found[1]] + "[", text)
-
-
-def _name_in_python(found: re.Match[str]) -> str:
-    option, value = _table().get(found[1]), found[2]
-    if found[1] == "needle-angle":
-        return found[0][2:].replace("-", "_", 1)
-    if option is None:
-        return found[0]
-    if value in option.choices:
-        return f'{option.name}="{value}"'
-    if value and value.isdigit():
-        return f"{option.name}={value}"
-    return option.name + (f" {value}" if value else "")

@@ -3,32 +3,18 @@
 from __future__ import annotations
 
 import os
-from contextlib import contextmanager
-from tempfile import TemporaryDirectory
-from typing import Iterator, Optional, Sequence, Union
+from typing import Optional, Sequence, Union
 
 import numpy as np
 
-from . import _kerf, programs
+from .drawing import Picture, draw
 from .errors import UsageError
 from .mesh import Mesh
-from .part_surface import PartSurface
+from .paths import Path
+from .records import Plane
 from .solution import Solution
-from .surface import Path, Surface
-from .tree import TreePart
-from .tree_node import Plane
-
-
-class Picture(bytes):
-    """A PNG file. Notebooks show it."""
-
-    def _repr_png_(self) -> bytes:
-        return bytes(self)
-
-    def __repr__(self) -> str:
-        return f"<kerf.Picture: {len(self)} bytes of PNG>"
-
-    __str__ = __repr__
+from .surface import Surface
+from .tree import PartSurface, TreePart
 
 
 def plot(what: Union[Path, Surface, Mesh, Solution, PartSurface, TreePart, object], file: Optional[Path] = None,
@@ -53,42 +39,24 @@ def plot(what: Union[Path, Surface, Mesh, Solution, PartSurface, TreePart, objec
 
     Raises FileError where kerf-view or the input is missing, UsageError for an option that does not fit.
     """
-    if isinstance(what, Mesh) and "state" not in options:
-        options.setdefault("stage", "tetrahedra")
-    width, height = size
-    with TemporaryDirectory(prefix="kerf-plot-") as beside, _path_of(what) as path:
-        picture = os.path.join(beside, "picture.png")
-        flags = programs.flags({"resolution": f"{width}x{height}", "timeout": f"{timeout:g}", "color": color,
-                                "clip": _clip_text(what, clip), "view": view, **options})
-        programs.run("kerf-view", ["screenshot", path, "--output", picture, *flags], timeout=timeout)
-        with open(picture, "rb") as drawn:
-            result = Picture(drawn.read())
+    result = draw(_drawable(what), {"color": color, "clip": _clip_text(what, clip), "view": view, **options}, size,
+                  timeout)
     if file is not None:
         with open(file, "wb") as written:
             written.write(result)
     return result
 
 
-@contextmanager
-def _path_of(what: object) -> Iterator[str]:
-    """Of what kerf-view can read: something in memory is written into a folder that goes with the picture."""
+def _drawable(what: object) -> Union[Surface, Mesh, str]:
     what = what.surface if isinstance(what, TreePart) else what
     what = what.to_surface() if isinstance(what, PartSurface) else what
-    if not isinstance(what, (Surface, Mesh)):
-        path = getattr(what, "folder", what)
-        if not isinstance(path, (str, os.PathLike)):
-            raise TypeError(f"plot() draws surfaces, meshes, runs, solutions, parts of trees and files, but no "
-                            f"{type(what).__name__}.")
-        yield os.fspath(path)
-        return
-    with TemporaryDirectory(prefix="kerf-plot-") as folder:
-        if isinstance(what, Surface):
-            path = os.path.join(folder, "surface.obj")
-            _kerf.write_surface_to_view(what._native, path)
-        else:
-            path = os.path.join(folder, "mesh")
-            _kerf.write_mesh_to_view(what._native, path)
-        yield path
+    if isinstance(what, (Surface, Mesh)):
+        return what
+    path = getattr(what, "folder", what)
+    if not isinstance(path, (str, os.PathLike)):
+        raise TypeError(f"plot() draws surfaces, meshes, runs, solutions, parts of trees and files, but no "
+                        f"{type(what).__name__}.")
+    return os.fspath(path)
 
 
 def _clip_text(what: object, clip: Union[str, Plane, Sequence, None]) -> Optional[str]:

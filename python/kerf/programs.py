@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 from typing import Callable, Iterable, Mapping, Optional
 
+from . import _kerf
 from .errors import Cancelled, error_of
 
 _SECONDS_BETWEEN_LOOKS = 0.1
@@ -34,8 +35,6 @@ def folder() -> str:
 
 def path(name: str) -> str:
     """Of one of them. Raises FileError, naming the places where it was looked for, if there is none."""
-    from . import _kerf
-
     return _kerf.find_program(name, folder())
 
 

@@ -14,7 +14,7 @@ from typing import Any, Optional
 import pyvista
 
 from .errors import InputError
-from .mesh import mesh
+from .meshing import mesh
 from .surface import Surface
 
 

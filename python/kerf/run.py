@@ -7,13 +7,16 @@ import os
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
-from . import _kerf
+import numpy as np
+
+from . import _kerf, interchange
 from .mesh import Mesh
 from .notebook import html_of
 from .part import Parts
+from .paths import Path
 from .progress import Progress, caller
 from .quality import Quality
-from .surface import Path, Surface
+from .surface import Surface
 from .verification import Verification
 
 if TYPE_CHECKING:
@@ -22,7 +25,7 @@ if TYPE_CHECKING:
     import vtkmodules.vtkCommonDataModel as vtk
 
 
-class Run:
+class Run(_kerf.Run):
     """A finished run in a folder, as kerf.mesh(output=...), `kerf mesh -o` and kerf.open() give it, or a solution.
 
         run = kerf.mesh("pump.stl", parts=64, size=0.2, output="pump")
@@ -37,65 +40,29 @@ class Run:
     def __init__(self, folder: Path) -> None:
         """Raises FileError for what is no finished run, VerificationError for one that is not as it was left; both name
         the way out."""
-        self._folder = os.path.abspath(os.fspath(folder))
-        self._native = _kerf.Run(self._folder)
+        super().__init__(os.path.abspath(os.fspath(folder)))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Run, (self._folder,)
-
-    @property
-    def folder(self) -> str:
-        """Absolute path."""
-        return self._folder
-
-    @property
-    def mesh_folder(self) -> str:
-        """That of the mesh on which a solution stands; of a run `folder`."""
-        return self._native.mesh
+        return Run, (self.folder,)
 
     @property
     def parts(self) -> Parts:
         """A sequence that reads a part when it is asked for: run.parts[0].points."""
-        return Parts(self._native, range(len(self)))
+        return Parts(self, range(len(self)))
 
     @property
     def report(self) -> dict[str, Any]:
         """report.json as it is in the folder now: options, tree of cuts, parts, totals, quality, verification."""
-        folder = self._native.solution or self._native.mesh
+        folder = self._solution or self.mesh_folder
         return json.loads(FilePath(folder, "report.json").read_text(encoding="utf-8"))
-
-    @property
-    def patch_names(self) -> list[str]:
-        """Names of the patches, in the order of their numbers."""
-        return self._native.patch_names
-
-    @property
-    def region_names(self) -> list[str]:
-        """Empty if there is one region."""
-        return self._native.region_names
-
-    @property
-    def tetrahedra_count(self) -> int:
-        """Of all parts."""
-        return int(self._native.tetrahedra.sum())
-
-    @property
-    def points_count(self) -> int:
-        """Of the whole mesh: one that several parts have counts once. Of order 2 with the nodes on edges."""
-        return self._native.points
-
-    @property
-    def order(self) -> int:
-        """Of the cells: 1 or 2. Of a solution that of the solution."""
-        return self._native.order
 
     def __len__(self) -> int:
         """How many parts there are."""
-        return len(self._native.numbers)
+        return len(self._numbers)
 
     def mesh(self) -> Mesh:
         """All parts as one mesh in memory, of a solution with the nodes that its values have."""
-        return Mesh(_kerf.mesh_of_run(self._native.solution or self._native.mesh))
+        return Mesh(_kerf.mesh_of_run(self._solution or self.mesh_folder))
 
     def verify(self, input: Union[Surface, Path, None] = None, without_input: bool = False) -> Verification:
         """Reads everything again and checks every law of the mesh, one part at a time, as `kerf verify`.
@@ -108,13 +75,12 @@ class Run:
         """
         if input is not None and not isinstance(input, Surface):
             input = os.fspath(input)
-        given = input._native if isinstance(input, Surface) else input
-        found = _kerf.verify(self._native.mesh, given, without_input)
+        found = _kerf.verify(self.mesh_folder, input, without_input)
         return Verification._of(json.loads(found["json"]), found["text"])
 
     def quality(self) -> Quality:
         """How good the cells are, as `kerf quality`, one part at a time."""
-        found = _kerf.quality(self._native.mesh)
+        found = _kerf.quality(self.mesh_folder)
         return Quality(json.loads(found["json"]), found["text"])
 
     def export(self, format: Union[str, Sequence[str]], path: Optional[Path] = None, *, into: int = 0,
@@ -139,7 +105,7 @@ class Run:
         if isinstance(patch_type, Mapping):
             patch_type = [f"{name}={kind}" for name, kind in patch_type.items()]
         types = [patch_type] if isinstance(patch_type, str) else list(patch_type)
-        return _kerf.export(self._folder, _list(format), "" if path is None else os.fspath(path), into, _list(fields),
+        return _kerf.export(self.folder, _list(format), "" if path is None else os.fspath(path), into, _list(fields),
                             msh_ascii, types, split_regions, order, workers, caller(progress))
 
     def merge(self, path: Path, msh_version: str = "4.1", msh_ascii: bool = False, *, order: int = 0) -> None:
@@ -151,35 +117,48 @@ class Run:
 
         Raises UsageError for another ending, naming those that there are.
         """
-        _kerf.merge(self._folder, os.fspath(path), msh_version, msh_ascii, order)
+        _kerf.merge(self.folder, os.fspath(path), msh_version, msh_ascii, order)
 
     def to_meshio(self) -> meshio.Mesh:
         """Mesh.to_meshio() of all parts, with the values of a solution."""
-        from . import interchange
-
-        return interchange.to_meshio(self.mesh(), interchange.values_of(self))
+        return interchange.to_meshio(self.mesh(), self._values())
 
     def to_vtk(self) -> vtk.vtkUnstructuredGrid:
         """Mesh.to_vtk() of all parts, with the values of a solution."""
-        from . import interchange
-
-        return interchange.to_vtk(self.mesh(), interchange.values_of(self))
+        return interchange.to_vtk(self.mesh(), self._values())
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
         """Mesh.to_pyvista() of all parts, with the values of a solution."""
-        from . import interchange
+        return interchange.to_pyvista(self.mesh(), self._values())
 
-        return interchange.to_pyvista(self.mesh(), interchange.values_of(self))
+    def _values(self) -> interchange.Values:
+        """Of a solution, in the order of mesh(): of a point in several parts those of the first. Of a run none."""
+        values = interchange.Values()
+        if not self._solution:
+            return values
+        first = 0
+        is_set = np.zeros(self.points_count, bool)
+        for part in self.parts:
+            new = ~is_set[part.global_ids]
+            for name, own in part.point_data.items():
+                whole = values.points.setdefault(name, np.empty((self.points_count, *own.shape[1:]), own.dtype))
+                whole[part.global_ids[new]] = own[new]
+            for name, own in part.cell_data.items():
+                whole = values.cells.setdefault(name, np.empty((self.tetrahedra_count, *own.shape[1:]), own.dtype))
+                whole[first:first + len(own)] = own
+            is_set[part.global_ids] = True
+            first += len(part.tetrahedra)
+        return values
 
     def __repr__(self) -> str:
-        kind = "solution" if self._native.solution else "run"
-        return (f"<kerf.Run: {kind} in {self._folder}, {len(self)} parts, {self.points_count} points, "
+        kind = "solution" if self._solution else "run"
+        return (f"<kerf.Run: {kind} in {self.folder}, {len(self)} parts, {self.points_count} points, "
                 f"{self.tetrahedra_count} tetrahedra>")
 
     def _repr_html_(self) -> str:
         rows = {"points": self.points_count, "tetrahedra": self.tetrahedra_count, "parts": len(self),
                 "regions": max(1, len(self.region_names)), "patches": len(self.patch_names)}
-        return html_of(self, f"kerf.Run {self._folder}", rows, self.tetrahedra_count)
+        return html_of(self.folder, f"kerf.Run {self.folder}", rows, self.tetrahedra_count)
 
 
 def open(folder: Path) -> Run:

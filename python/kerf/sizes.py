@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from itertools import permutations
-from typing import TYPE_CHECKING, Any, Callable, Optional, Union
+from typing import Any, Callable, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _kerf
-
-if TYPE_CHECKING:
-    from .surface import Surface
+from ._kerf import Surface
 
 #: Called with points (n, 3); returns the edge lengths (n,) that are wanted there.
 SizeFunction = Callable[[np.ndarray], ArrayLike]
 
 
-class SizeField:
+class SizeField(_kerf.SizeField):
     """Wanted edge lengths on a background mesh.
 
     points      (n, 3) floats
@@ -35,26 +33,11 @@ class SizeField:
     samples: int = 0
 
     def __init__(self, points: ArrayLike, tetrahedra: ArrayLike, sizes: ArrayLike) -> None:
-        self._native = _kerf.SizeField(points, tetrahedra, sizes)
+        super().__init__(points, tetrahedra, sizes)
 
     def __reduce__(self) -> tuple[Any, ...]:
         told = {"error": self.error, "samples": self.samples}
         return SizeField, (self.points, self.tetrahedra, self.sizes), told
-
-    @property
-    def points(self) -> np.ndarray:
-        """(n, 3) float64."""
-        return self._native.points
-
-    @property
-    def tetrahedra(self) -> np.ndarray:
-        """(m, 4) int32: rows of `points`."""
-        return self._native.tetrahedra
-
-    @property
-    def sizes(self) -> np.ndarray:
-        """(n,) float64: of the points."""
-        return self._native.sizes
 
     def __repr__(self) -> str:
         return (f"<kerf.SizeField: {len(self.points)} points, {len(self.tetrahedra)} tetrahedra, sizes "
@@ -97,7 +80,7 @@ def split_size(size: Size, surface: Any) -> tuple[Optional[_kerf.SizeField], Uni
     if callable(size):
         size = sample_sizes(size, surface)
     if isinstance(size, SizeField):
-        return size._native, None
+        return size, None
     return None, size
 
 

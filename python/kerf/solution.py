@@ -12,7 +12,7 @@ import numpy as np
 from . import _kerf
 from .errors import FileError
 from .notebook import html_of
-from .surface import Path
+from .paths import Path
 
 
 class Extreme(NamedTuple):
@@ -193,14 +193,14 @@ class Solution:
         self._owner = _owner
         self._arrays: dict[object, np.ndarray] = {}
         self._run = _kerf.Run(os.fspath(folder))
-        found = self._run.solution
+        found = self._run._solution
         if not found:
             raise FileError(f"{os.fspath(folder)} is no folder of kerf solve, but a run without a solution. Give the "
                             "folder that solve() has written.")
         #: of the solution
         self.folder = found
         #: of the run that it stands on
-        self.mesh_folder = self._run.mesh
+        self.mesh_folder = self._run.mesh_folder
         with open(os.path.join(found, "report.json"), encoding="utf-8") as file:
             #: report.json, as docs/output.md has it
             self.report: dict[str, Any] = json.load(file)
@@ -230,7 +230,7 @@ class Solution:
     @property
     def part_numbers(self) -> list[int]:
         """Of the parts in the tree of cuts, in their order."""
-        return [int(number) for number in self._run.numbers]
+        return [int(number) for number in self._run._numbers]
 
     @property
     def points(self) -> np.ndarray:
@@ -278,7 +278,7 @@ class Solution:
         return self.part_numbers.index(number)
 
     def _load(self, index: int, suffix: str) -> SolvedPart:
-        return SolvedPart(self._run.load(index), suffix)
+        return SolvedPart(self._run._load(index), suffix)
 
     def _each_part(self) -> Iterator[SolvedPart]:
         return (self._load(i, "") for i in range(len(self.part_numbers)))
@@ -306,19 +306,19 @@ class Solution:
             part = self._load(index, "")
             values = values_of(part)
             if index == last:
-                whole = np.empty((self._run.points, *values.shape[1:]), values.dtype)
+                whole = np.empty((self._run.points_count, *values.shape[1:]), values.dtype)
             whole[part.global_ids] = values
         return whole
 
     def __repr__(self) -> str:
-        return f"<kerf.Solution: {self._run.points} points, {len(self.part_numbers)} parts, {self.folder}>"
+        return f"<kerf.Solution: {self._run.points_count} points, {len(self.part_numbers)} parts, {self.folder}>"
 
     def _repr_html_(self) -> str:
         totals, first = self.report["totals"], self.cases[0]
         rows = {"points": totals["vertices"], "tetrahedra": totals["tets"], "parts": totals["parts"],
                 "load cases": len(self.cases), "max displacement": first.max_displacement.value,
                 "max von Mises": first.max_von_mises.value, "energy": first.energy}
-        return html_of(self, "kerf.Solution", rows, totals["tets"], color="von-mises")
+        return html_of(self.folder, "kerf.Solution", rows, totals["tets"], color="von-mises")
 
 
 def _extreme(report: dict[str, Any]) -> Extreme:

@@ -9,9 +9,9 @@ from typing import Mapping, Optional, Union
 from . import programs
 from .case_file import case_text
 from .errors import Error
+from .paths import Path
 from .progress import Progress, caller
 from .solution import Solution
-from .surface import Path
 
 
 def solve(run: Union[Path, object], case: Union[Mapping[str, object], Path], output: Optional[Path] = None,

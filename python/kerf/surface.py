@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Optional, Sequence, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _kerf
+from . import _kerf, interchange
+from .check import Check, check
+from .errors import UsageError
 from .notebook import html_of
+from .options import split
+from .paths import Path, encoded, encoded_names, with_others
 from .progress import Progress, caller
 from .repairs import Repair, Wrapping, repairs_of
 
@@ -18,44 +21,9 @@ if TYPE_CHECKING:
     import meshio
     import pyvista
     import vtkmodules.vtkCommonDataModel as vtk
-    from .check import Check
-
-Path = Union[str, "os.PathLike[str]"]
 
 
-def encoded(path: Path) -> bytes:
-    """As the file system has it. Raises TypeError for what is no path, ValueError for a NUL in it."""
-    name = os.fsencode(path)
-    if b"\0" in name:
-        raise ValueError("The path has a character NUL in it.")
-    return name
-
-
-def with_others(path: Union[Path, Sequence[Path]], options: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
-    """The first of several files, and the options with the others in `with_`, as the command line has them."""
-    if not isinstance(path, (list, tuple)):
-        return cast(Path, path), options
-    if not path:
-        raise ValueError("The list of files is empty.")
-    others = [os.fspath(other) for other in path[1:]]
-    given = options.get("with_", [])
-    return path[0], {**options, "with_": others + ([given] if isinstance(given, (str, os.PathLike)) else list(given))}
-
-
-def encoded_names(what: str, names: Optional[Sequence[str]]) -> Optional[list[bytes]]:
-    """Names of patches or regions for the module. Raises TypeError for what is no sequence of str."""
-    if names is None:
-        return None
-    if isinstance(names, (str, bytes)) or not isinstance(names, Iterable):
-        raise TypeError(f"{what} is {names!r:.60}, but a list of str is wanted.")
-    names = list(names)
-    for name in names:
-        if not isinstance(name, str):
-            raise TypeError(f"{what} has {name!r:.60}, but a list of str is wanted.")
-    return [name.encode("utf-8", "surrogateescape") for name in names]
-
-
-class Surface:
+class Surface(_kerf.Surface):
     """A closed surface of triangles, of one body or of several that share walls.
 
     points     (n, 3) floats: coordinates
@@ -79,8 +47,8 @@ class Surface:
     def __init__(self, points: ArrayLike, triangles: ArrayLike, patches: Optional[ArrayLike] = None,
                  names: Optional[Sequence[str]] = None, sides: Optional[ArrayLike] = None,
                  regions: Optional[Sequence[str]] = None, **options: object) -> None:
-        self._native = _kerf.Surface(points, triangles, patches, encoded_names("names", names), sides,
-                                     encoded_names("regions", regions), **options)
+        super().__init__(_kerf.surface_of_arrays(points, triangles, patches, encoded_names("names", names), sides,
+                                                 encoded_names("regions", regions), **options))
 
     def __reduce__(self) -> tuple[Any, ...]:
         of_regions = self.regions or None
@@ -89,105 +57,39 @@ class Surface:
 
     def _told(self) -> tuple[str, Optional[dict[str, Any]]]:
         """What was repaired, and of a wrap its distances: no arrays tell that."""
-        return self._made if self._made is not None else (self._native.repairs, self._native.wrapped)
+        return self._made if self._made is not None else (self._repairs, self._wrapped)
 
     @classmethod
     def _of(cls, native: _kerf.Surface) -> Surface:
         surface = cls.__new__(cls)
-        surface._native = native
+        _kerf.Surface.__init__(surface, native)
         return surface
 
     @classmethod
-    def from_meshio(cls, mesh: meshio.Mesh, patches: Optional[str] = None, **options: object) -> Surface:
+    def from_meshio(cls, mesh: meshio.Mesh, patches: Optional[str] = None, **options: Any) -> Surface:
         """The triangles of a mesh of meshio.
 
         patches    name of the cell data with the patch of each triangle; None: that of Gmsh's physical groups, with
                    their names, or of Mesh.to_meshio(); else the cell sets, if each triangle is in one; else one patch
         options    as above
         """
-        from . import interchange
-
-        return interchange.surface_of_meshio(mesh, patches, options)
+        return Surface(*interchange.surface_of_meshio(mesh, patches), **options)
 
     @classmethod
     def from_pyvista(cls, polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patches: Optional[str] = None,
-                     **options: object) -> Surface:
+                     **options: Any) -> Surface:
         """The polygons of a data set of PyVista, or of VTK itself, which need not be there: triangles alone.
 
         patches    name of the cell data with the patch of each triangle, whole numbers; None: "Patch" with its names in
                    "PatchNames", as files of Kerf have them, if it is there; else one patch
         options    as above
         """
-        from . import interchange
-
-        return interchange.surface_of_polydata(polydata, patches, options)
-
-    @property
-    def points(self) -> np.ndarray:
-        """(n, 3) float64."""
-        return self._native.points
-
-    @property
-    def triangles(self) -> np.ndarray:
-        """(m, 3) int32: corners, counter-clockwise seen from outside, or from in front of a wall."""
-        return self._native.triangles
-
-    @property
-    def patches(self) -> np.ndarray:
-        """(m,) int32: rows of `names`."""
-        return self._native.patches
-
-    @property
-    def names(self) -> list[str]:
-        """Of the patches."""
-        return self._native.names
-
-    @property
-    def sides(self) -> np.ndarray:
-        """(m, 2) int32: the regions behind and in front of each triangle, -1: outside."""
-        return self._native.sides
-
-    @property
-    def regions(self) -> list[str]:
-        """Names; empty if there is one region."""
-        return self._native.regions
-
-    @property
-    def volume(self) -> float:
-        """Enclosed, of all regions, in cubed units of the points."""
-        return self._native.volume
-
-    @property
-    def area(self) -> float:
-        """Each triangle once, in squared units of the points."""
-        return self._native.area
+        return Surface(*interchange.surface_of_polydata(polydata, patches), **options)
 
     @property
     def bounds(self) -> np.ndarray:
         """(2, 3) float64: the smallest coordinates, and the largest."""
         return np.stack([self.points.min(axis=0), self.points.max(axis=0)])
-
-    @property
-    def centroid(self) -> np.ndarray:
-        """(3,) float64: of the volume of all regions. O(m), as the inertia and the axes."""
-        return self._native.centroid
-
-    @property
-    def inertia(self) -> np.ndarray:
-        """(3, 3) float64: of the volume of all regions about the centroid, with a density of 1, so in units^5."""
-        return self._native.inertia
-
-    @property
-    def principal_axes(self) -> np.ndarray:
-        """(3, 3) float64: unit vectors as rows, in the order of `principal_moments`: the first is the long direction of
-        the body. The largest component of each is positive; of equal moments they are the coordinate axes, if can be.
-        """
-        return self._native.principal_axes
-
-    @property
-    def principal_moments(self) -> np.ndarray:
-        """(3,) float64: of the inertia, ascending."""
-        return self._native.principal_moments
 
     @property
     def repairs(self) -> list[Repair]:
@@ -203,8 +105,6 @@ class Surface:
     def check(self, needle_angle: float = 1) -> Check:
         """What may give bad cells: needles, short edges. There are no errors, or there would be no Surface: for arrays
         and files that may be broken there is kerf.check()."""
-        from .check import check
-
         return check(self, needle_angle=needle_angle)
 
     def repair(self, **options: object) -> Surface:
@@ -229,12 +129,12 @@ class Surface:
         Lengths may be texts such as "2%", of the diagonal of the bounds. Raises UsageError for options, InputError
         where the bound cannot be kept, OutOfMemory, Cancelled.
         """
-        return Surface._of(self._native.remesh(caller(progress), size=size, deviation=deviation, **options))
+        return Surface._of(self._remesh(caller(progress), size=size, deviation=deviation, **options))
 
     def save(self, path: Path) -> None:
         """Writes an .obj: all digits and the patches, or of several regions a closed group for each; or an .stl, of one
         region, without patches and with 7 digits. Raises UsageError for another ending, FileError."""
-        self._native.save(encoded(path))
+        self._save(encoded(path))
 
     def __repr__(self) -> str:
         regions = f", {len(self.regions)} regions" if self.regions else ""
@@ -320,3 +220,14 @@ def _surface_of(surface: Union[Surface, Path, ArrayLike], triangles: Optional[Ar
     if not isinstance(surface, (str, os.PathLike)):
         raise TypeError("A path, a Surface, or points with triangles is wanted.")
     return read(surface, **options)
+
+
+def surface_and_options(surface: Union[Surface, Path], options: dict[str, Any]) -> tuple[Surface, dict[str, Any]]:
+    """The surface, if it is a file read with those of the options that are of it, and the others."""
+    of_surface, of_mesh = split(options)
+    if not isinstance(surface, Surface):
+        return read(surface, **of_surface), of_mesh
+    if of_surface:
+        raise UsageError(f"{next(iter(of_surface))} is an option of the surface: give it to kerf.Surface(), "
+                         "kerf.read() or Surface.repair().")
+    return surface, of_mesh

@@ -2,17 +2,84 @@
 
 from __future__ import annotations
 
-from typing import Iterator, Union
+from typing import Iterator, NamedTuple, Optional, Union
 
 import numpy as np
 
 from . import _kerf, programs
-from .mesh import surface_and_options
-from .part_surface import PartSurface
+from .paths import Path
 from .progress import Progress, caller
 from .sizes import Size, split_size
-from .surface import Path, Surface
-from .tree_node import Interface, TreeNode
+from .surface import Surface, surface_and_options
+
+
+class Interface(NamedTuple):
+    """Triangles between two halves, as their parts have them: counter-clockwise seen from the half above."""
+
+    points: np.ndarray
+    triangles: np.ndarray
+
+
+class TreeNode(_kerf.TreeNode):
+    """A node of the tree: a closed surface, and how it was divided. Lengths, areas and volumes are in units of the
+    points, angles in degrees. Where no cut was made (`was_cut`), `plane`, `interface` and the measures of the cut are
+    None, and `contour` is empty."""
+
+    def __init__(self, tree: Tree, native: _kerf.TreeNode) -> None:
+        super().__init__(native)
+        self._tree = tree
+
+    @property
+    def parent(self) -> Optional[TreeNode]:
+        """None of the whole."""
+        return self._tree[self.id // 2] if self.id > 1 else None
+
+    @property
+    def children(self) -> list[TreeNode]:
+        """Below and above the cut; none of a part."""
+        return [] if self.is_part else [self._tree[2 * self.id + side] for side in (0, 1)]
+
+    @property
+    def interface(self) -> Optional[Interface]:
+        """The triangulated cap. Cost: that of all triangles of the parts below."""
+        return self._tree._interface_of(self.id) if self.was_cut else None
+
+    def __repr__(self) -> str:
+        kind = "part" if self.is_part else f"{self.strategy} cut" if self.was_cut else f"{self.regions} regions"
+        return f"<kerf.TreeNode {self.id}: {kind}, {self.triangles} triangles>"
+
+
+class PartSurface(_kerf.PartSurface):
+    """The closed surface of a part: what is left of the surface that was cut, and its sides of interfaces.
+
+    Arrays are read-only views.
+    """
+
+    def __copy__(self) -> PartSurface:
+        return PartSurface(self)
+
+    @property
+    def cuts(self) -> np.ndarray:
+        """(m,) int64: the node of the tree whose cut made the triangle, 0: it is one of the surface that was cut."""
+        cuts: np.ndarray = self._facet_keys >> 32
+        return cuts
+
+    @property
+    def is_interface(self) -> np.ndarray:
+        """(m,) bool: whether a cut made the triangle."""
+        is_interface: np.ndarray = self.cuts != 0
+        return is_interface
+
+    def to_surface(self) -> Surface:
+        """As a Surface, to be meshed or saved by itself: checked, with a patch interface_P towards each part P."""
+        neighbours, towards = np.unique(self.neighbours[self.is_interface], return_inverse=True)
+        patches = self.patches.copy()
+        patches[self.is_interface] = len(self.names) + towards
+        return Surface(self.points, self.triangles, patches, self.names + [f"interface_{part}" for part in neighbours])
+
+    def __repr__(self) -> str:
+        return (f"<kerf.PartSurface: {len(self.points)} points, {len(self.triangles)} triangles, "
+                f"{np.count_nonzero(self.is_interface)} on interfaces>")
 
 
 class TreePart:
@@ -30,7 +97,7 @@ class TreePart:
     @property
     def region(self) -> int:
         """Row of Tree.region_names, 0 if there is one region."""
-        return self.surface._native.region
+        return self.surface._region
 
     @property
     def volume(self) -> float:
@@ -40,14 +107,14 @@ class TreePart:
         return f"<kerf.TreePart {self.id}: {len(self.surface.triangles)} triangles>"
 
 
-class Tree:
+class Tree(_kerf.Tree):
     """What decompose() returns. `tree[id]` is the node with a number, and `for node in tree` goes through `nodes`."""
 
     def __init__(self, native: _kerf.Tree) -> None:
-        self._native = native
-        self._by_id = {each.id: TreeNode(self, each) for each in native.nodes}
+        super().__init__(native)
+        self._by_id = {each.id: TreeNode(self, each) for each in self._all_nodes}
         self._nodes = sorted(self._by_id.values(), key=lambda node: format(node.id, "b"))
-        self._parts = [TreePart(self._by_id[each.id], each) for each in native.parts]
+        self._parts = [TreePart(self._by_id[each._id], each) for each in self._part_surfaces]
 
     @property
     def nodes(self) -> list[TreeNode]:
@@ -64,20 +131,10 @@ class Tree:
         """The whole."""
         return self._by_id[1]
 
-    @property
-    def patch_names(self) -> list[str]:
-        """Names of the patches of the surface, in the order of their numbers."""
-        return self._native.patch_names
-
-    @property
-    def region_names(self) -> list[str]:
-        """Empty if there is one region."""
-        return self._native.region_names
-
     def to_text(self, every_node: bool = False) -> str:
         """The table that `kerf decompose` prints: a line for each node, or above 32 parts, unless `every_node` is True,
         for each level."""
-        return self._native.text(every_node)
+        return self._text(every_node)
 
     def _interface_of(self, cut: int) -> Interface:
         corners, points, numbers = [], [], []
@@ -128,5 +185,5 @@ def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: Size = 0, 
     """
     surface, options = surface_and_options(surface, options)
     sizes, length = split_size(size, surface)
-    return Tree(_kerf.decompose(surface._native, sizes, caller(progress), programs.folder(), parts=parts, size=length,
+    return Tree(_kerf.decompose(surface, sizes, caller(progress), programs.folder(), parts=parts, size=length,
                                 **options))

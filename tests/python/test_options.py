@@ -12,7 +12,8 @@ import pytest
 from conftest import CUBE_POINTS, CUBE_TRIANGLES
 
 import kerf
-from kerf.options import NOT_IN_MEMORY, in_python, split, texts
+from kerf.option_table import in_python
+from kerf.options import NOT_IN_MEMORY, split, texts
 
 
 @pytest.fixture(scope="module", autouse=True)

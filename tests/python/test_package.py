@@ -18,8 +18,9 @@ SOURCES = Path(__file__).resolve().parents[2]
 
 
 def public_members(of):
-    """Functions, methods and properties that it defines itself, by name."""
-    members = {name: member for name, member in vars(of).items() if not name.startswith("_")}
+    """Functions, methods and properties that it, or a class of Kerf that it inherits, defines, by name."""
+    classes = [each for each in reversed(of.__mro__) if each.__module__.startswith("kerf.")]
+    members = {name: member for each in classes for name, member in vars(each).items() if not name.startswith("_")}
     return {name: getattr(member, "__func__", member) for name, member in members.items()}
 
 
@@ -58,6 +59,17 @@ def test_the_kernel_finds_the_programs_by_itself():
     assert Path(_kerf.find_program("kerf-worker")).samefile(programs.path("kerf-worker"))
 
 
+@pytest.mark.parametrize("of", [each for each in vars(_kerf).values()
+                                if inspect.isclass(each) and each is not _kerf.Communicator])
+def test_an_object_without_a_value_says_so(of):
+    """A traceback may show one: where __init__ has failed."""
+    empty = of.__new__(of)
+    calls = [member.fget for member in vars(of).values() if isinstance(member, property)]
+    for call in calls + [each for each in (vars(of).get("__repr__"), vars(of).get("__getstate__")) if each]:
+        with pytest.raises((TypeError, RuntimeError), match="no value|non-held"):
+            call(empty)
+
+
 def members_of_stub(body):
     """Names, and of each its parameters, or None, or the same of a class. Those before a `/` have no name in C++."""
     members = {}
@@ -83,7 +95,7 @@ def parameters_of_native(function):
 def members_of_native(of):
     members = {}
     for name, member in vars(of).items():
-        if name.startswith("_") and name not in ("__version__", "__init__") or inspect.ismodule(member):
+        if name.startswith(("__", "_pybind11")) and name not in ("__version__", "__init__") or inspect.ismodule(member):
             continue
         if inspect.isclass(member):
             members[name] = members_of_native(member)

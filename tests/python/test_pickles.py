@@ -113,7 +113,7 @@ def test_solutions(tmp_path):
 
 
 def test_a_pickle_of_another_version_is_refused(tmp_path):
-    state = kerf.mesh(two_boxes(), parts=2, output=tmp_path / "out").parts[0]._native.__getstate__()
+    state = kerf.mesh(two_boxes(), parts=2, output=tmp_path / "out").parts[0].__getstate__()
     made = kerf._kerf.Part.__new__(kerf._kerf.Part)
     for wrong in (("0.0.1", state[1]), (state[0], state[1][:100])):
         with pytest.raises(ValueError, match="pickle"):

@@ -20,7 +20,7 @@ import tempfile
 
 FOLDERS = ("kernel", "solve", "cli", "help", "viewer", "python")
 # They belong to libraries: what is declared in them is called as the library wants it.
-FOREIGN = ("std", "CLI")
+FOREIGN = ("std", "CLI", "pybind11")
 
 LOWER_CASE = re.compile(r"[a-z]([a-z0-9_]*[a-z0-9])?")
 LOWER_CASE_ = re.compile(r"[a-z]([a-z0-9_]*[a-z0-9])?_")

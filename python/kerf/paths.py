@@ -1,0 +1,41 @@
+"""Paths and names as the native module takes them: bytes, as the file system has them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any, Optional, Sequence, Union, cast
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+def encoded(path: Path) -> bytes:
+    """As the file system has it. Raises TypeError for what is no path, ValueError for a NUL in it."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError("The path has a character NUL in it.")
+    return name
+
+
+def with_others(path: Union[Path, Sequence[Path]], options: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
+    """The first of several files, and the options with the others in `with_`, as the command line has them."""
+    if not isinstance(path, (list, tuple)):
+        return cast(Path, path), options
+    if not path:
+        raise ValueError("The list of files is empty.")
+    others = [os.fspath(other) for other in path[1:]]
+    given = options.get("with_", [])
+    return path[0], {**options, "with_": others + ([given] if isinstance(given, (str, os.PathLike)) else list(given))}
+
+
+def encoded_names(what: str, names: Optional[Sequence[str]]) -> Optional[list[bytes]]:
+    """Names of patches or regions for the module. Raises TypeError for what is no sequence of str."""
+    if names is None:
+        return None
+    if isinstance(names, (str, bytes)) or not isinstance(names, Iterable):
+        raise TypeError(f"{what} is {names!r:.60}, but a list of str is wanted.")
+    names = list(names)
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"{what} has {name!r:.60}, but a list of str is wanted.")
+    return [name.encode("utf-8", "surrogateescape") for name in names]
