@@ -10,6 +10,7 @@
 #include "solve/equations/linear_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 
@@ -18,7 +19,6 @@
 #include "base/core/stopwatch.h"
 #include "solve/equations/inside/block_rows.h"
 #include "solve/equations/inside/held_stiffness.h"
-#include "solve/multigrid/list_exchange.h"
 
 namespace kerf {
 
@@ -27,6 +27,17 @@ namespace {
 constexpr double no_divergence = 1e200;  // residuals of slender bodies grow far before they fall
 // A refinement goes this far below rtol, and has not helped if it leaves more of the residual than this.
 constexpr double part_of_the_rest = 0.5;
+
+// A block of the stiffness between two nodes that another rank owns.
+struct SharedBlock {
+    std::array<std::int32_t, 2> places{};  // of the nodes among those that both ranks have
+    std::array<double, 9> block{};
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(places, block);
+    }
+};
 
 }  // namespace
 
@@ -151,35 +162,32 @@ void LinearSystem::Impl::create_matrix() {
 // Makes the matrix that couples the own nodes of this rank, with the shares of other ranks: its upper half.
 void LinearSystem::Impl::make_own_blocks() {
     const SymmetricBlocks<3>& share = stiffness.matrix.share;
-    const GhostExchange& exchange = stiffness.matrix.exchange;
-    constexpr std::size_t item = 2 + 9;  // places among the nodes that two ranks have, and a block
+    const Ownership& ownership = stiffness.matrix.ownership;
     std::vector<std::int32_t> place(share.row_count(), -1);
-    std::vector<RankValues<double>> out;
-    for (const GhostExchange::Neighbour& neighbour : exchange.ghosts()) {
-        std::vector<double>& list = out.emplace_back(RankValues<double>{neighbour.rank, {}}).values;
-        for (std::size_t i = 0; i < neighbour.nodes.size(); ++i) place[neighbour.nodes[i]] = static_cast<int>(i);
-        for (const std::int32_t n : neighbour.nodes)
+    const auto told = ownership.lists_to_owners([&](const Ownership::Neighbour& neighbour) {
+        std::vector<SharedBlock> list;
+        for (std::size_t i = 0; i < neighbour.items.size(); ++i) place[neighbour.items[i]] = static_cast<int>(i);
+        for (const std::int32_t n : neighbour.items)
             for (std::int64_t i = share.first[n]; i < share.first[n + 1]; ++i) {
                 if (place[share.columns[i]] < 0) continue;
-                list.push_back(place[n]);
-                list.push_back(place[share.columns[i]]);
-                list.insert(list.end(), &share.values[9 * i], &share.values[9 * i] + 9);
+                SharedBlock& shared = list.emplace_back();
+                shared.places = {place[n], place[share.columns[i]]};
+                std::copy_n(&share.values[9 * i], 9, shared.block.begin());
             }
-        for (const std::int32_t n : neighbour.nodes) place[n] = -1;
-    }
-    const std::vector<RankValues<double>> in = exchange_lists(out, exchange.owned(), exchange.ranks());
+        for (const std::int32_t n : neighbour.items) place[n] = -1;
+        return list;
+    });
     const std::int32_t owned = stiffness.matrix.owned;
     const auto first_row = static_cast<PetscInt>(problem.space->first_row());
     const auto for_all_blocks = [&](auto visit) {
         for (std::int32_t n = 0; n < owned; ++n)
             for (std::int64_t i = share.first[n]; i < share.first[n + 1] && share.columns[i] < owned; ++i)
                 visit(n, share.columns[i], share.block(i));
-        for (std::size_t r = 0; r < in.size(); ++r)
-            for (std::size_t at = 0; at < in[r].values.size(); at += item) {
-                const double* values = &in[r].values[at];
-                const std::vector<std::int32_t>& nodes = exchange.owned()[r].nodes;
-                visit(nodes[static_cast<std::size_t>(values[0])], nodes[static_cast<std::size_t>(values[1])],
-                      Eigen::Map<const SymmetricBlocks<3>::Block>(values + 2));
+        for (std::size_t r = 0; r < told.size(); ++r)
+            for (const SharedBlock& shared : told[r]) {
+                const std::vector<std::int32_t>& nodes = ownership.owned()[r].items;
+                visit(nodes[shared.places[0]], nodes[shared.places[1]],
+                      Eigen::Map<const SymmetricBlocks<3>::Block>(shared.block.data()));
             }
     };
     std::vector<PetscInt> room(owned, 0);
@@ -296,7 +304,7 @@ void LinearSystem::Impl::set_right(const std::vector<double>& forces) {
     problem.frames.to_frames(sums);
     for (std::size_t dof = 0; dof < sums.size(); ++dof)
         sums[dof] = problem.is_held(dof) ? 0 : sums[dof] + stiffness.of_prescribed[dof];
-    space.exchange().add_to_owners(std::span(sums), 3);
+    space.ownership().sum_to_owners(std::span(sums), 3);
     double* values = nullptr;
     check(VecGetArray(right, &values));
     for (std::int32_t dof = 0; dof < 3 * space.owned_count(); ++dof)
@@ -378,7 +386,7 @@ SolveOutcome LinearSystem::solve(const std::vector<double>& forces, std::vector<
     check(VecGetArrayRead(impl_->solution, &found));
     std::copy(found, found + 3 * space.owned_count(), displacement.begin());
     check(VecRestoreArrayRead(impl_->solution, &found));
-    space.exchange().to_ghosts(std::span(displacement), 3);
+    space.ownership().from_owners(std::span(displacement), 3);
     for (std::size_t dof = 0; dof < displacement.size(); ++dof)
         if (problem.is_held(dof)) displacement[dof] = problem.prescribed[dof];
     problem.frames.from_frames(displacement);

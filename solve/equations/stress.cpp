@@ -59,8 +59,8 @@ std::vector<SymmetricTensor> average_stresses(const ElasticProblem& problem, con
             sum[stress_sums - 1] += volume;
         }
     });
-    numbers.exchange().add_to_owners(std::span(sums), stress_sums);
-    numbers.exchange().to_ghosts(std::span(sums), stress_sums);
+    numbers.ownership().sum_to_owners(std::span(sums), stress_sums);
+    numbers.ownership().from_owners(std::span(sums), stress_sums);
     std::vector<SymmetricTensor> means(numbers.count(), SymmetricTensor::Zero());
     for (std::int32_t n = 0; n < numbers.count(); ++n) {
         const double* sum = &sums[stress_sums * n];

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "base/mpi/ownership.h"
 #include "solve/multigrid/dense.h"
-#include "solve/multigrid/ghost_exchange.h"
 #include "solve/multigrid/symmetric_blocks.h"
 
 namespace kerf {
@@ -21,7 +21,7 @@ struct LevelMatrix {
     using Block = typename SymmetricBlocks<B>::Block;
 
     SymmetricBlocks<B> share;
-    GhostExchange exchange;
+    Ownership ownership;
     std::int32_t owned = 0;
 
     std::int32_t node_count() const { return share.row_count(); }
@@ -31,17 +31,17 @@ struct LevelMatrix {
     /// Sets y = A x for the owned nodes, to the precision of Number; ghosts of x get their owners' values. Collective.
     template <class Number>
     void multiply(std::vector<Number>& x, std::vector<Number>& y) const {
-        exchange.to_ghosts(std::span(x), B);
+        ownership.from_owners(std::span(x), B);
         y.assign(size(), 0);
         share.template multiply_add<Number>(x, y);
-        exchange.add_to_owners(std::span(y), B);
+        ownership.sum_to_owners(std::span(y), B);
     }
     /// Returns the blocks of the diagonal of owned nodes. Collective.
     std::vector<double> diagonal() const {
         std::vector<double> blocks(size() * B);
         for (std::int32_t n = 0; n < node_count(); ++n)
             std::copy_n(&share.values[B * B * share.first[n]], B * B, &blocks[B * B * n]);
-        exchange.add_to_owners(std::span(blocks), B * B);
+        ownership.sum_to_owners(std::span(blocks), B * B);
         blocks.resize(owned_size() * B);
         return blocks;
     }

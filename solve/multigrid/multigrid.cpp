@@ -41,7 +41,7 @@ GlobalNumbers global_numbers(MpiRanks& ranks, const LevelMatrix<B>& matrix) {
     }
     numbers.of_node.resize(matrix.node_count());
     for (std::int32_t n = 0; n < matrix.owned; ++n) numbers.of_node[n] = numbers.before + n;
-    matrix.exchange.to_ghosts(std::span(numbers.of_node), 1);
+    matrix.ownership.from_owners(std::span(numbers.of_node), 1);
     return numbers;
 }
 
@@ -65,25 +65,35 @@ class CoarsestLevel : public MultigridLevel {
     }
 
  private:
-    // Returns the blocks of all ranks, with the numbers of their nodes before them.
-    std::vector<double> gathered(const LevelMatrix<B>& matrix, const std::vector<std::int64_t>& number) {
-        std::vector<double> own;
+    // A block of the matrix, with the numbers of its nodes.
+    struct GatheredBlock {
+        std::array<std::int64_t, 2> nodes{};
+        std::array<double, B * B> values{};
+
+        template <class Archive>
+        void archive(Archive& a) {
+            a(nodes, values);
+        }
+    };
+    // Returns the blocks of all ranks.
+    std::vector<GatheredBlock> gathered(const LevelMatrix<B>& matrix, const std::vector<std::int64_t>& number) {
+        std::vector<GatheredBlock> own;
         for (std::int32_t n = 0; n < matrix.node_count(); ++n)
             for (std::int64_t i = matrix.share.first[n]; i < matrix.share.first[n + 1]; ++i) {
-                own.push_back(static_cast<double>(number[n]));
-                own.push_back(static_cast<double>(number[matrix.share.columns[i]]));
-                own.insert(own.end(), &matrix.share.values[B * B * i], &matrix.share.values[B * B * i] + B * B);
+                GatheredBlock& block = own.emplace_back();
+                block.nodes = {number[n], number[matrix.share.columns[i]]};
+                std::copy_n(&matrix.share.values[B * B * i], B * B, block.values.begin());
             }
         return gather_items(ranks_, own);
     }
-    void factorise(const std::vector<double>& blocks) {
+    void factorise(const std::vector<GatheredBlock>& blocks) {
         std::vector<SparseEntry> entries;
         std::vector<double> diagonal(right_.size(), 0);
-        for (std::size_t at = 0; at < blocks.size(); at += 2 + B * B) {
-            const auto row = static_cast<int>(blocks[at]), column = static_cast<int>(blocks[at + 1]);
+        for (const GatheredBlock& block : blocks) {
+            const auto row = static_cast<int>(block.nodes[0]), column = static_cast<int>(block.nodes[1]);
             for (int i = 0; i < B; ++i)
                 for (int j = 0; j < B; ++j) {
-                    const double value = blocks[at + 2 + B * i + j];
+                    const double value = block.values[B * i + j];
                     const int r = B * row + i, c = B * column + j;
                     if (r == c) diagonal[r] += value;
                     if (row == column ? r >= c : true) entries.push_back({std::max(r, c), std::min(r, c), value});
@@ -143,9 +153,9 @@ class SmoothedLevel : public MultigridLevel {
         for (std::size_t i = 0; i < matrix_.owned_size(); ++i) rest_[i] = right[i] - rest_[i];
         std::fill(coarse_right_.begin(), coarse_right_.end(), 0);
         prolongation_.restrict_to(rest_, coarse_right_, matrix_.owned);
-        coarser_.exchange.add_to_owners(std::span(coarse_right_), rigid_motions);
+        coarser_.ownership.sum_to_owners(std::span(coarse_right_), rigid_motions);
         next_->cycle(coarse_right_, coarse_x_);
-        coarser_.exchange.to_ghosts(std::span(coarse_x_), rigid_motions);
+        coarser_.ownership.from_owners(std::span(coarse_x_), rigid_motions);
         prolongation_.prolong(coarse_x_, x, matrix_.owned);
         smoother_.smooth(right, x, false);
     }
@@ -229,10 +239,10 @@ class MiddlesLevel : public MultigridLevel {
         });
         corners_.frames.to_frames(coarse_right_);
         drop_held(corners_.is_held, coarse_right_);
-        corners_.matrix.exchange.add_to_owners(std::span(coarse_right_), 3);
+        corners_.matrix.ownership.sum_to_owners(std::span(coarse_right_), 3);
     }
     void from_corners() {
-        corners_.matrix.exchange.to_ghosts(std::span(coarse_x_), 3);
+        corners_.matrix.ownership.from_owners(std::span(coarse_x_), 3);
         drop_held(corners_.is_held, coarse_x_);
         corners_.frames.from_frames(coarse_x_);
         std::fill(rest_.begin(), rest_.end(), 0);

@@ -2,10 +2,9 @@
 // that a part has in common with others, by the set of its holders and in an order that is the same for all of them;
 // the first holder owns them. Each part counts its own nodes, a sum over the ranks gives the first row of each part,
 // and owners tell the rows to the other holders by lists that both sides have in the same order (`PairedNodes`). Rows
-// that another rank owns are ghosts here, ascending by row, and the same lists make the exchange of their values.
-// Notation: a row is the number of a node over all ranks, a local node its number on this rank; a part's nodes are its
-// vertices, then its edges; `owned` and `held` are pairs of parts (owner, holder) in which this rank has the owner or
-// the holder.
+// that another rank owns are ghosts here, ascending by row (Ownership::of_numbers()). Notation: a row is the number of
+// a node over all ranks, a local node its number on this rank; a part's nodes are its vertices, then its edges; `owned`
+// and `held` are pairs of parts (owner, holder) in which this rank has the owner or the holder.
 #include "solve/space/fe_space.h"
 
 #include <algorithm>
@@ -48,11 +47,6 @@ class FeNumbering {
 
     // Returns the nodes of this rank's parts with their rows. Collective.
     std::vector<NumberedPart> number();
-    // Returns the exchange of ghosts. Both sides list the rows that one of them owns and the other one has: ascending,
-    // each once.
-    GhostExchange exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row, std::int32_t owned,
-                           const std::vector<std::int64_t>& ghost_rows,
-                           const std::vector<std::int64_t>& rank_rows) const;
     // The first row of each part of the outline, and the number of all.
     const Array<PartIndex, std::int64_t>& part_rows() const { return part_rows_; }
 
@@ -189,29 +183,6 @@ void FeNumbering::tell_holders(std::vector<NumberedPart>& numbered) const {
     }
 }
 
-GhostExchange FeNumbering::exchange(const std::vector<NumberedPart>& numbered, std::int64_t first_row,
-                                    std::int32_t owned, const std::vector<std::int64_t>& ghost_rows,
-                                    const std::vector<std::int64_t>& rank_rows) const {
-    std::vector<GhostExchange::Neighbour> of_own, of_ghosts;
-    for (const auto& [rank, pairs] : by_rank(owned_, true)) {
-        GhostExchange::Neighbour& neighbour = of_own.emplace_back();
-        neighbour.rank = rank;
-        for (const auto& pair : pairs) {
-            const NumberedPart& part = numbered[pair->first[0].value() - first_part().value()];
-            for (const std::int32_t n : pair->second) neighbour.nodes.push_back(part.row[n] - first_row);
-        }
-        std::sort(neighbour.nodes.begin(), neighbour.nodes.end());
-        neighbour.nodes.erase(std::unique(neighbour.nodes.begin(), neighbour.nodes.end()), neighbour.nodes.end());
-    }
-    for (std::size_t g = 0; g < ghost_rows.size(); ++g) {
-        const auto after = std::upper_bound(rank_rows.begin(), rank_rows.end(), ghost_rows[g]);
-        const int rank = after - rank_rows.begin() - 1;
-        if (of_ghosts.empty() || of_ghosts.back().rank != rank) of_ghosts.emplace_back().rank = rank;
-        of_ghosts.back().nodes.push_back(owned + g);
-    }
-    return {ranks_, std::move(of_own), std::move(of_ghosts)};
-}
-
 UndirectedEdge edge_of(const Tetrahedron& tet, std::size_t e) {
     return undirected(tet[tet_edges[e][0]], tet[tet_edges[e][1]]);
 }
@@ -271,7 +242,7 @@ FeSpace::FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<
             if (!is_owned(row)) ghost_rows_.push_back(row);
     std::sort(ghost_rows_.begin(), ghost_rows_.end());
     ghost_rows_.erase(std::unique(ghost_rows_.begin(), ghost_rows_.end()), ghost_rows_.end());
-    exchange_ = numbering.exchange(numbered, first_row_, owned_, ghost_rows_, rank_rows_);
+    ownership_ = Ownership::of_numbers(ranks, rank_rows_, ghost_rows_);
 
     points_.assign(owned_ + ghost_rows_.size(), Vec3::Zero());
     const auto local = [&](std::int64_t row) -> std::int32_t {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/mpi/mpi_ranks.h"
+#include "base/mpi/ownership.h"
 #include "files/part/part.h"
-#include "solve/multigrid/ghost_exchange.h"
 #include "solve/space/inside/facet_element.h"
 #include "solve/space/tet_element.h"
 
@@ -45,7 +45,7 @@ class FeSpace {
     /// The region in which the part `p` of this rank lies.
     std::size_t region_of(std::size_t p) const { return parts_[p].region_of(0).value(); }
     const std::vector<PartFeNodes>& nodes_of_parts() const { return nodes_; }
-    const GhostExchange& exchange() const { return exchange_; }
+    const Ownership& ownership() const { return ownership_; }
 
     std::int64_t first_row() const { return first_row_; }
     std::int64_t total_rows() const { return total_rows_; }  ///< nodes of all ranks
@@ -77,7 +77,7 @@ class FeSpace {
     std::vector<std::int64_t> ghost_rows_, rank_rows_;
     std::int64_t first_row_ = 0, total_rows_ = 0;
     std::int32_t owned_ = 0;
-    GhostExchange exchange_;
+    Ownership ownership_;
 };
 
 /// Calls visit(p, tet) for all tetrahedra of the rank, part after part.

@@ -24,7 +24,7 @@ SpaceBodies find_bodies(const FeSpace& space) {
             of_set = std::min(of_set, least[n]);
         }
         for (std::int32_t n = 0; n < nodes; ++n) least[n] = least[sets.root(n)];
-        space.exchange().share_smallest(std::span(least), 1);
+        space.ownership().smallest_over_ranks(std::span(least), 1);
         changed = space.ranks().all_reduce(least == before ? 0 : 1, Reduction::largest);
     }
     std::vector<std::int64_t> labels;

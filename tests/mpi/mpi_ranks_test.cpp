@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/mpi/mpi_ranks.h"
+#include "base/mpi/ownership.h"
 #include "support/collective_laws.h"
 
 namespace kerf {
@@ -67,6 +68,69 @@ TEST(MpiRanks, ExchangeWithNeighbours) {
     std::vector<RankValues<std::int64_t>> in = {{before, std::vector<std::int64_t>(static_cast<std::size_t>(before))}};
     ranks.exchange(out, in);
     EXPECT_EQ(in[0].values, values_of(before));
+}
+
+// Each rank owns two items, and has ghosts of the first one of every other.
+Ownership two_items_of_each(MpiRanks& ranks) {
+    std::vector<std::int64_t> first_of_ranks = {0}, ghosts;
+    for (int r = 0; r < ranks.size(); ++r) {
+        if (r != ranks.rank()) ghosts.push_back(first_of_ranks.back());
+        first_of_ranks.push_back(first_of_ranks.back() + 2);
+    }
+    return Ownership::of_numbers(ranks, first_of_ranks, ghosts);
+}
+
+TEST(Ownership, GhostsAndOwnersTellEachOtherTheirValues) {
+    MpiRanks ranks;
+    const Ownership items = two_items_of_each(ranks);
+    const std::size_t others = static_cast<std::size_t>(ranks.size()) - 1;
+    ASSERT_EQ(items.owned().size(), others);
+    ASSERT_EQ(items.ghosts().size(), others);
+    std::vector<std::int64_t> numbers(2 + others, -1);
+    numbers[0] = 2 * ranks.rank();
+    numbers[1] = numbers[0] + 1;
+    items.from_owners(std::span(numbers), 1);
+    for (std::size_t g = 0; g < others; ++g) {
+        EXPECT_EQ(numbers[2 + g], 2 * items.ghosts()[g].rank);
+        EXPECT_EQ(items.ghosts()[g].items, std::vector{static_cast<std::int32_t>(2 + g)});
+        EXPECT_EQ(items.owned()[g].items, std::vector{0});
+    }
+    std::vector<double> pairs(2 * numbers.size(), 1);
+    items.sum_to_owners(std::span(pairs), 2);
+    EXPECT_EQ(pairs[0], ranks.size());
+    EXPECT_EQ(pairs[1], ranks.size());
+    EXPECT_EQ(pairs[2], 1) << "nobody has ghosts of the second item";
+    std::vector<std::int32_t> least(numbers.size(), ranks.rank());
+    items.smallest_over_ranks(std::span(least), 1);
+    EXPECT_EQ(least[0], 0);
+    EXPECT_EQ(least[1], ranks.rank());
+}
+
+TEST(Ownership, ListsAreOfAnyLengths) {
+    MpiRanks ranks;
+    const Ownership items = two_items_of_each(ranks);
+    const auto own_rank_often = [&](const Ownership::Neighbour& neighbour) {
+        return std::vector<std::int64_t>(static_cast<std::size_t>(neighbour.rank), ranks.rank());
+    };
+    const auto to_owners = items.lists_to_owners(own_rank_often), from_owners = items.lists_from_owners(own_rank_often);
+    ASSERT_EQ(to_owners.size(), items.owned().size());
+    ASSERT_EQ(from_owners.size(), items.ghosts().size());
+    const auto length = static_cast<std::size_t>(ranks.rank());
+    for (std::size_t r = 0; r < to_owners.size(); ++r) {
+        EXPECT_EQ(to_owners[r], std::vector<std::int64_t>(length, items.owned()[r].rank));
+        EXPECT_EQ(from_owners[r], std::vector<std::int64_t>(length, items.ghosts()[r].rank));
+    }
+}
+
+// Without the items that get no number, neighbours without any are none.
+TEST(Ownership, OfSomeItems) {
+    MpiRanks ranks;
+    const Ownership items = two_items_of_each(ranks);
+    std::vector<std::int32_t> number(1 + static_cast<std::size_t>(ranks.size()), -1);
+    EXPECT_TRUE(items.renumbered(number).owned().empty());
+    for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<std::int32_t>(number.size() - 1 - i);
+    const Ownership turned = items.renumbered(number);
+    for (const Ownership::Neighbour& neighbour : turned.owned()) EXPECT_EQ(neighbour.items, std::vector{number[0]});
 }
 
 TEST(MpiRanks, GatherOnTheHost) {

@@ -12,21 +12,21 @@ namespace kerf {
 namespace {
 
 // Bars of two nodes each, held softly where they are. The first node of bar b is rank b's, the second the next rank's.
-LevelMatrix<3> separate_bars(const MpiRanks& ranks, int count) {
+LevelMatrix<3> separate_bars(MpiRanks& ranks, int count) {
     using Block = LevelMatrix<3>::Block;
     const int own = ranks.rank(), size = ranks.size(), next = (own + 1) % size, last = (own + size - 1) % size;
     LevelMatrix<3> matrix;
     std::map<std::array<std::int32_t, 2>, std::int32_t> local;  // by bar and end
-    GhostExchange::Neighbour of_last{last, {}}, of_next{next, {}};
+    Ownership::Neighbour of_last{last, {}}, of_next{next, {}};
     for (int b = 0; b < count; ++b) {
         if (b % size == own) local[{b, 0}] = matrix.owned++;
         if ((b + 1) % size != own) continue;
-        if (size > 1) of_last.nodes.push_back(matrix.owned);
+        if (size > 1) of_last.items.push_back(matrix.owned);
         local[{b, 1}] = matrix.owned++;
     }
     std::int32_t nodes = matrix.owned;
     for (int b = own; b < count && size > 1; b += size) {
-        of_next.nodes.push_back(nodes);
+        of_next.items.push_back(nodes);
         local[{b, 1}] = nodes++;
     }
     std::map<std::array<std::int32_t, 2>, Block> blocks;
@@ -48,9 +48,9 @@ LevelMatrix<3> separate_bars(const MpiRanks& ranks, int count) {
     }
     matrix.share.first.push_back(std::ssize(matrix.share.columns));
     if (size > 1)
-        matrix.exchange = {ranks, {std::move(of_last)}, {std::move(of_next)}};
+        matrix.ownership = {ranks, {std::move(of_last)}, {std::move(of_next)}};
     else
-        matrix.exchange = {ranks, {}, {}};
+        matrix.ownership = {ranks, {}, {}};
     return matrix;
 }
 
@@ -66,10 +66,10 @@ INSTANTIATE_TEST_SUITE_P(Counts, SeparateBodies, testing::Values(1, 60, 101, 500
 
 // What is left of an error, in the norm of its energy, after one cycle.
 TEST_P(SeparateBodies, AreSolvedTogether) {
-    const MpiRanks& ranks = *test::ranks_of_program->mpi;
+    MpiRanks& ranks = *test::ranks_of_program->mpi;
     LevelMatrix<3> matrix = separate_bars(ranks, GetParam());
-    const auto multigrid = make_multigrid(*test::ranks_of_program->mpi, matrix, translations(matrix.owned),
-                                          std::vector<std::uint8_t>(matrix.size(), 0));
+    const auto multigrid =
+        make_multigrid(ranks, matrix, translations(matrix.owned), std::vector<std::uint8_t>(matrix.size(), 0));
     std::vector<double> x(matrix.size(), 0), of_x, correction(matrix.size(), 0), of_rest;
     for (std::size_t dof = 0; dof < matrix.owned_size(); ++dof)
         x[dof] = std::sin(static_cast<double>(dof + 1)) + (dof % 2 == 0 ? 1 : 0);

@@ -46,7 +46,7 @@ class Solution : public testing::TestWithParam<int> {
                             problem.support_of[3 * static_cast<std::size_t>(node) + c] = 0;
         problem.supports = {"surface"};
         problem.places = {Vec3::Zero()};
-        space_->exchange().share_smallest(std::span(problem.support_of), 3);
+        space_->ownership().smallest_over_ranks(std::span(problem.support_of), 3);
         for (std::int32_t n = 0; n < space_->node_count(); ++n)
             for (std::size_t c = 0; c < 3; ++c)
                 if (problem.is_held(3 * n + c))
@@ -247,9 +247,9 @@ TEST_P(Solution, GhostsHaveWhatOwnersHave) {
     std::vector<std::int64_t> rows(nodes, -1);
     std::vector<double> counts(nodes, 1);
     for (std::int32_t n = 0; n < space_->owned_count(); ++n) rows[n] = space_->row_of(n);
-    space_->exchange().to_ghosts(std::span(rows), 1);
+    space_->ownership().from_owners(std::span(rows), 1);
     for (std::size_t n = 0; n < nodes; ++n) EXPECT_EQ(rows[n], space_->row_of(n));
-    space_->exchange().add_to_owners(std::span(counts), 1);
+    space_->ownership().sum_to_owners(std::span(counts), 1);
     double sum = 0, ghosts = static_cast<double>(nodes - space_->owned_count());
     for (std::int32_t n = 0; n < space_->owned_count(); ++n) sum += counts[n] - 1;
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);

@@ -145,7 +145,7 @@ inline KnownProblem known_problem(const FeSpace& space, const KnownField& field)
                 if (node >= 0) hold_at(field, node, known.problem);
         }
     }
-    space.exchange().share_smallest(std::span(known.problem.support_of), 3);
+    space.ownership().smallest_over_ranks(std::span(known.problem.support_of), 3);
     for (std::int32_t n = 0; n < space.node_count(); ++n)
         if (known.problem.is_held(3 * n)) hold_at(field, n, known.problem);
     const std::vector<TetPoint> points = many_points();

@@ -277,8 +277,8 @@ TEST(RepairWords, AddWhatIsMissing) {
     EXPECT_EQ(with_repairs("near", "near"), "near");
     EXPECT_EQ(with_repairs("full", "near"), "full");
     EXPECT_EQ(with_repairs("weld=0.1", "weld,stitch"), "weld=0.1,stitch");
-    for (const RepairStepRow& a : repair_step_rows())
-        for (const RepairStepRow& b : repair_step_rows()) {
+    for (const RepairStepRow& a : rows_with_words())
+        for (const RepairStepRow& b : rows_with_words()) {
             const std::string both = with_repairs(a.name, b.name);
             const RepairPlan plan = parse_repair_plan("repair", both);
             EXPECT_TRUE(plan.find(a.kind) && plan.find(b.kind)) << both;

@@ -8,7 +8,7 @@
 #include "viewer/model/session.h"
 #include "viewer/model/timeline.h"
 #include "viewer/panels/inside/widgets.h"
-#include "viewer/scene/layer.h"
+#include "viewer/scene/legend.h"
 
 namespace kerf::view {
 

@@ -13,7 +13,6 @@
 
 #include "base/core/types.h"
 #include "viewer/model/stage.h"
-#include "viewer/model/view_state.h"
 
 namespace kerf::view {
 
@@ -35,19 +34,6 @@ struct LegendEntry {
 struct PlacedValue {
     double value = 0;
     Vec3 place = Vec3::Zero();
-};
-
-/// The meaning of the colours in a scene.
-struct Legend {
-    std::string title;                    ///< title of a colouring; empty: the things in the scene are explained
-    std::optional<ValueRange> values;     ///< range of the colours of values
-    std::optional<ValueRange> extremes;   ///< the least and the largest value of a solution that are drawn
-    std::vector<PlacedValue> marked;      ///< the least and the largest value, if Coloring::extremes asks for them
-    double percentile = 100;              ///< per cent of the drawn values that the colours span, where they span fewer
-    std::vector<Color> scale;             ///< colours from the low to the high end of the range
-    bool goes_below = false;              ///< values that are drawn lie below `values`
-    bool goes_above = false;              ///< values that are drawn lie above `values`
-    std::vector<LegendEntry> categories;  ///< colours of other things, also beside a scale
 };
 
 /// A corner of a triangle. Triangles share no corners, so that every one has its own edges and value.

@@ -11,7 +11,7 @@
 
 #include "viewer/model/session.h"
 #include "viewer/model/view_state.h"
-#include "viewer/scene/layer.h"
+#include "viewer/scene/legend.h"
 
 namespace kerf::view {
 

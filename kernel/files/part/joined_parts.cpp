@@ -178,7 +178,7 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
         require_numbers(piece, tets, "tetrahedra");
     }
     outline_ = whole;
-    outline_.parts = {};
+    outline_.parts.clear();
     for (const PieceOfTree& piece : pieces_) {
         PartExtent& extent = outline_.parts.emplace_back();
         extent.id = piece.id;

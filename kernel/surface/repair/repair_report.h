@@ -65,8 +65,8 @@ struct RepairReport {
 /// 1), 12 edges".
 std::string to_text(const RepairAction& action);
 
-/// Returns lines for people, each with the name of its step: "holes         3 holes filled, the first near (0, 0, 1),
-/// 12 edges". `indent`: the beginning of each line.
+/// Returns lines for people on the steps behind the preparations, each with the name of its step: "holes         3
+/// holes filled, the first near (0, 0, 1), 12 edges". `indent`: the beginning of each line.
 std::string to_text(const RepairReport& report, const std::string& indent = "  ");
 
 }  // namespace kerf

@@ -34,7 +34,7 @@ double norm_of(const MpiRanks& ranks, const LevelMatrix<3>& matrix) {
             Eigen::Map<Vec3>(&sums[3 * n]) += size.rowwise().sum();
             if (m != n) Eigen::Map<Vec3>(&sums[3 * m]) += size.colwise().sum().transpose();
         }
-    matrix.exchange.add_to_owners(std::span(sums), 3);
+    matrix.ownership.sum_to_owners(std::span(sums), 3);
     double largest = 0;
     for (std::size_t dof = 0; dof < matrix.owned_size(); ++dof) largest = std::max(largest, sums[dof]);
     return ranks.all_reduce(largest, Reduction::largest);
@@ -116,7 +116,7 @@ CornerNodes corners_of(const FeSpace& space) {
 HeldStiffness hold_stiffness(const ElasticProblem& problem, SymmetricBlocks<3> share) {
     const FeSpace& space = *problem.space;
     HeldStiffness held;
-    held.matrix = {std::move(share), space.exchange(), space.owned_count()};
+    held.matrix = {std::move(share), space.ownership(), space.owned_count()};
     held.diagonal = mean_diagonal(space.ranks(), held.matrix);
     held.of_prescribed.assign(held.matrix.size(), 0);
     const std::vector<std::uint8_t> is_held = held_flags(problem);
@@ -142,7 +142,7 @@ std::unique_ptr<MultigridLevel> multigrid_for(const ElasticProblem& problem, con
         for (int c = 0; c < 3; ++c) corners.is_held.push_back(is_held[3 * n + c]);
     for (std::int32_t n = 0; n < found.owned; ++n) append_rigid_motions(corners.motions, problem, found.nodes[n]);
     corners.matrix = {stiffness_of_rank(problem, {found.number, mass_factor}),
-                      space.exchange().renumbered(found.number), found.owned};
+                      space.ownership().renumbered(found.number), found.owned};
     std::vector<double> unused(corners.matrix.size(), 0);
     eliminate(corners.matrix.share, corners.is_held, std::vector<double>(corners.matrix.size(), 0), unused);
     put_on_diagonal(corners.matrix, corners.is_held, stiffness.diagonal);

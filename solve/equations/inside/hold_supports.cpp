@@ -83,8 +83,8 @@ class SupportHolder {
                 Eigen::Map<Vec3>(&sums_[node_sums * node]) += facet.area * facet.normal;
                 sums_[node_sums * node + 3] += 1;
             }
-        space_.exchange().add_to_owners(std::span(sums_), node_sums);
-        space_.exchange().to_ghosts(std::span(sums_), node_sums);
+        space_.ownership().sum_to_owners(std::span(sums_), node_sums);
+        space_.ownership().from_owners(std::span(sums_), node_sums);
     }
     // Marks one vertex and returns its place.
     Vec3 mark_vertex(std::int64_t row) {

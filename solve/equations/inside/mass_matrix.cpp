@@ -73,12 +73,12 @@ MassMatrix::MassMatrix(const ElasticProblem& problem, const SymmetricBlocks<3>& 
 }
 
 void MassMatrix::multiply(std::vector<double>& x, std::vector<double>& y) const {
-    const GhostExchange& exchange = problem_.space->exchange();
+    const Ownership& ownership = problem_.space->ownership();
     const auto drop_held = [&](std::vector<double>& values) {
         for (std::size_t dof = 0; dof < values.size(); ++dof)
             if (problem_.is_held(dof)) values[dof] = 0;
     };
-    exchange.to_ghosts(std::span(x), 3);
+    ownership.from_owners(std::span(x), 3);
     drop_held(x);
     y.assign(x.size(), 0);
     const NodeFrames& frames = problem_.frames;
@@ -90,7 +90,7 @@ void MassMatrix::multiply(std::vector<double>& x, std::vector<double>& y) const 
         multiply_add(turned, y);
         frames.to_frames(y);
     }
-    exchange.add_to_owners(std::span(y), 3);
+    ownership.sum_to_owners(std::span(y), 3);
     drop_held(y);
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <compare>
 
-#include "solve/multigrid/list_exchange.h"
-
 namespace kerf {
 
 struct MaterialNodes::Pair {
@@ -50,35 +48,34 @@ MaterialNodes::MaterialNodes(const ElasticProblem& problem) : problem_(problem) 
     count_by_nodes();
 
     // Owners are told the materials of ghosts: the place of the node among those of both ranks, and the material.
-    std::vector<RankValues<double>> out;
-    for (const GhostExchange::Neighbour& neighbour : space.exchange().ghosts()) {
-        std::vector<double>& list = out.emplace_back(RankValues<double>{neighbour.rank, {}}).values;
-        for (std::size_t place = 0; place < neighbour.nodes.size(); ++place)
-            for (std::int32_t i = first_[neighbour.nodes[place]]; i < first_[neighbour.nodes[place] + 1]; ++i)
-                list.insert(list.end(), {static_cast<double>(place), static_cast<double>(material_[i])});
-    }
-    const std::vector<GhostExchange::Neighbour>& sharers = space.exchange().owned();
-    const std::vector<RankValues<double>> in = exchange_lists(out, sharers, space.ranks());
+    using Told = std::array<std::int32_t, 2>;
+    const std::vector<Ownership::Neighbour>& sharers = space.ownership().owned();
+    const auto told = space.ownership().lists_to_owners([&](const Ownership::Neighbour& neighbour) {
+        std::vector<Told> list;
+        for (std::size_t place = 0; place < neighbour.items.size(); ++place)
+            for (std::int32_t i = first_[neighbour.items[place]]; i < first_[neighbour.items[place] + 1]; ++i)
+                list.push_back({static_cast<std::int32_t>(place), material_[i]});
+        return list;
+    });
     const auto for_all_told = [&](std::size_t r, auto take) {
-        for (std::size_t i = 0; i < in[r].values.size(); i += 2)
-            take(Pair{sharers[r].nodes[static_cast<std::size_t>(in[r].values[i])],
-                      static_cast<MaterialNumber>(in[r].values[i + 1])});
+        for (const auto& [place, material] : told[r])
+            take(Pair{sharers[r].items[place], static_cast<MaterialNumber>(material)});
     };
-    for (std::size_t r = 0; r < in.size(); ++r) for_all_told(r, [&](const Pair& pair) { pairs.push_back(pair); });
+    for (std::size_t r = 0; r < told.size(); ++r) for_all_told(r, [&](const Pair& pair) { pairs.push_back(pair); });
     sort_out(pairs);
     count_by_nodes();
 
-    std::vector<GhostExchange::Neighbour> owned, ghosts;
-    for (std::size_t r = 0; r < in.size(); ++r) {
+    std::vector<Ownership::Neighbour> owned, ghosts;
+    for (std::size_t r = 0; r < told.size(); ++r) {
         owned.push_back({sharers[r].rank, {}});
-        for_all_told(r, [&](const Pair& pair) { owned.back().nodes.push_back(number(pair.node, pair.material)); });
+        for_all_told(r, [&](const Pair& pair) { owned.back().items.push_back(number(pair.node, pair.material)); });
     }
-    for (const GhostExchange::Neighbour& neighbour : space.exchange().ghosts()) {
+    for (const Ownership::Neighbour& neighbour : space.ownership().ghosts()) {
         ghosts.push_back({neighbour.rank, {}});
-        for (const std::int32_t node : neighbour.nodes)
-            for (std::int32_t i = first_[node]; i < first_[node + 1]; ++i) ghosts.back().nodes.push_back(i);
+        for (const std::int32_t node : neighbour.items)
+            for (std::int32_t i = first_[node]; i < first_[node + 1]; ++i) ghosts.back().items.push_back(i);
     }
-    exchange_ = GhostExchange(space.ranks(), std::move(owned), std::move(ghosts));
+    ownership_ = Ownership(space.ranks(), std::move(owned), std::move(ghosts));
 }
 
 std::int32_t MaterialNodes::number(std::int32_t node, MaterialNumber material) const {

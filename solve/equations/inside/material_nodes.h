@@ -23,8 +23,8 @@ class MaterialNodes {
     std::int32_t first_of(std::int32_t local_node) const { return first_[local_node]; }
     /// Returns the numbers of the nodes of a tetrahedron of the part `p` of this rank, in its material.
     std::array<std::int32_t, most_element_nodes> of(std::size_t p, std::size_t tet) const;
-    /// The exchange of arrays over these numbers between ranks.
-    const GhostExchange& exchange() const { return exchange_; }
+    /// Returns who owns the numbers, for arrays over them that ranks share.
+    const Ownership& ownership() const { return ownership_; }
 
  private:
     struct Pair;
@@ -34,7 +34,7 @@ class MaterialNodes {
     const ElasticProblem& problem_;
     std::vector<std::int32_t> first_;       // first number of each local node, and the end
     std::vector<MaterialNumber> material_;  // material of each number
-    GhostExchange exchange_;
+    Ownership ownership_;
 };
 
 }  // namespace kerf

@@ -63,7 +63,7 @@ class PatchFit {
     const MaterialNodes& numbers_;
     std::vector<std::int32_t> vertex_of_;   // of each of these numbers; -1: on an edge
     std::size_t owned_ = 0, vertices_ = 0;  // vertices of this rank, and with ghosts
-    GhostExchange exchange_;
+    Ownership ownership_;
     std::vector<double> products_, values_;
 };
 
@@ -79,7 +79,7 @@ void PatchFit::number_vertices() {
         vertex_of_[n] = static_cast<std::int32_t>(vertices_++);
         if (n < first_ghost) owned_ = vertices_;
     }
-    exchange_ = numbers_.exchange().renumbered(vertex_of_);
+    ownership_ = numbers_.ownership().renumbered(vertex_of_);
 }
 
 void PatchFit::add_equations() {
@@ -102,8 +102,8 @@ void PatchFit::add_equations() {
             }
         }
     });
-    exchange_.add_to_owners(std::span(products_), products);
-    exchange_.add_to_owners(std::span(values_), monomials * tensor_size);
+    ownership_.sum_to_owners(std::span(products_), products);
+    ownership_.sum_to_owners(std::span(values_), monomials * tensor_size);
 }
 
 void PatchFit::solve(std::size_t vertex) {
@@ -134,7 +134,7 @@ std::vector<SymmetricTensor> PatchFit::at_nodes() {
     add_equations();
     for (std::size_t v = 0; v < owned_; ++v) solve(v);
     products_ = {};
-    exchange_.to_ghosts(std::span(values_), monomials * tensor_size);
+    ownership_.from_owners(std::span(values_), monomials * tensor_size);
     std::vector<SymmetricTensor> stresses(numbers_.count(), SymmetricTensor::Zero());
     for_all_tets(space_, [&](std::size_t p, std::size_t t) {
         const auto nodes = space_.nodes_of(p, t), numbers = numbers_.of(p, t);

@@ -59,7 +59,7 @@ class ChebyshevSmoother {
 
     // Conjugate gradients yield the entries of Lanczos's tridiagonal matrix.
     double lanczos_estimate() const {
-        const MpiRanks& ranks = matrix_->exchange.ranks();
+        const MpiRanks& ranks = matrix_->ownership.ranks();
         const std::size_t size = matrix_->owned_size();
         std::vector<double> r(matrix_->size(), 0), z = r, p = r, q = r;
         RandomSequence random(0x9e3779b97f4a7c15);

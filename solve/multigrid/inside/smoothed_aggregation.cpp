@@ -10,9 +10,9 @@
 #include "solve/multigrid/inside/smoothed_aggregation.h"
 
 #include <algorithm>
+#include <array>
 
 #include "solve/multigrid/inside/aggregates.h"
-#include "solve/multigrid/list_exchange.h"
 
 namespace kerf {
 
@@ -37,39 +37,20 @@ struct SparseRow {
         ids.clear();
         blocks.clear();
     }
-    // Appends the row to a message as numbers: the count, then each id with its block.
-    void append_to(std::vector<double>& message) const {
-        message.push_back(static_cast<double>(ids.size()));
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-            message.push_back(static_cast<double>(ids[i]));
-            message.insert(message.end(), blocks[i].data(), blocks[i].data() + blocks[i].size());
-        }
-    }
-    const double* add_from(const double* message) {
-        const auto count = static_cast<int>(*message++);
-        for (int i = 0; i < count; ++i) {
-            at(static_cast<std::int64_t>(*message)) += Eigen::Map<const Block>(message + 1);
-            message += 1 + Block::SizeAtCompileTime;
-        }
-        return message;
-    }
 };
 
-// Returns the rows of the nodes of each neighbour as a message to it; fill(n, row) has the row of a node.
-template <int B, class Fill>
-std::vector<RankValues<double>> rows_for(const std::vector<GhostExchange::Neighbour>& neighbours, const Fill& fill) {
-    std::vector<RankValues<double>> messages;
-    SparseRow<B> row;
-    for (const GhostExchange::Neighbour& neighbour : neighbours) {
-        messages.push_back({neighbour.rank, {}});
-        for (const std::int32_t n : neighbour.nodes) {
-            row.clear();
-            fill(n, row);
-            row.append_to(messages.back().values);
-        }
+// A block of a row that is sent to another rank.
+template <int B>
+struct SentBlock {
+    std::int32_t place = 0;  // of the row's node among those that both ranks have
+    std::int64_t id = 0;     // of the coarse node
+    std::array<double, B * rigid_motions> block{};
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(place, id, block);
     }
-    return messages;
-}
+};
 
 // Makes columns orthonormal (Gram and Schmidt, twice for the sake of rounding). Columns that depend on those before
 // become zero.
@@ -99,12 +80,12 @@ void orthonormalise(Eigen::MatrixXd& columns, MotionBlock& factor) {
 template <int B>
 std::vector<std::uint8_t> with_uncoupled(const LevelMatrix<B>& matrix, const LowerBlocks& lower,
                                          std::vector<std::uint8_t> is_apart) {
-    std::vector<double> couplings(matrix.node_count());
+    std::vector<std::int64_t> couplings(matrix.node_count());
     for (std::int32_t n = 0; n < matrix.node_count(); ++n) {
         const std::int64_t above = matrix.share.first[n + 1] - matrix.share.first[n] - 1;
-        couplings[n] = static_cast<double>(above + lower.first[n + 1] - lower.first[n]);
+        couplings[n] = above + lower.first[n + 1] - lower.first[n];
     }
-    matrix.exchange.add_to_owners(std::span(couplings), 1);
+    matrix.ownership.sum_to_owners(std::span(couplings), 1);
     for (std::int32_t n = 0; n < matrix.owned; ++n)
         if (couplings[n] == 0) is_apart[n] = 1;
     return is_apart;
@@ -130,7 +111,7 @@ class Coarsening {
         take_rows_of_ghosts();
         number_coarse_nodes();
         made_.matrix.owned = aggregates_.count;
-        made_.matrix.exchange = coarse_exchange();
+        made_.matrix.ownership = Ownership::of_numbers(ranks_, starts_, ghosts_);
         make_product();
         result_.first.resize(fine_.owned + 1);  // those of ghosts have served
         result_.columns.resize(result_.first.back());
@@ -159,13 +140,28 @@ class Coarsening {
             visit(a.columns[i], typename SymmetricBlocks<B>::Block(a.block(i)));
     }
 
+    // Returns the blocks of the rows row_of(n) of all nodes that a neighbour shares.
+    template <class RowOf>
+    std::vector<SentBlock<B>> sent_rows(const Ownership::Neighbour& neighbour, const RowOf& row_of) const {
+        std::vector<SentBlock<B>> all;
+        for (std::size_t place = 0; place < neighbour.items.size(); ++place) {
+            const SparseRow<B>& row = row_of(neighbour.items[place]);
+            for (std::size_t i = 0; i < row.ids.size(); ++i) {
+                SentBlock<B>& sent = all.emplace_back();
+                sent.place = static_cast<std::int32_t>(place);
+                sent.id = row.ids[i];
+                std::copy_n(row.blocks[i].data(), block_size, sent.block.begin());
+            }
+        }
+        return all;
+    }
+
     void make_tentative(const NearNullSpace& motions);
     void multiply_tentative(std::int32_t n, SparseRow<B>& row) const;
     void append_row(const SparseRow<B>& row);
     void make_prolongation();
     void take_rows_of_ghosts();
     void number_coarse_nodes();
-    GhostExchange coarse_exchange() const;
     void make_pattern();
     void make_product();
 
@@ -209,8 +205,8 @@ void Coarsening<B>::make_tentative(const NearNullSpace& motions) {
             aggregate_of_[members[i]] = first_own() + a;
         }
     }
-    fine_.exchange.to_ghosts(std::span(aggregate_of_), 1);
-    fine_.exchange.to_ghosts(std::span(tentative_), block_size);
+    fine_.ownership.from_owners(std::span(aggregate_of_), 1);
+    fine_.ownership.from_owners(std::span(tentative_), block_size);
 }
 
 template <int B>
@@ -231,24 +227,24 @@ void Coarsening<B>::append_row(const SparseRow<B>& row) {
 // Makes the rows of owned nodes; the owner of a node adds the rows that other ranks have for it, in their order.
 template <int B>
 void Coarsening<B>::make_prolongation() {
-    const std::vector<RankValues<double>> of_ghosts =
-        rows_for<B>(fine_.exchange.ghosts(), [&](std::int32_t n, SparseRow<B>& row) { multiply_tentative(n, row); });
-    const auto received = exchange_lists(of_ghosts, fine_.exchange.owned(), ranks_);
-    std::vector<std::vector<const double*>> added(fine_.owned);
-    for (std::size_t r = 0; r < received.size(); ++r) {
-        const double* next = received[r].values.data();
-        for (const std::int32_t n : fine_.exchange.owned()[r].nodes) {
-            added[n].push_back(next);
-            next += 1 + static_cast<int>(*next) * (1 + block_size);
-        }
-    }
-    const double damping = 4 / (3 * smoother_.largest_eigenvalue());
     SparseRow<B> row;
+    const auto received = fine_.ownership.lists_to_owners([&](const Ownership::Neighbour& neighbour) {
+        return sent_rows(neighbour, [&](std::int32_t n) -> const SparseRow<B>& {
+            row.clear();
+            multiply_tentative(n, row);
+            return row;
+        });
+    });
+    std::vector<std::vector<const SentBlock<B>*>> added(fine_.owned);
+    for (std::size_t r = 0; r < received.size(); ++r)
+        for (const SentBlock<B>& sent : received[r])
+            added[fine_.ownership.owned()[r].items[sent.place]].push_back(&sent);
+    const double damping = 4 / (3 * smoother_.largest_eigenvalue());
     for (std::int32_t n = 0; n < fine_.owned; ++n) {
         row.clear();
         if (aggregate_of_[n] >= 0) {
             multiply_tentative(n, row);
-            for (const double* message : added[n]) row.add_from(message);
+            for (const SentBlock<B>* sent : added[n]) row.at(sent->id) += Eigen::Map<const Block>(sent->block.data());
             for (Block& block : row.blocks) block = -damping * (smoother_.inverse(n) * block).eval();
             row.at(aggregate_of_[n]) += tentative(n);
         }
@@ -259,16 +255,19 @@ void Coarsening<B>::make_prolongation() {
 
 template <int B>
 void Coarsening<B>::take_rows_of_ghosts() {
-    const std::vector<RankValues<double>> of_owned =
-        rows_for<B>(fine_.exchange.owned(), [&](std::int32_t n, SparseRow<B>& row) {
+    SparseRow<B> row;
+    const auto received = fine_.ownership.lists_from_owners([&](const Ownership::Neighbour& neighbour) {
+        return sent_rows(neighbour, [&](std::int32_t n) -> const SparseRow<B>& {
+            row.clear();
             for (std::int64_t i = result_.first[n]; i < result_.first[n + 1]; ++i) row.at(ids_[i]) = result_.block(i);
+            return row;
         });
-    const auto received = exchange_lists(of_owned, fine_.exchange.ghosts(), ranks_);
+    });
     std::vector<SparseRow<B>> rows(fine_.node_count() - fine_.owned);
-    for (std::size_t r = 0; r < received.size(); ++r) {
-        const double* next = received[r].values.data();
-        for (const std::int32_t n : fine_.exchange.ghosts()[r].nodes) next = rows[n - fine_.owned].add_from(next);
-    }
+    for (std::size_t r = 0; r < received.size(); ++r)
+        for (const SentBlock<B>& sent : received[r])
+            rows[fine_.ownership.ghosts()[r].items[sent.place] - fine_.owned].at(sent.id) +=
+                Eigen::Map<const Block>(sent.block.data());
     for (const SparseRow<B>& of_ghost : rows) append_row(of_ghost);
 }
 
@@ -287,26 +286,6 @@ void Coarsening<B>::number_coarse_nodes() {
                                       : aggregates_.count +
                                             (std::lower_bound(ghosts_.begin(), ghosts_.end(), id) - ghosts_.begin()));
     ids_ = {};
-}
-
-template <int B>
-GhostExchange Coarsening<B>::coarse_exchange() const {
-    std::vector<GhostExchange::Neighbour> owned, ghosts;
-    std::int32_t local = aggregates_.count;
-    for (const std::int64_t id : ghosts_) {
-        const int owner = std::upper_bound(starts_.begin(), starts_.end(), id) - starts_.begin() - 1;
-        if (ghosts.empty() || ghosts.back().rank != owner) ghosts.push_back({owner, {}});
-        ghosts.back().nodes.push_back(local++);
-    }
-    const std::int64_t begin = first_own(), end = begin + aggregates_.count;
-    const std::vector<std::vector<std::int64_t>> of_ranks = all_gather(ranks_, ghosts_);
-    for (std::size_t r = 0; r < of_ranks.size(); ++r) {
-        GhostExchange::Neighbour neighbour{static_cast<int>(r), {}};
-        for (const std::int64_t id : of_ranks[r])
-            if (id >= begin && id < end) neighbour.nodes.push_back(static_cast<std::int32_t>(id - begin));
-        if (!neighbour.nodes.empty()) owned.push_back(std::move(neighbour));
-    }
-    return {ranks_, std::move(owned), std::move(ghosts)};
 }
 
 // Makes the pattern of P^T A P: coarse nodes that meet in a row of A P.

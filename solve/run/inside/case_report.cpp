@@ -50,7 +50,7 @@ class CaseResults {
     double size_of_thermal_forces() const {
         if (problem_.cases[number_].thermal.empty()) return 0;
         std::vector<double> forces = problem_.cases[number_].forces;
-        space_.exchange().add_to_owners(std::span(forces), 3);
+        space_.ownership().sum_to_owners(std::span(forces), 3);
         double size = 0;
         for (std::int32_t n = 0; n < space_.owned_count(); ++n) size += Eigen::Map<const Vec3>(&forces[3 * n]).norm();
         return space_.ranks().all_reduce(size, Reduction::sum);

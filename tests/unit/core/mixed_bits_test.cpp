@@ -24,5 +24,17 @@ TEST(MixedBits, EveryBitHasASayInTheResult) {
         }
 }
 
+// The constants are Knuth's: meshes and modes depend on the numbers to the last bit.
+TEST(RandomSequence, IsThatOfMmix) {
+    RandomSequence random(0);
+    EXPECT_EQ(random.next(), 0x14057b7ef767814fULL);
+    EXPECT_EQ(random.next(), 0x1a08ee1184ba6d32ULL);
+    for (int i = 0; i < 1000; ++i) {
+        const double number = random.next_centred();
+        EXPECT_GE(number, -0.5);
+        EXPECT_LT(number, 0.5);
+    }
+}
+
 }  // namespace
 }  // namespace kerf

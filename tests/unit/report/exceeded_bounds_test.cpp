@@ -57,7 +57,7 @@ TEST(ExceededBounds, NothingIsSaidOfBoundsThatHoldOrThatNobodyAskedFor) {
     report.mesh.quality.all.add(quality_of(0.5, 1));
     EXPECT_TRUE(exceeded_bounds(report).empty());
     RunReport none = report_with(0, 0);
-    none.quality.all.add(quality_of(0.5, 100));
+    none.mesh.quality.all.add(quality_of(0.5, 100));
     EXPECT_TRUE(exceeded_bounds(none).empty());
     EXPECT_TRUE(exceeded_bounds(RunReport{}).empty());
     EXPECT_EQ(exceeded_text({}), "");

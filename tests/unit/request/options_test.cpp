@@ -115,7 +115,7 @@ TEST(WithoutRepairs, LeavesNoStepWhicheverOptionAsksForIt) {
         for (const OptionField& own : input_option_fields(options)) {
             if (own.name != field.name) continue;
             if (auto* const* flag = std::get_if<bool*>(&own.value)) **flag = true;
-            if (own.is_number()) own.set_text("3");
+            if (own.is_number()) own.set_text(std::holds_alternative<std::int32_t*>(own.value) ? "3" : "0.1");
             if (own.name == "repair") own.set_text("exact");
         }
         const RepairPlan plan = repair_plan_of(options);

@@ -7,7 +7,7 @@
 
 #include <mpi.h>
 
-#include "base/core/bytes.h"
+#include "base/parallel/communicator.h"
 
 namespace kerf {
 

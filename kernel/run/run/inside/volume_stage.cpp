@@ -168,7 +168,7 @@ PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std:
     std::vector<QueuedPart> queued;
     for (const std::size_t i : order)
         queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id),
-                          size_in(parts[i].region), parts[i].box()});
+                          size_in(parts[i].region), parts[i].box});
     return {std::move(queued),
             {plan_.options.worker_program, plan_.options.mesher, plan_.options.workers, plan_.options.timeout_seconds,
              plan_.options.memory_mb, plan_.options.attempts, !plan_.options.transient}};
