@@ -38,7 +38,7 @@ Hashes compute() {
     Hashes hashes;
     const test::TemporaryFolder folder;
     for (const auto& [asset, parts] : cases)
-        hashes[key(asset, parts)] = test::run_parts(test::asset_path(asset), folder.file("out"), parts).mesh_hash;
+        hashes[key(asset, parts)] = test::run_parts(test::asset_path(asset), folder.file("out"), parts).mesh.hash;
     return hashes;
 }
 
@@ -81,8 +81,8 @@ TEST(GoldenMeshes, ComparisonCanFail) {
 
 TEST(GoldenMeshes, AnotherMeshHasAnotherHash) {
     const test::TemporaryFolder folder;
-    EXPECT_NE(test::run_parts(test::asset_path("cube"), folder.file("out"), 2).mesh_hash,
-              test::run_parts(test::asset_path("cube"), folder.file("out"), 3).mesh_hash);
+    EXPECT_NE(test::run_parts(test::asset_path("cube"), folder.file("out"), 2).mesh.hash,
+              test::run_parts(test::asset_path("cube"), folder.file("out"), 3).mesh.hash);
 }
 
 }  // namespace

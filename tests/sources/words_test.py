@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Comments of headers begin with their subject, and long sources open with their method.
+"""Comments of headers begin with their subject, long sources open with their method, and names that docs/developing.md
+has given up are used nowhere.
 
 words_test.py ROOT; with --self-test in its place comments against each rule must be refused, and good ones must not.
 
@@ -41,11 +42,32 @@ def faults_of(file, text):
         yield f"{file}:1: a source above {LONG} lines opens with its method and notation in a few sentences"
 
 
+def agreed_names(page):
+    """(old, new) of the lines "old -> new" of the block `names`."""
+    block = re.search(r"^```names\n(.*?)^```$", page, re.M | re.S)
+    return [tuple(line.split(" -> ")) for line in block[1].splitlines()] if block else []
+
+
+def faults_of_names(names, words_of_file):
+    """An old name in a file, or a new one in none."""
+    for old, new in names:
+        for file, words in words_of_file.items():
+            if old in words:
+                yield f"{file}: {old} is called {new} (docs/developing.md)"
+        if not any(new in words for words in words_of_file.values()):
+            yield f"docs/developing.md: no source has the name {new}"
+
+
 def faults_of_tree(root):
     files = sorted(path for folder in FOLDERS for path in (root / folder).rglob("*.*") if path.suffix in (".h", ".cpp"))
     if len(files) < 100:
         sys.exit(f"{root} has {len(files)} sources")
-    return [fault for path in files for fault in faults_of(str(path.relative_to(root)), path.read_text())]
+    texts = {str(path.relative_to(root)): path.read_text() for path in files}
+    names = agreed_names((root / "docs/developing.md").read_text())
+    if len(names) < 20:
+        sys.exit(f"docs/developing.md agrees on {len(names)} names")
+    words = {file: set(re.findall(r"\w+", text)) for file, text in texts.items()}
+    return [fault for file, text in texts.items() for fault in faults_of(file, text)] + [*faults_of_names(names, words)]
 
 
 def self_test():
@@ -56,6 +78,10 @@ def self_test():
     cases += [("a.h", f"int a;\n\n    /// {word} x is.\n", 1) for word in
               ("What", "Of", "Where", "Which", "Whose", "Those", "The same", "As", "That", "None", "Such")]
     cases += [("a.h", f"/// {word}\n", 0) for word in ("Whatever is left.", "Offsets of it.", "Assembles it.")]
+    names = agreed_names("```names\nTuple -> Pair\n```\n")
+    texts = ({"Pair"}, {"Tuple", "Pair"}, {"Tuples"})
+    if [len([*faults_of_names(names, {"a.h": words})]) for words in texts] != [0, 1, 1]:
+        sys.exit(f"names {names} are not looked up")
     sys.exit("\n".join(f"{len(list(faults_of(*case[:2])))} faults, not {case[2]}: {case[1][:60]}" for case in cases
                        if len(list(faults_of(*case[:2]))) != case[2]) or 0)
 

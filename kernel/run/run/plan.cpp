@@ -246,7 +246,7 @@ Bytes bytes_of_plan(const PlannedRun& run) {
 
 // Returns the plan and its input from such bytes. `own`: with the options as far as a rank resolves them by itself.
 // O(#F log #F) for several regions.
-PlannedRun told_plan(const Bytes& told, RunPlan own) {
+PlannedRun plan_of_bytes(const Bytes& told, RunPlan own) {
     PlannedRun run{std::move(own), {}};
     auto& [plan, input] = run;
     ByteReader reader(told);
@@ -290,7 +290,7 @@ PlannedRun plan_run(const RunOptions& request, int cores_of_rank, Communicator& 
     };
     const Bytes told = bytes_of_root(ranks, of_root, [&] { end_if_cancelled(listener); });
     in_agreement(ranks, [&] {
-        if (ranks.rank() != 0) run = told_plan(told, std::move(plan));
+        if (ranks.rank() != 0) run = plan_of_bytes(told, std::move(plan));
     });
     return run;
 }
