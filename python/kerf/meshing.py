@@ -68,8 +68,8 @@ def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size:
     refuse_in_memory(options)
     surface, options = surface_and_options(surface, options)
     sizes, length = split_size(size, surface)
-    return Mesh(_kerf.mesh(surface, sizes, caller(progress), programs.folder(), parts=parts, size=length, workers=workers,
-                           **options))
+    return Mesh(_kerf.mesh(surface, sizes, caller(progress), programs.folder(), parts=parts, size=length,
+                           workers=workers, **options))
 
 
 def _run(surface: Union[Surface, Path], folder: str, parts: int, size: Size, workers: int, progress: Progress,

@@ -5,7 +5,6 @@
 // modes. A mode with w^2 below 1e-6 s, or below the rounding of K, is a rigid motion of frequency 0. The block has four
 // vectors more than are asked for, since its last ones converge slowly.
 #include "solve/equations/modes.h"
-#include "base/core/mixed_bits.h"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/mixed_bits.h"
 #include "base/geometry/symmetric_axes.h"
 #include "solve/equations/inside/block_rows.h"
 #include "solve/equations/inside/held_stiffness.h"

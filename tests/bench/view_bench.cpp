@@ -137,7 +137,7 @@ void time_frames(const std::string& folder, int m, int n, int frames, double wan
     Driver driver(options);
     driver.open(path);
     report(fmt::format("frame, {} k triangles with edges", 2 * m * n / 1000), frame_time(driver, frames), wanted);
-    driver.state().edges = false;
+    driver.state().look.edges = false;
     driver.settle();
     report(fmt::format("frame, {} k triangles without edges", 2 * m * n / 1000), frame_time(driver, frames), wanted);
 }

@@ -15,6 +15,7 @@ WORDS_OF_README = 900
 PAGES, WORDS_OF_PAGES = 10, 9000  # of docs, blocks and tables included
 WORDS_OF_HOUSE, WORDS_OF_WING = 1500, 850
 SOURCES = ["kernel", "solve", "viewer", "help", "cli", "python"]
+BESIDE = ["solve", "viewer"]  # wings beside the kernel
 OF_OTHERS = {"mpi.h", "tetgen.h", "xxhash.h"}  # headers of libraries
 
 OPTIONS_OF_OTHERS = {  # as the text has them
@@ -29,9 +30,10 @@ OPTIONS_OF_OTHERS = {  # as the text has them
 class Pages:
     def __init__(self, source):
         self.source = source
-        self.wings = sorted([*source.glob("kernel/*/README.md"), source / "solve/README.md", source / "viewer/README.md"])
+        self.wings = sorted([*source.glob("kernel/*/README.md"), *(source / f"{wing}/README.md" for wing in BESIDE)])
         self.house = source / "kernel/README.md"
-        paths = [*source.glob("*.md"), *source.glob("docs/**/*.md"), source / "assets/README.md", self.house, *self.wings]
+        paths = [*source.glob("*.md"), *source.glob("docs/**/*.md"), source / "assets/README.md", self.house,
+                 *self.wings]
         self.texts = {path: path.read_text() for path in sorted(paths)}
 
     def prose(self, path):
@@ -164,7 +166,7 @@ def check_house(pages):
         words, limit = len(pages.texts[path].split()), WORDS_OF_HOUSE if path == pages.house else WORDS_OF_WING
         if words > limit:
             yield f"{pages.name(path)} has {words} words; {limit} are the limit"
-    code = "\n".join(file.read_text() for folder in SOURCES for file in sorted((pages.source / folder).rglob("*.[ch]*")))
+    code = "\n".join(file.read_text() for folder in SOURCES for file in (pages.source / folder).rglob("*.[ch]*"))
     words_of_code = set(re.findall(r"\w+", code))
     for path in [pages.house, *pages.wings]:
         for span in code_spans(pages, path):

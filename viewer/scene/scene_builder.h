@@ -4,10 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "viewer/model/session.h"
 #include "viewer/model/view_state.h"

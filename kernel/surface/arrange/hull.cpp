@@ -102,17 +102,18 @@ class SideLabeller {
             votes_[side] = weight * std::clamp(beside + sign * times_[facet] / 2.0 - 0.5, -0.5, 0.5);
     }
     void ask_all() {
-        constexpr std::size_t polled_each = 1 << 14, grain = 1 << 8;
-        for (std::size_t first = 0; first < facets_.size(); first += polled_each) {
+        constexpr std::size_t facets_between_checks = 1 << 14, grain = 1 << 8;
+        for (std::size_t first = 0; first < facets_.size(); first += facets_between_checks) {
             check_cancelled_();
-            for_ranges_on_threads(std::min(polled_each, facets_.size() - first), grain, [&](const IndexRange& range) {
-                for (std::size_t f = first + range.first; f < first + range.last; ++f)
-                    ask(static_cast<std::int32_t>(f), areas_[f]);
-            });
+            for_ranges_on_threads(std::min(facets_between_checks, facets_.size() - first), grain,
+                                  [&](const IndexRange& range) {
+                                      for (std::size_t f = first + range.first; f < first + range.last; ++f)
+                                          ask(static_cast<std::int32_t>(f), areas_[f]);
+                                  });
         }
     }
     void ask_patches() {
-        constexpr std::int32_t polled_each = 4096;
+        constexpr std::int32_t questions_between_checks = 4096;
         std::int32_t questions = 0;
         UnionFind joined(facets_.size());
         for (const Facing& facing : facing_)
@@ -128,7 +129,7 @@ class SideLabeller {
             for (const std::int32_t f : samples) asked += areas_[f];
             if (asked > 0)
                 for (const std::int32_t f : samples) {
-                    if (++questions % polled_each == 0) check_cancelled_();
+                    if (++questions % questions_between_checks == 0) check_cancelled_();
                     ask(f, areas_[f] / asked * area);
                 }
         }

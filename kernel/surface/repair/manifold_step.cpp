@@ -4,9 +4,9 @@
 // places are opened only behind that, because bodies that touch would come apart by a crack; the borders of openings
 // are an exception, since openings are filled before.
 //
-// Two kinds of components matter: a "piece" hangs together over edges of any number of facets, a
-// "sheet" only over edges of two. In each piece with edges of more than two, sheets with an open edge are fins. If such
-// edges are left then, the rest divides space into cells (surface/regions/cells.h): a facet with the same cell on both
+// Two kinds of components matter: a "piece" hangs together over edges of any number of facets, a "sheet" only over
+// edges of two. In each piece with edges of more than two, sheets with an open edge are fins. If such edges are left
+// then, the rest divides space into cells (surface/regions/cells.h): a facet with the same cell on both
 // sides is a membrane, a facet between two bounded cells may be a wall. A void that touches the surface around it has
 // such facets, too, but only edges of an even number of facets: it is no cell of material, so that facets are walls
 // only if those that hang together have an edge of an odd number. Facets of a kind are taken out only if the rest is

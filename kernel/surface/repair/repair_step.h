@@ -15,7 +15,7 @@ namespace kerf {
 struct StepRequest {
     double amount = 0;    ///< amount of the step: a length in units of the surface, or a count
     double bound = 0;     ///< the largest move of a vertex of the input, units of the surface
-    double diagonal = 0;  ///< diagonal of the bounding box of the surface as it came
+    double diagonal = 0;  ///< diagonal of the bounding box: of a preparation now, else behind the preparations
     BodyRepair bodies = BodyRepair::as_found;
     bool are_walls = false;                         ///< see RepairPlan
     bool voids_are_parity = false;                  ///< see RepairPlan

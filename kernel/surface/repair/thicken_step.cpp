@@ -12,7 +12,6 @@
 // thickness, to first order; a fin that ends within a sheet tapers there. Where the sheet is bent more sharply than by
 // a radius of half the thickness, sides cross and are left so, which is reported. O(#F log #F), deterministic.
 #include <algorithm>
-#include <cmath>
 
 #include "base/core/elements.h"
 #include "base/geometry/angles.h"

@@ -11,7 +11,7 @@
 
 namespace kerf {
 
-/// Facets of an SheetMesh, and the corners that they would get.
+/// Facets of a SheetMesh, and the corners that they would get.
 struct NewFacets {
     std::vector<SheetMesh::FaceHandle> facets;
     std::vector<SheetMesh::Corners> corners;
