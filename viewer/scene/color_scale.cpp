@@ -27,9 +27,10 @@ void ScaleMaker::begin() {
     std::optional<ValueRange> range =
         context_.state.coloring.range ? context_.state.coloring.range : natural_range(context_.state.coloring.by);
     const bool is_volume = context_.state.coloring.by == ColorBy::volume;
+    const bool is_size = is_volume || context_.state.coloring.by == ColorBy::edge_length;
     const auto& histogram = context_.document.histograms[is_volume ? 5 : 7];
     // Few cells are far larger than the others: their colour is that of the upper end.
-    if (!range && is_measure(context_.state.coloring.by) && histogram)
+    if (!range && is_size && histogram)
         range = ValueRange{histogram->min, std::min(histogram->max, (is_volume ? 4 : 2) * histogram->median)};
     if (!range) return;  // the range follows from the drawn values
     set_range(*range);

@@ -7,7 +7,7 @@
 #include "files/export/format.h"
 #include "fill/mesh/adjacency.h"
 
-// A line for each file of this folder that defines `const Format NAME_format`.
+// A line for each file of this folder that defines `extern const Format NAME_format`.
 #define KERF_FORMATS(format)                                                                                       \
     format(vtu) format(msh) format(openfoam) format(mfem) format(hdf5) format(medit) format(tetgen) format(abaqus) \
         format(su2)

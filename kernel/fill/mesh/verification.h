@@ -36,12 +36,12 @@ struct MeshLaw {
     const char* broken;  ///< words for people, behind the count
 };
 /// The laws that are counts. A new one is a count of MeshLaws and a row here; verify_mesh() counts.
-inline constexpr std::array<MeshLaw, 5> mesh_laws = {
-    {{&MeshLaws::inverted_tets, "inverted tetrahedra"},
-     {&MeshLaws::missing_facets, "facets of the surface missing"},
-     {&MeshLaws::extra_boundary_faces, "boundary faces that are no facets"},
-     {&MeshLaws::mismatched_neighbours, "faces with mismatched neighbours"},
-     {&MeshLaws::moved_vertices, "moved surface vertices"}}};
+inline constexpr std::array mesh_laws =
+    std::to_array<MeshLaw>({{&MeshLaws::inverted_tets, "inverted tetrahedra"},
+                            {&MeshLaws::missing_facets, "facets of the surface missing"},
+                            {&MeshLaws::extra_boundary_faces, "boundary faces that are no facets"},
+                            {&MeshLaws::mismatched_neighbours, "faces with mismatched neighbours"},
+                            {&MeshLaws::moved_vertices, "moved surface vertices"}});
 
 template <class Archive>
 void MeshLaws::archive(Archive& a) {

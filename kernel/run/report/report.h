@@ -1,6 +1,7 @@
 // The report of a run, as plain data and as report.json (schema 1).
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -80,7 +81,7 @@ struct RunLaw {
 };
 /// The laws that are counts, in the order in which they are told. A new one is a count of RunVerification and a row
 /// here; reports and kerf verify have it then. The code that sees it broken counts it.
-inline constexpr std::array<RunLaw, 12> run_laws = {
+inline constexpr std::array run_laws = std::to_array<RunLaw>(
     {{"input_faces_missing", &RunVerification::input_faces_missing, "facets of the input missing"},
      {"extra_boundary_faces", &RunVerification::extra_boundary_faces,
       "boundary faces that are neither input nor interface"},
@@ -96,7 +97,7 @@ inline constexpr std::array<RunLaw, 12> run_laws = {
       "vertices whose coordinates differ between parts or from the input", true},
      {"misnumbered", &RunVerification::misnumbered, "wrong global vertex numbers", true},
      {"unequal_edge_nodes", &RunVerification::unequal_edge_nodes, "edges whose nodes differ between parts", true},
-     {"invalid_curved_cells", &RunVerification::invalid_curved_cells, "curved cells that are not proven valid", true}}};
+     {"invalid_curved_cells", &RunVerification::invalid_curved_cells, "curved cells that are not proven valid", true}});
 
 /// Seconds of wall clock, the longest over the ranks.
 struct StageSeconds {

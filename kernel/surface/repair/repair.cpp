@@ -21,6 +21,8 @@ namespace kerf {
 
 namespace {
 
+const RepairStepRow& row_of(RepairKind kind) { return repair_step_rows()[static_cast<std::size_t>(kind)]; }
+
 class Ladder {
  public:
     Ladder(Soup& soup, const RepairPlan& plan, const std::function<void()>& check_cancelled)
@@ -65,7 +67,7 @@ class Ladder {
         const RepairStep* step = plan_.find(kind);
         if (step == nullptr) return;
         check_cancelled_();
-        const RepairStepRow& row = repair_step_rows()[static_cast<std::size_t>(kind)];
+        const RepairStepRow& row = row_of(kind);
         const bool prepares = is_preparation(kind);
         StepRequest request{.bound = report_.bound,
                             .diagonal = prepares ? diagonal_now() : report_.diagonal,
@@ -87,7 +89,7 @@ class Ladder {
     Length usual_amount(const RepairStepRow& row) const {
         const RepairStep* last = plan_.find(RepairKind::renew);
         if (row.kind != RepairKind::holes || !is_renewing_ || last == nullptr) return row.usual;
-        return last->amount.value_or(repair_step_rows().back().usual);
+        return last->amount.value_or(row_of(RepairKind::renew).usual);
     }
     // Whether the last step was of this kind, and did something.
     bool has_changed(RepairKind kind) const {
@@ -108,7 +110,7 @@ class Ladder {
         const RepairStep* step = plan_.find(RepairKind::renew);
         if (step == nullptr || !soup_.sides.empty() || has_regions()) return;
         is_renewing_ = true;
-        const double most_edges = step->amount.value_or(repair_step_rows().back().usual).number();
+        const double most_edges = step->amount.value_or(row_of(RepairKind::renew).usual).number();
         const double least_area = (1 - largest_loss) * surface_area(soup_);
         std::size_t defects = find_remaining_defects(soup_, most_edges).size();
         for (int round = 0; round < most_renewals && defects > 0; ++round) {

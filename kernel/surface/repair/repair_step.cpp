@@ -22,8 +22,7 @@ const RepairStepRow step_rows[] = {
      "merge vertices nearer than TOL", weld_step},
     {RepairKind::clean, "clean", RepairLevel::exact, AmountKind::none, 0,
      "remove copies of facets, facets folded upon each other or without area, and what lies inside of closed bodies "
-     "that "
-     "share facets",
+     "that share facets",
      clean_step},
     {RepairKind::stitch, "stitch", RepairLevel::near, AmountKind::length, Length::percent(0.1),
      "join borders nearer than TOL", stitch_step},
