@@ -321,6 +321,15 @@ TEST_F(Check, FillHolesClosesTheSurface) {
     EXPECT_EQ(check(write(open), {"--fill-holes", "2"}).exit_code, 3);
 }
 
+TEST_F(Check, AVolumeIsThatOfTheRepairedSurfaceWhicheverOptionRepairs) {
+    const Soup whole = hollow_box();
+    Soup open = without_fan(whole, whole.facets[0][0]);
+    drop_unused_vertices(open);
+    const std::string told =
+        test::run_kerf({"mesh", write(open), "--fill-holes", "20", "-n", "1", "-o", folder_.file("run")}).log;
+    EXPECT_NE(told.find("the repaired surface has"), told.npos) << told;
+}
+
 TEST_F(Check, KeepLargestDropsTheRest) {
     Soup aside = test::icosphere(1, 0.1, Vec3(50, 0, 0));
     test::remove_facet(aside, 0);

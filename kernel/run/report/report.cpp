@@ -326,7 +326,7 @@ std::string volume_text(const RunReport& report) {
     const Input& input = report.input;
     const double before = volume_before_remeshing(input);
     const double volume = input.volume + (report.curve ? report.curve->volume_gain : 0);
-    const bool is_as_read = input.ladder.steps.empty() && !input.wrapped;
+    const bool is_as_read = input.ladder.steps.empty() && !input.ladder.changed() && !input.wrapped;
     const char* of = is_as_read ? "the file" : "the repaired surface";
     if (volume == before) return fmt::format("{:.7g}, as {} has it", volume, of);
     return fmt::format("{:.7g}; {} has {:.7g}, difference {:+.1e}", volume, of, before, (volume - before) / before);

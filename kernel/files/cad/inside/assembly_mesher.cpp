@@ -202,13 +202,6 @@ class AssemblyMesher {
         return true;
     }
 
-    static double most_facets_of_patch(const Tessellation& mesh) {
-        std::vector<std::int32_t> counts(
-            static_cast<std::size_t>(*std::max_element(mesh.patch.begin(), mesh.patch.end())) + 1);
-        for (const std::int32_t patch : mesh.patch) ++counts[patch];
-        return *std::max_element(counts.begin(), counts.end());
-    }
-
     MeshedAssembly checked(Tessellation mesh) const {
         std::vector<double> volumes = region_volumes(mesh, assembly_.volumes.size());
         for (std::size_t r = 0; r < volumes.size(); ++r)

@@ -154,18 +154,11 @@ class BodyMesher {
         const double rough = roughness(mesh);
         const double wanted = std::min(rough > 1 ? 0.8 / rough : 0.3, has_effect ? 0.6 : 0.25);
         // Facets grow as 1 / deflection where a face is curved both ways.
-        const double factor = std::max({wanted, 0.05, facets / most_facets_by_volume,
-                                        facets_of_largest_face(mesh) / most_facets_of_face_by_volume});
+        const double factor = std::max(
+            {wanted, 0.05, facets / most_facets_by_volume, most_facets_of_patch(mesh) / most_facets_of_face_by_volume});
         if (factor > 0.9 || settings_.deflection * factor < finest_deflection * diagonal_) return false;
         settings_.deflection *= factor;
         return true;
-    }
-
-    static double facets_of_largest_face(const Tessellation& mesh) {
-        std::vector<std::int32_t> counts(
-            static_cast<std::size_t>(*std::max_element(mesh.patch.begin(), mesh.patch.end())) + 1);
-        for (const std::int32_t patch : mesh.patch) ++counts[patch];
-        return *std::max_element(counts.begin(), counts.end());
     }
 
     // Tells whether the error is due to faces that do not meet exactly: it is proportional to the deflection once the

@@ -342,6 +342,12 @@ double enclosed_volume(const Tessellation& mesh) {
     });
 }
 
+std::int32_t most_facets_of_patch(const Tessellation& mesh) {
+    std::vector<std::int32_t> counts(static_cast<std::size_t>(std::ranges::max(mesh.patch)) + 1);
+    for (const std::int32_t patch : mesh.patch) ++counts[patch];
+    return std::ranges::max(counts);
+}
+
 void find_smooth_edges(const Body& body) { BRepLib::EncodeRegularity(body.shape, smooth_angle); }
 
 }  // namespace kerf::cad

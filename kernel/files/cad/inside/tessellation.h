@@ -40,6 +40,9 @@ Tessellation tessellate(const Body& body, const TessellationSettings& settings,
 /// Returns the signed volume inside of the facets.
 double enclosed_volume(const Tessellation& mesh);
 
+/// Returns the number of facets of the patch that has most of them.
+std::int32_t most_facets_of_patch(const Tessellation& mesh);
+
 /// Marks in the shape of the body each edge whose faces are tangent there, to within a degree.
 void find_smooth_edges(const Body& body);
 
