@@ -92,6 +92,8 @@ void Driver::open_files(const std::vector<std::string>& paths) {
         const view::Document& d = document();
         if (!d.error.empty()) return true;
         if (d.kind == view::Document::Kind::surface && (!d.checked || app_->session().busy())) return false;
+        // The trace of a run comes behind it.
+        if (d.kind == view::Document::Kind::run && !d.progress.running && app_->session().busy()) return false;
         const bool needs_run = d.kind == view::Document::Kind::surface && options_.auto_run && !d.has_problems();
         const bool has_run = d.trace || !d.progress.message.empty();
         return !app_->session().pending() && (!needs_run || (has_run && !app_->session().busy()));
