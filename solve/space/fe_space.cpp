@@ -230,11 +230,12 @@ FeSpace::FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<
     FeNumbering numbering(ranks, outline, first_parts, parts_, order);
     std::vector<NumberedPart> numbered = numbering.number();
 
-    for (const PartIndex first : first_parts) rank_rows_.push_back(numbering.part_rows()[first]);
+    std::vector<std::int64_t> rank_rows;  // rank r has those from the r-th of these on
+    for (const PartIndex first : first_parts) rank_rows.push_back(numbering.part_rows()[first]);
     const int rank = ranks.rank();
-    first_row_ = rank_rows_[rank];
-    owned_ = rank_rows_[rank + 1] - first_row_;
-    total_rows_ = rank_rows_.back();
+    first_row_ = rank_rows[rank];
+    owned_ = rank_rows[rank + 1] - first_row_;
+    total_rows_ = rank_rows.back();
 
     const auto is_owned = [&](std::int64_t row) { return row >= first_row_ && row < first_row_ + owned_; };
     for (const NumberedPart& part : numbered)
@@ -242,7 +243,7 @@ FeSpace::FeSpace(MpiRanks& ranks, const MeshOutline& outline, const std::vector<
             if (!is_owned(row)) ghost_rows_.push_back(row);
     std::sort(ghost_rows_.begin(), ghost_rows_.end());
     ghost_rows_.erase(std::unique(ghost_rows_.begin(), ghost_rows_.end()), ghost_rows_.end());
-    ownership_ = Ownership::of_numbers(ranks, rank_rows_, ghost_rows_);
+    ownership_ = Ownership::of_numbers(ranks, rank_rows, ghost_rows_);
 
     points_.assign(owned_ + ghost_rows_.size(), Vec3::Zero());
     const auto local = [&](std::int64_t row) -> std::int32_t {

@@ -55,8 +55,6 @@ class FeSpace {
     std::int64_t row_of(std::int32_t node) const {
         return node < owned_ ? first_row_ + node : ghost_rows_[node - owned_];
     }
-    /// The rows of each rank are rank_rows()[r] to rank_rows()[r + 1] - 1.
-    const std::vector<std::int64_t>& rank_rows() const { return rank_rows_; }
 
     /// Returns the local nodes of a tetrahedron of the part `p` of this rank; -1 after the fourth for order 1.
     std::array<std::int32_t, most_element_nodes> nodes_of(std::size_t p, std::size_t tet) const;
@@ -74,7 +72,7 @@ class FeSpace {
     std::vector<Part> parts_;
     std::vector<PartFeNodes> nodes_;
     std::vector<Vec3> points_;
-    std::vector<std::int64_t> ghost_rows_, rank_rows_;
+    std::vector<std::int64_t> ghost_rows_;
     std::int64_t first_row_ = 0, total_rows_ = 0;
     std::int32_t owned_ = 0;
     Ownership ownership_;

@@ -108,9 +108,6 @@ Part read_checked_surface(const std::string& folder, NodeId part) {
 }  // namespace
 
 std::string part_file_of(const std::string& folder, NodeId part) { return path_of_part(folder, part); }
-std::string part_surface_file_of(const std::string& folder, NodeId part) {
-    return folder + "/parts/" + part_surface_file_name(part);
-}
 
 NodeId common_ancestor(NodeId a, NodeId b) {
     while (a != b) (a > b ? a : b) /= 2;

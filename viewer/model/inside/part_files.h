@@ -13,9 +13,8 @@
 
 namespace kerf::view {
 
-/// Return FOLDER/parts/part_0008.vtu, or part_0008.part where that is not written yet, and part_0008.surface.vtu there.
+/// Returns FOLDER/parts/part_0008.vtu, or part_0008.part where that is not written yet.
 std::string part_file_of(const std::string& folder, NodeId part);
-std::string part_surface_file_of(const std::string& folder, NodeId part);
 
 /// Adds the nodes on the edges of a part's surface, for which the part is read. Throws Error(io).
 void add_edge_nodes(const std::string& folder, NodeId part, NodeSurface& surface);
