@@ -5,9 +5,21 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <vector>
 
+#include "base/core/check.h"
+
 namespace kerf {
+
+/// Returns the number of items of a container, or of characters of a text, in the 32 bits in which ids count. There
+/// must not be more.
+template <class Items>
+constexpr std::int32_t count_of(const Items& items) {
+    KERF_CHECK(std::size(items) <= std::size_t{std::numeric_limits<std::int32_t>::max()});
+    return static_cast<std::int32_t>(std::size(items));
+}
 
 /// The place of a thing among those of its kind, counted from 0, in 32 bits. The kind is named by the Tag.
 template <class Tag>
