@@ -27,9 +27,9 @@ void tell_failed_parts(const RunReport& report) {
         tell(
             fmt::format("kerf: the other {} parts are in {}; kerf mesh --resume {} tries the failed ones again, if "
                         "wanted with other --timeout or --memory.\n",
-                        report.parts.size() - failed, report.folder.path, report.options.output));
+                        report.parts.size() - failed, report.folder.path, report.request.output));
     if (report.folder.kept_valid_run)
-        tell(fmt::format("kerf: {} keeps the older run, which is valid; this one is in {}.\n", report.options.output,
+        tell(fmt::format("kerf: {} keeps the older run, which is valid; this one is in {}.\n", report.request.output,
                          report.folder.path));
 }
 

@@ -46,7 +46,7 @@ struct SolveLine {
 // Checks the options of the mesh against the input. With --adapt a surface is remeshed unless --surface is given,
 // because facets that stay keep the cells beside them coarse.
 void check_mesh_options(const CLI::App& solve, SolveLine& line) {
-    RunOptions& mesh = line.request.mesh;
+    RunRequest& mesh = line.request.mesh;
     if (solve.get_option("--order")->count() > 0) line.request.solve.order = mesh.order;
     if (line.meshes) {
         if (line.list_patches)
@@ -54,7 +54,7 @@ void check_mesh_options(const CLI::App& solve, SolveLine& line) {
                 fmt::format("--list-patches is for the folder of a finished run. kerf check "
                             "--list-patches {} lists those of a surface.",
                             line.input));
-        for (const NamedPath& output : mesh.output_files())
+        for (const NamedPath& output : mesh.outputs.files())
             refuse_to_overwrite(line.request.solve.case_file, output.option, output.path);
         if (line.request.steps > 0 && solve.get_option("--surface")->count() == 0) mesh.remeshing = Remeshing::always;
         return;
@@ -142,16 +142,16 @@ std::optional<Answer> parse_solve_line(int argc, const char* const* argv, SolveL
 // which is no work.
 int wanted_ranks(const SolveLine& line) {
     if (line.ranks > 0 || line.list_patches) return std::max(1, line.ranks);
-    const int useful = line.meshes ? useful_ranks_of_surface(line.input, line.request.mesh.decompose.parts)
-                                   : useful_ranks_of_run(line.input);
-    const int workers = line.request.mesh.workers;
+    const int useful =
+        line.meshes ? useful_ranks_of_surface(line.input, line.request.mesh.parts) : useful_ranks_of_run(line.input);
+    const int workers = line.request.mesh.workers.count;
     const int most = workers > 0 ? workers : static_cast<int>(allowed_processors().size());
     return std::clamp(most, 1, std::max(1, useful));
 }
 
 // Divides the workers that were asked for among the ranks that this program has started itself.
 void share_workers(SolveLine& line, int ranks) {
-    int& workers = line.request.mesh.workers;
+    int& workers = line.request.mesh.workers.count;
     if (workers > 0 && line.ranks == 0 && is_own_launch()) workers = std::max(1, workers / ranks);
 }
 
@@ -159,13 +159,13 @@ void share_workers(SolveLine& line, int ranks) {
 std::unique_ptr<EventLog> open_solve_events(const SolveLine& line, Communicator& ranks) {
     std::unique_ptr<EventLog> log;
     in_agreement(ranks, [&] {
-        const std::string& file = line.request.mesh.events_file;
+        const std::string& file = line.request.mesh.outputs.events_file;
         if (ranks.rank() != 0 || file.empty() || line.list_patches) return;
         for (const std::string& read : {line.request.solve.case_file, line.meshes ? line.input : std::string()})
             refuse_to_overwrite(read, "--events", file);
         require_writable("--events", file, output_kind::events);
         log = std::make_unique<EventLog>(file);
-        RunOptions told = line.request.mesh;
+        RunRequest told = line.request.mesh;
         told.input = line.input;
         told.output = line.request.solve.output;
         log->on_start(told);

@@ -54,39 +54,39 @@ void apply_config(const CLI::App& command, MeshRequest& request) {
 }
 
 // The usual output: part-mesh for parts/part.stl.gz. Cuts have another name, so that they do not replace a mesh.
-std::string usual_output(const RunOptions& options) {
+std::string usual_output(const RunRequest& options) {
     std::filesystem::path name = std::filesystem::path(options.input).filename();
     if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
     return name.stem().string() + (options.volume ? "-mesh" : "-cut");
 }
 
 // Refuses options whose result a run folder holds beside the mesh: with one file it would be lost.
-void refuse_what_no_file_holds(const RunOptions& options, const std::string& file, const Format& format) {
+void refuse_what_no_file_holds(const RunRequest& options, const std::string& file, const Format& format) {
     const auto refuse = [&](const std::string& why) {
         throw Error(ErrorCode::usage,
                     fmt::format("--output is {}, a file of one mesh, but {}. Name a folder instead: -o {}.", file, why,
                                 std::filesystem::path(file).stem().string()));
     };
     if (!options.volume) refuse("kerf decompose writes the surface of every part");
-    if (options.stl) refuse("--stl writes the surface of every part");
-    if (options.reference) refuse("--reference writes a comparison, too");
-    if (!options.fields.empty()) refuse("--fields are those of the files of parts");
-    if (!options.patch_types.empty()) refuse("--patch-type is for a case of OpenFOAM");
-    if (options.split_regions) refuse("--split-regions is for a case of OpenFOAM");
-    if (!options.formats.empty() && options.formats != format.name)
-        refuse(fmt::format("--format {} asks for other files", options.formats));
+    if (options.outputs.stl) refuse("--stl writes the surface of every part");
+    if (options.outputs.reference) refuse("--reference writes a comparison, too");
+    if (!options.outputs.fields.empty()) refuse("--fields are those of the files of parts");
+    if (!options.outputs.patch_types.empty()) refuse("--patch-type is for a case of OpenFOAM");
+    if (options.outputs.split_regions) refuse("--split-regions is for a case of OpenFOAM");
+    if (!options.outputs.formats.empty() && options.outputs.formats != format.name)
+        refuse(fmt::format("--format {} asks for other files", options.outputs.formats));
 }
 
 // Chooses the places of the result. A mesh in one file is that of a run in a folder beside it.
 void settle_output(MeshRequest& request) {
-    RunOptions& options = request.options;
+    RunRequest& options = request.options;
     if (options.dry_run) return;
     request.has_usual_output = options.output.empty();
     if (request.has_usual_output) options.output = usual_output(options);
     const Format* format = find_merged_format(options.output);
     if (!format) return;
     refuse_what_no_file_holds(options, options.output, *format);
-    options.formats.clear();
+    options.outputs.formats.clear();
     request.merged_file = options.output;
     options.output = run_folder_beside(request.merged_file);
 }
@@ -96,7 +96,7 @@ void resume_run(const CLI::App& command, MeshRequest& request) {
     std::error_code ignored;
     if (find_merged_format(request.resume) && !std::filesystem::is_directory(request.resume, ignored))
         request.resume = run_folder_beside(request.resume);
-    RunOptions options = load_interrupted_run(request.resume);
+    RunRequest options = load_interrupted_run(request.resume);
     const std::vector<OptionField> saved = option_fields(options), given = option_fields(request.options);
     for (std::size_t i = 0; i < given.size(); ++i) {
         if (!is_given(command, given[i].name)) continue;
@@ -135,7 +135,7 @@ void settle_request(const CLI::App& command, MeshRequest& request) {
     take_inputs(request.inputs, request.options.input, request.options.input_options);
     if (is_new && !request.print_config && request.options.input.empty()) throw CLI::RequiredError("input");
     if (!is_new) resume_run(command, request);
-    const std::int32_t parts = request.options.decompose.parts;
+    const std::int32_t parts = request.options.parts;
     if (is_given(command, "parts") && parts < 1)
         throw Error(ErrorCode::usage, fmt::format("--parts is {}, but a mesh has 1 or more parts.", parts));
     if (is_new && !request.print_config) settle_output(request);

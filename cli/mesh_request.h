@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace CLI {
 class App;
@@ -13,7 +13,7 @@ class App;
 namespace kerf {
 
 struct MeshRequest {
-    RunOptions options;
+    RunRequest options;
     std::vector<std::string> inputs;  ///< input files; those behind the first one become InputOptions::more_files
     bool quiet = false;
     bool verbose = false;       ///< print every node of the tree of cuts, and all that is known of the result

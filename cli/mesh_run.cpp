@@ -34,9 +34,9 @@ namespace {
 std::unique_ptr<EventLog> open_event_log(const MeshRequest& request, Communicator& ranks) {
     std::unique_ptr<EventLog> log;
     in_agreement(ranks, [&] {
-        if (ranks.rank() != 0 || request.options.events_file.empty()) return;
+        if (ranks.rank() != 0 || request.options.outputs.events_file.empty()) return;
         request.options.check_files();
-        log = std::make_unique<EventLog>(request.options.events_file);
+        log = std::make_unique<EventLog>(request.options.outputs.events_file);
         log->on_start(request.options);
     });
     return log;
@@ -53,7 +53,7 @@ std::string node_file_of(const std::string& input) {
 void check_outputs(const MeshRequest& request, Communicator& ranks) {
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
-        std::vector<NamedPath> outputs = request.options.output_files();
+        std::vector<NamedPath> outputs = request.options.outputs.files();
         if (!request.merged_file.empty()) {
             for (const std::string& read :
                  {request.options.input, node_file_of(request.options.input), request.options.sizes.field_file})
@@ -101,8 +101,8 @@ std::string next_command(const MeshRequest& request, const RunReport& report) {
     if (!request.merged_file.empty())
         return can_be_measured(request.merged_file) ? "kerf quality " + shell_word(request.merged_file) : "";
     if (has_display() && look_for_program("kerf-view").found) return "kerf view " + shell_word(request.options.output);
-    return report.options.volume ? "kerf quality " + shell_word(request.options.output)
-                                 : "kerf mesh " + shell_word(report.options.input);
+    return report.request.volume ? "kerf quality " + shell_word(request.options.output)
+                                 : "kerf mesh " + shell_word(report.request.input);
 }
 
 std::string result_text(const MeshRequest& request, const RunReport& report) {
@@ -112,7 +112,7 @@ std::string result_text(const MeshRequest& request, const RunReport& report) {
 }
 
 void tell_result(const MeshRequest& request, const RunReport& report) {
-    if (request.verbose || !report.options.volume) tell(tree_text(report.cut.nodes, request.verbose) + "\n");
+    if (request.verbose || !report.request.volume) tell(tree_text(report.cut.nodes, request.verbose) + "\n");
     tell_report(to_text(report, request.verbose ? ReportDetail::all : ReportDetail::brief));
     if (report.exit_code == 0) tell_report(result_text(request, report));
     if (request.verbose && report.reference) tell(report.reference->comparison);
@@ -121,7 +121,7 @@ void tell_result(const MeshRequest& request, const RunReport& report) {
 // Runs the request and returns the exit code. The log of events outlives an error.
 int run_on_ranks(const MeshRequest& request, const Ranks& ranks, std::unique_ptr<EventLog>& events) {
     const bool root = ranks.communicator->rank() == 0;
-    const RunOptions& options = request.options;
+    const RunRequest& options = request.options;
     check_outputs(request, *ranks.communicator);
     events = open_event_log(request, *ranks.communicator);
     RunReport report;
@@ -129,7 +129,8 @@ int run_on_ranks(const MeshRequest& request, const Ranks& ranks, std::unique_ptr
         ProgressLine progress(request.quiet || !root, events.get(), request.verbose || options.dry_run);
         if (root && !request.quiet && request.has_usual_output)
             tell(fmt::format("kerf: The result goes into {}; -o chooses another place.\n", options.output));
-        if (const std::string note = binding_note(ranks, options.workers); root && !request.quiet && !note.empty())
+        if (const std::string note = binding_note(ranks, options.workers.count);
+            root && !request.quiet && !note.empty())
             tell(fmt::format("kerf: {}\n", note));
         report = run(options, ranks.cores_of_rank, *ranks.communicator, &progress);
     }

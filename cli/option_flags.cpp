@@ -54,7 +54,7 @@ void add_surface_output(CLI::App& app, std::string& output) {
     app.add_option("-o,--output", output, "Surface, .obj (with patches) or .stl.")->required()->type_name("FILE");
 }
 
-void add_run_options(CLI::App& app, RunOptions& options) {
+void add_run_options(CLI::App& app, RunRequest& options) {
     const std::vector<OptionField> fields = option_fields(options);
     for (const std::string_view group : option_group::all)
         for (const OptionField& field : fields)

@@ -1,7 +1,7 @@
 // The options of the kernel's table as flags of a command.
 #pragma once
 
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace CLI {
 class App;
@@ -27,7 +27,7 @@ void add_surface_output(CLI::App& app, std::string& output);
 
 /// Adds all options that shape a mesh and its making (option_fields()), and --tetgen, another name of
 /// --tetgen-switches.
-void add_run_options(CLI::App& app, RunOptions& options);
+void add_run_options(CLI::App& app, RunRequest& options);
 
 /// Returns the names of all formats, or of the qualities that vtu files may have, as suggested values.
 CLI::Validator suggest_formats();

@@ -20,7 +20,7 @@ namespace kerf {
 namespace {
 
 struct RemeshRequest {
-    RunOptions options;
+    RunRequest options;
     std::string output;
     bool quiet = false;
 };

@@ -1,8 +1,8 @@
-// The table of options comes from the kernel (run/request/options.h), so that keyword arguments, their kinds, defaults
-// and help follow it without a list of their own; their text is made in kerf/options.py. A Watch is asked from any
-// thread of a call without the interpreter's lock, and takes the lock to look at signals, at most every 100 ms, and to
-// call `progress`. An exception of Python cannot cross the kernel: the first is kept, the call ends as cancelled, and
-// without_lock() raises it again.
+// The table of options comes from the kernel (run/request/run_request.h), so that keyword arguments, their kinds,
+// defaults and help follow it without a list of their own; their text is made in kerf/options.py. A Watch is asked from
+// any thread of a call without the interpreter's lock, and takes the lock to look at signals, at most every 100 ms, and
+// to call `progress`. An exception of Python cannot cross the kernel: the first is kept, the call ends as cancelled,
+// and without_lock() raises it again.
 #include "python/options.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "help/nearest.h"
 #include "python/bindings.h"
 #include "python/sizes.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf::python {
 
@@ -47,7 +47,7 @@ py::dict row_of(const OptionField& field, bool is_of_surface) {
 
 // Returns the table of the command line, in its order, with the values of options that are not given.
 py::list option_rows() {
-    RunOptions options;
+    RunRequest options;
     py::list rows;
     const std::vector<OptionField> of_surface = input_option_fields(options.input_options);
     for (const OptionField& field : option_fields(options))

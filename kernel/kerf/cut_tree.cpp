@@ -63,14 +63,14 @@ CutTree cut_to_tree(const ClosedSurface& surface, const MeshOptions& options) {
     SingleRank alone;
     CutRecorder recorder(options.progress, options.is_cancelled);
     refuse_options_of_surface(options.others);
-    RunOptions request = run_options(surface.input().path, options, "");
+    RunRequest request = run_options(surface.input().path, options, "");
     request.volume = false;
     const auto processors = static_cast<int>(std::max<std::size_t>(1, allowed_processors().size()));
     auto [plan, input] = plan_run(request, processors, alone, &recorder, surface.input());
-    Decomposition cut = cut_surface(alone, input, plan.options, &recorder);
+    Decomposition cut = cut_surface(alone, input, plan, &recorder);
     CutTree tree;
     tree.nodes = gather_nodes(alone, cut.nodes, host_name());
-    PreparedParts prepared = prepare_parts(alone, input, tree.nodes, std::move(cut), plan.options);
+    PreparedParts prepared = prepare_parts(alone, input, tree.nodes, std::move(cut), plan);
     if (prepared.missing_input_facets + prepared.unmatched_interface_facets > 0)
         throw Error(ErrorCode::verification, "A law of the parts does not hold.");
     for (OwnPart& part : prepared.own) tree.parts.push_back(std::move(part.job));

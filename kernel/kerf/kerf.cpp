@@ -87,19 +87,19 @@ class ArraysListener : public ProgressListener {
     int threads_;
 };
 
-void refuse_files(const RunOptions& options) {
+void refuse_files(const RunRequest& options) {
     const auto refuse = [](const char* option) {
         throw Error(ErrorCode::usage, fmt::format("--{} asks for files of a run folder, but the mesh is wanted in "
                                                   "memory. Leave it out, or name a folder for the run.",
                                                   option));
     };
-    if (!options.formats.empty()) refuse("format");
-    if (options.stl) refuse("stl");
+    if (!options.outputs.formats.empty()) refuse("format");
+    if (options.outputs.stl) refuse("stl");
 }
 
 int all_processors() { return static_cast<int>(std::max<std::size_t>(1, allowed_processors().size())); }
 
-ClosedSurface remeshed_as(const ClosedSurface& surface, const RunOptions& options, const Progress& progress,
+ClosedSurface remeshed_as(const ClosedSurface& surface, const RunRequest& options, const Progress& progress,
                           const IsCancelled& is_cancelled) {
     options.sizes.check();
     ProgressListener listener(progress, is_cancelled);
@@ -121,8 +121,8 @@ void refuse_options_of_surface(const NamedOptions& options) {
                         fmt::format("--{} is an option of the surface: give it where that is made.", name));
 }
 
-RunOptions run_options(const std::string& input, const MeshOptions& options, const std::string& folder) {
-    RunOptions run;
+RunRequest run_options(const std::string& input, const MeshOptions& options, const std::string& folder) {
+    RunRequest run;
     const std::vector<OptionField> all = option_fields(run);
     std::vector<OptionText> texts;
     for (const auto& [name, text] : options.others) {
@@ -130,13 +130,13 @@ RunOptions run_options(const std::string& input, const MeshOptions& options, con
         texts.push_back({name, text});
     }
     run.sizes.size = options.size;
-    run.decompose.parts = options.parts;
-    run.workers = options.workers;
+    run.parts = options.parts;
+    run.workers.count = options.workers;
     set_options(run, texts, "MeshOptions::others");
     run.sizes.background = sized_mesh_of(options.sizes.get());
     run.output = folder;
     run.input = input;
-    run.worker_program = find_kerf_program("kerf-worker", options.programs);
+    run.workers.program = find_kerf_program("kerf-worker", options.programs);
     return run;
 }
 
@@ -180,7 +180,7 @@ std::vector<std::int32_t> ClosedSurface::patches() const {
 
 ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double size, const Progress& progress,
                        const IsCancelled& is_cancelled) {
-    RunOptions options;
+    RunRequest options;
     options.deviation = deviation;
     options.sizes.size = size;
     return remeshed_as(surface, options, progress, is_cancelled);
@@ -188,7 +188,7 @@ ClosedSurface remeshed(const ClosedSurface& surface, double deviation, double si
 
 ClosedSurface remeshed(const ClosedSurface& surface, const NamedOptions& options, const Progress& progress,
                        const IsCancelled& is_cancelled) {
-    RunOptions wanted;
+    RunRequest wanted;
     const std::vector<OptionField> of_sizes = size_option_fields(wanted.sizes);
     std::vector<OptionText> texts;
     for (const auto& [name, text] : options) {
@@ -223,7 +223,7 @@ void check_sizes(const GivenSizes& given) {
 void mesh_on_ranks(const ClosedSurface& surface, const MeshOptions& options, const std::string& folder,
                    int cores_of_rank, Communicator& ranks) {
     ProgressListener listener(options.progress, options.is_cancelled);
-    const RunOptions request = in_agreement(ranks, [&] {
+    const RunRequest request = in_agreement(ranks, [&] {
         refuse_options_of_surface(options.others);
         return run_options(surface.input().path, options, folder);
     });
@@ -245,7 +245,7 @@ MeshArrays mesh_to_arrays(const ClosedSurface& surface, const MeshOptions& optio
     const std::string stem = (fs::temp_directory_path() / "kerf").string();
     const TemporaryFolder folder(stem, "make a folder " + stem + ".XXXXXX", "Set TMPDIR.");
     refuse_options_of_surface(options.others);
-    RunOptions request = run_options(surface.input().path, options, folder.path() + "/run");
+    RunRequest request = run_options(surface.input().path, options, folder.path() + "/run");
     refuse_files(request);
     request.transient = true;
     SingleRank alone;

@@ -12,7 +12,7 @@
 #include "kerf/progress_listener.h"
 #include "run/prepare/surface_file.h"
 #include "run/report/file_diagnosis.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 

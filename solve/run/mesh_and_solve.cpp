@@ -133,7 +133,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
         return read_case(request.solve.case_file).solver.order;  // before the mesh, which takes longer
     });
     MeshAndSolveReport report;
-    RunOptions options = request.mesh;
+    RunRequest options = request.mesh;
     if (!request.solve.order && order_of_case > 0) options.order = order_of_case;
     options.least_parts = ranks.size();
     for (std::int32_t step = 0; step <= request.steps; ++step) {
@@ -156,7 +156,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
         if (report.reached) break;
         if (options.sizes.cells > 0) {  // holds for the first mesh: others are finer where the error asks for it
             options.sizes.cells = 0;
-            options.sizes.size = report.mesh.options.sizes.size;
+            options.sizes.size = report.mesh.request.sizes.size;
         }
         options.sizes.field_file = folders.solution(step) + "/" + size_field_file;
     }

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "run/report/report.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "solve/run/inside/solve_run.h"
 
 namespace kerf {
 
 struct MeshAndSolveRequest {
-    RunOptions mesh;         ///< all but its output
+    RunRequest mesh;         ///< all but its output
     SolveRequest solve;      ///< all but its folder; `output` is that of everything
     std::int32_t steps = 0;  ///< meshes after the first one, at most
 };

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "help/inside/old_spellings.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/lines.h"
@@ -109,7 +109,7 @@ TEST(Help, HasEveryOptionOfTheTableInItsGroup) {
     for (const HelpPage& page : help_pages())
         if (page.command == "mesh") mesh = page;
     auto groups = mesh.groups();
-    RunOptions options;
+    RunRequest options;
     for (const OptionField& field : option_fields(options)) {
         EXPECT_TRUE(std::count(std::begin(option_group::all), std::end(option_group::all), field.group)) << field.name;
         EXPECT_TRUE(groups[field.group].contains("--" + field.name)) << field.group << ": " << field.name;

@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, CadSurface, testing::ValuesIn(cad_surfaces()), 
 
 TEST_P(CadSurface, IsMeshedInEightPartsByTheLaws) {
     const test::TemporaryFolder folder;
-    RunOptions as_it_is;
+    RunRequest as_it_is;
     as_it_is.remeshing = Remeshing::never;
     const RunReport report = test::run_parts(GetParam(), folder.file("out"), 8, as_it_is);
     EXPECT_EQ(report.exit_code, 0);

@@ -49,8 +49,8 @@ class FinishedRegions {
         const VoxelBody body = voxel_body(cubes, refined(wanted.region, fineness));
         Input input = make_input(body.facets.vertices, body.facets.facets, body.sides,
                                  wanted.names.empty() ? body.names : wanted.names, body.facets.patch);
-        RunOptions options;
-        options.formats = formats;
+        RunRequest options;
+        options.outputs.formats = formats;
         EXPECT_EQ(run_parts(std::move(input), path(), wanted.parts, options).exit_code, 0);
         parts_ = std::make_unique<RunParts>(path());
         EXPECT_EQ(parts_->outline().parts.size(), static_cast<std::size_t>(wanted.parts));

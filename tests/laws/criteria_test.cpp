@@ -38,11 +38,11 @@ class PlaneWitness : public RunListener {
 class CutRuns : public testing::TestWithParam<std::string> {
  protected:
     RunReport decomposed(const DecomposeOptions& decompose, RunListener* listener = nullptr) {
-        RunOptions options;
+        RunRequest options;
         options.input = test::asset_path(GetParam());
         options.output = folder_.file("out");
         options.volume = false;
-        options.workers = 2;
+        options.workers.count = 2;
         options.decompose = decompose;
         SingleRank rank;
         RunReport report = run(options, 2, rank, listener);
@@ -76,7 +76,7 @@ TEST_P(CutRuns, EveryCriterionBalancesWhatWasAskedFor) {
             DecomposeOptions options;
             options.parts = 4;
             options.cut.criterion = criterion;
-            options.cut.load.balance = balance;
+            options.cut.balance = balance;
             PlaneWitness planes;
             const RunReport report = decomposed(options, &planes);
             ASSERT_EQ(planes.normals.size(), 3u);

@@ -18,7 +18,7 @@ class AnyFineness : public testing::Test {
         std::string hash;
     };
     Outcome outcome_of(const std::string& input, const std::vector<OptionText>& texts) {
-        RunOptions options;
+        RunRequest options;
         set_options(options, texts, "the test");
         const RunReport report = test::run_parts(input, folder_.file("out"), 2, options);
         EXPECT_EQ(report.exit_code, 0);

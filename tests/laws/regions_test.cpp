@@ -69,7 +69,7 @@ TEST(RoundRegions, ObeyEveryLawForAnyNumberOfParts) {
 
 TEST(RemeshedRegions, ObeyEveryLaw) {
     const test::VoxelBody body = test::voxel_body({6, 6, 6}, test::grains({6, 6, 6}, 7, 2));
-    RunOptions options;
+    RunRequest options;
     options.remeshing = Remeshing::always;
     Input input = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
     const test::TemporaryFolder folder;
@@ -87,7 +87,7 @@ TEST(RemeshedRegions, ObeyEveryLaw) {
 TEST(SizesOfRegions, HoldInTheirRegionAndOnItsWalls) {
     const test::VoxelBody body = test::voxel_body({6, 3, 3}, test::refined([](Cube cube) { return cube[0]; }, 3));
     Input input = make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
-    RunOptions options;
+    RunRequest options;
     options.sizes.size = 1.5;
     options.sizes.in_region = {"region_1=0.5"};
     const test::TemporaryFolder folder;
@@ -138,7 +138,7 @@ TEST(SizesOfRegions, HoldInsideOfTheRegion) {
     const test::VoxelBody body = test::voxel_body({2, 1, 1}, [](Cube cube) { return cube[0]; });
     for (const double size : {0.05, 0.1}) {
         SCOPED_TRACE(size);
-        RunOptions options;
+        RunRequest options;
         const double of_the_other = 0.15 - size;
         options.sizes.size = of_the_other;
         options.sizes.in_region = {fmt::format("region_1={}", size)};

@@ -134,12 +134,12 @@ TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
     std::vector<RunReport> reports;
     for (const std::int32_t parts : {1, 8}) {
         SCOPED_TRACE(parts);
-        RunOptions options;
+        RunRequest options;
         options.input = folder.file("input.off");
         options.output = folder.file("out");
-        options.worker_program = test::worker_program();
-        options.workers = 2;
-        options.decompose.parts = parts;
+        options.workers.program = test::worker_program();
+        options.workers.count = 2;
+        options.parts = parts;
         options.remeshing = Remeshing::always;
         options.sizes.size = 0.5;
         options.sizes.inside = {"sphere:3,4,10,1=0.15"};
@@ -177,7 +177,7 @@ TEST(RemeshedInput, IsAsFineAsItIsWanted) {
     measure_input(input);
     input.diagonal = box_around(input.complex.arrays().vertices).diagonal().norm();
     input.patch_names = {"below", "sides", "above"};
-    RunOptions options;
+    RunRequest options;
     options.remeshing = Remeshing::always;
     double coarser = 0;  // facets
     for (const double size : {0.5, 0.25, 0.125}) {

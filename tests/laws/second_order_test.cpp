@@ -47,15 +47,15 @@ NodesOfEdges nodes_of(const PartSource& parts) {
 class SecondOrder : public testing::TestWithParam<std::string> {
  protected:
     RunReport run(const std::string& name, const std::string& formats = "", int workers = 2) {
-        RunOptions options;
+        RunRequest options;
         options.order = 2;
         options.curving = Curving::straight;
-        options.formats = formats;
+        options.outputs.formats = formats;
         options.input = test::asset_path(GetParam());
         options.output = folder_.file(name);
-        options.worker_program = test::worker_program();
-        options.workers = workers;
-        options.decompose.parts = 5;
+        options.workers.program = test::worker_program();
+        options.workers.count = workers;
+        options.parts = 5;
         SingleRank rank;
         return kerf::run(options, workers, rank);
     }

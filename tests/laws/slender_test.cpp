@@ -57,7 +57,7 @@ std::vector<SlenderBody> slender_bodies() {
 }
 
 TEST(SlenderBodies, HoldTheVolumeAndTheSecondMomentsOfTheirFile) {
-    RunOptions options;
+    RunRequest options;
     options.remeshing = Remeshing::always;
     for (const SlenderBody& body : slender_bodies()) {
         const Input before = input_of(body.soup), after = remesh_where_asked(before, options);
@@ -71,7 +71,7 @@ TEST(SlenderBodies, HoldTheVolumeAndTheSecondMomentsOfTheirFile) {
 }
 
 TEST(SlenderBodies, MayChangeWhereADeviationIsAskedFor) {
-    RunOptions options;
+    RunRequest options;
     options.remeshing = Remeshing::always;
     options.deviation = 0.4;
     Input after = remesh_where_asked(input_of(test::prism(48, 0.5, 30)), options);

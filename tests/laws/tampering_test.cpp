@@ -66,7 +66,7 @@ class Tampering : public testing::TestWithParam<int> {
     static void SetUpTestSuite() {
         runs_ = new test::TemporaryFolder;
         for (const int order : {1, 2}) {
-            RunOptions options;
+            RunRequest options;
             options.order = order;
             options.curving = Curving::straight;
             ASSERT_EQ(test::run_parts(test::asset_path("hollow_box"), good(order), 3, options).exit_code, 0);

@@ -38,7 +38,7 @@ inline FinishedRun run_and_check(const std::string& input, std::int32_t parts, R
                                  bool improve = true) {
     const TemporaryFolder folder;
     FinishedRun run;
-    RunOptions options;
+    RunRequest options;
     options.mesher.improve = improve;
     run.report = run_parts(input, folder.file("out"), parts, options, listener);
     expect_verified(run.report, parts);

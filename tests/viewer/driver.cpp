@@ -25,10 +25,10 @@ view::AppOptions app_options(const Driver::Options& options) {
     app.screenshot_folder = options.screenshot_folder;
     app.auto_run = options.auto_run;
     app.volume = options.volume;
-    app.run.decompose.parts = options.parts;
-    app.run.decompose.cut.contour = options.contour;
+    app.run.parts = options.parts;
+    app.run.cut.contour = options.contour;
     app.run.remeshing = options.remeshing;
-    app.run.workers = 2;
+    app.run.workers.count = 2;
     return app;
 }
 

@@ -115,9 +115,9 @@ TEST_F(ProblemButtons, WeldACrackWithinATypedDistance) {
     driver_->key(key_of('R'), true);
     driver_->await("the run", [&] { return driver_->document().trace && !driver_->app().session().busy(); });
     EXPECT_FALSE(driver_->document().has_problems());
-    RunOptions welded;
+    RunRequest welded;
     welded.input_options.repairs.weld_tolerance = 0.001;
-    for (const RunOptions& options : {RunOptions(), welded}) {
+    for (const RunRequest& options : {RunRequest(), welded}) {
         driver_->app().session().open(folder_.file("bad.off"), options);
         driver_->await("its check", [&] { return driver_->document().checked != nullptr; });
         EXPECT_EQ(driver_->document().has_problems(), options.input_options.repairs.weld_tolerance == 0);

@@ -203,7 +203,7 @@ TEST_F(RepairSession, EndsWhenItIsCancelledAndChangesNothing) {
 // A file that is opened with repairs has what it was before, too.
 TEST_F(RepairSession, IsThereFromTheBeginningOn) {
     test::write_off(path_, read_.vertices, read_.facets);
-    RunOptions options;
+    RunRequest options;
     options.input_options.repairs.plan = "weld=0.01";
     session_.open(path_, options);
     settle();
@@ -237,8 +237,8 @@ TEST_F(RepairSession, GoesOnBehindARun) {
     open(read_);
     repair("near");
     ASSERT_FALSE(session_.document().has_problems());
-    RunOptions options = session_.document().options;
-    options.decompose.parts = 2;
+    RunRequest options = session_.document().options;
+    options.parts = 2;
     session_.start_run(options, false);
     settle();
     ASSERT_TRUE(session_.document().trace) << session_.document().progress.message;

@@ -281,8 +281,8 @@ TEST(Runs, AnOldErrorLeavesTheStatusBar) {
     Session& session = driver.app().session();
     session.pair().redo_cut(1, {});
     ASSERT_EQ(session.failures().size(), 1u);
-    RunOptions run;
-    run.decompose.parts = 2;
+    RunRequest run;
+    run.parts = 2;
     session.start_run(run, false);
     driver.await("the run", [&] { return !session.busy(); });
     EXPECT_TRUE(session.failures().empty());
@@ -357,14 +357,14 @@ TEST(Runs, AViewKnowsWhatItWasMadeOf) {
     EXPECT_EQ(same.input, asset_path("cube"));
     EXPECT_EQ(same.picture.width, 640);
     EXPECT_EQ(same.picture.height, 480);
-    EXPECT_EQ(same.run.decompose.parts, 3);
+    EXPECT_EQ(same.run.parts, 3);
     const ViewCommand other =
-        parse({"screenshot", "other.stl", "--state", state.c_str(), "--resolution", "800x600", "-o", "a.png"});
-    EXPECT_EQ(other.input, "other.stl");
+        parse({"screenshot", "other.outputs.stl", "--state", state.c_str(), "--resolution", "800x600", "-o", "a.png"});
+    EXPECT_EQ(other.input, "other.outputs.stl");
     EXPECT_EQ(other.picture.width, 800);
     EXPECT_EQ(parse({"screenshot", "-o", "a.png"}).exit_code, 2);
-    EXPECT_TRUE(parse({"view", "a.stl"}).auto_run);
-    EXPECT_FALSE(parse({"view", "a.stl", "--no-run"}).auto_run);
+    EXPECT_TRUE(parse({"view", "a.outputs.stl"}).auto_run);
+    EXPECT_FALSE(parse({"view", "a.outputs.stl", "--no-run"}).auto_run);
 
     // Bit for bit, and of another body in its middle.
     const std::string again = folder.file("again.png");

@@ -91,10 +91,10 @@ class SessionTest : public testing::Test {
         ASSERT_TRUE(settle(session_));
     }
     const Document& document() const { return session_.document(); }
-    RunOptions options(std::int32_t parts) const {
-        RunOptions options;
-        options.decompose.parts = parts;
-        options.workers = 2;
+    RunRequest options(std::int32_t parts) const {
+        RunRequest options;
+        options.parts = parts;
+        options.workers.count = 2;
         return options;
     }
     // Runs kerf to its end.
@@ -200,7 +200,7 @@ TEST_F(SessionTest, OpeningAnotherFileForgetsTheFirst) {
 
 class OwnRun : public SessionTest {
  protected:
-    void start(const std::string& asset, const RunOptions& options, bool volume) {
+    void start(const std::string& asset, const RunRequest& options, bool volume) {
         open(test::asset_path(asset));
         session_.start_run(options, volume);
         ASSERT_TRUE(document().progress.running) << document().progress.message;
@@ -227,7 +227,7 @@ TEST_F(OwnRun, FillsTheDocumentAsItGoes) {
     EXPECT_TRUE(fs::exists(d.folder + "/report.json"));
     EXPECT_EQ(d.tree.rows.size(), 7u);
     EXPECT_EQ(d.tree.levels(), 3);
-    EXPECT_EQ(d.options.decompose.parts, 4);
+    EXPECT_EQ(d.options.parts, 4);
     EXPECT_TRUE(d.options.output.empty());
     EXPECT_EQ(d.progress.parts_done, 4);
     for (const TreeRow& row : d.tree.rows) {
@@ -276,7 +276,7 @@ TEST_F(OwnRun, TheRunBeforeIsKeptForComparison) {
 }
 
 TEST_F(OwnRun, WithoutTetrahedra) {
-    RunOptions given = options(5);
+    RunRequest given = options(5);
     given.output = folder_.file("surfaces");
     start("pipe_with_holes", given, false);
     finish();
@@ -292,7 +292,7 @@ TEST_F(OwnRun, WithoutTetrahedra) {
 }
 
 TEST_F(OwnRun, CanBeCancelled) {
-    RunOptions fine = options(6);
+    RunRequest fine = options(6);
     fine.sizes.size = 0.8;
     fine.workers = 1;
     fine.output = folder_.file("fine");
@@ -320,7 +320,7 @@ TEST_F(OwnRun, EndsWithTheSession) {
         Session session{test::kerf_program()};
         session.open(test::asset_path("bearing_cap_52k"));
         ASSERT_TRUE(settle(session));
-        RunOptions fine = options(6);
+        RunRequest fine = options(6);
         fine.sizes.size = 0.8;
         session.start_run(fine, true);
         ASSERT_TRUE(reach(session, [&] { return session.document().progress.stage == "volume"; }));
@@ -420,7 +420,7 @@ TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
     const Soup soup = test::prism(7, 1, 5);
     test::write_off(folder_.file("prism.off"), soup.vertices, soup.facets);
     open(folder_.file("prism.off"));
-    RunOptions as_it_is = options(6);
+    RunRequest as_it_is = options(6);
     as_it_is.remeshing = Remeshing::never;
     session_.start_run(as_it_is, true);
     ASSERT_TRUE(settle(session_));
@@ -654,9 +654,9 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old && old->find(2));
     const std::size_t nodes = by_folder_.document().tree.rows.size();
-    RunOptions other = test::options_of(*old);
-    other.decompose.cut.criterion = Criterion::volume;
-    other.decompose.cut.axis = 2;
+    RunRequest other = test::options_of(*old);
+    other.cut.criterion = Criterion::volume;
+    other.cut.axis = 2;
     by_folder_.pair().redo_cut(2, other);
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
@@ -680,7 +680,7 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     for (const NodeId part : d.tree.parts_below(3))  // the others are as they were
         EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.fetched().cells(part); }));
     // A part may be cut, too, also by a straight cut.
-    other.decompose.cut.contour = ContourMethod::straight;
+    other.cut.contour = ContourMethod::straight;
     by_folder_.pair().redo_cut(4, other);
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
@@ -777,7 +777,7 @@ TEST_F(SessionTest, ShowsAnInterruptedRun) {
     EXPECT_EQ(with_core.filled_by, "core and shell");
     EXPECT_FALSE(document().progress.running);
     EXPECT_NE(document().progress.message.find("--resume"), std::string::npos);
-    EXPECT_EQ(document().options.trace_file, "") << "another run shall not write over it";
+    EXPECT_EQ(document().options.outputs.trace_file, "") << "another run shall not write over it";
     EXPECT_GE(document().progress.parts_done, 2);
     EXPECT_EQ(document().tree.parts_below(1).size(), 12u);
     EXPECT_TRUE(document().trace);
@@ -929,21 +929,22 @@ TEST(LoaderTest, DropsWhatNobodyWants) {
 }
 
 TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
-    RunOptions options;
-    options.input = "/a b.stl";
+    RunRequest options;
+    options.input = "/a b.outputs.stl";
     options.output = "/out";
     EXPECT_EQ(command_line_of(options, true),
-              (std::vector<std::string>{"mesh", "/a b.stl", "--output=/out", "--quiet"}));
-    options.decompose.parts = 8;
+              (std::vector<std::string>{"mesh", "/a b.outputs.stl", "--output=/out", "--quiet"}));
+    options.parts = 8;
     options.sizes.size = 0.1;
-    options.decompose.cut.axis = 2;
-    options.stl = true;
-    options.workers = 3;
+    options.cut.axis = 2;
+    options.outputs.stl = true;
+    options.workers.count = 3;
     options.mesher.improve = false;
     options.mesher.tetgen.switches = "q1.2";
     EXPECT_EQ(command_line_of(options, false),
-              (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8", "--size=0.1",
-                                        "--axis=z", "--no-improve", "--workers=3", "--tetgen-switches=q1.2", "--stl"}));
+              (std::vector<std::string>{"decompose", "/a b.outputs.stl", "--output=/out", "--quiet", "--parts=8",
+                                        "--size=0.1", "--axis=z", "--no-improve", "--workers=3",
+                                        "--tetgen-switches=q1.2", "--stl"}));
 }
 
 TEST(TreeTest, FindsAndOrders) {

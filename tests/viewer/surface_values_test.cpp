@@ -84,7 +84,7 @@ TEST(Lengths, AreThoseOfTheField) {
 
 // Of every option that needs no number, whatever its value.
 TEST(Advice, IsTheOptionThatATextNames) {
-    RunOptions options;
+    RunRequest options;
     for (const OptionField& field : option_fields(options)) {
         const std::string begin = "Try kerf mesh --not-ours x --" + field.name;
         if (const auto* choice = std::get_if<OptionField::Choice>(&field.value)) {
@@ -92,7 +92,7 @@ TEST(Advice, IsTheOptionThatATextNames) {
                 const auto advice = advised_option(begin + " " + value + ", or leave it.");
                 ASSERT_TRUE(advice) << field.name << " " << value;
                 EXPECT_EQ(advice->name + " " + advice->text, field.name + " " + value);
-                RunOptions changed;
+                RunRequest changed;
                 set_options(changed, {*advice}, "it");
                 EXPECT_TRUE(is_set(changed, *advice));
             }
@@ -112,7 +112,7 @@ TEST(Advice, IsInWhatProblemsSay) {
         advised_option(sliver_note(find_slivers(bad.vertices, bad.facets), "kerf mesh /a--b/c.stl --surface remesh"));
     ASSERT_TRUE(of_slivers);
     EXPECT_EQ(words_of(*of_slivers), "Remesh the surface");
-    EXPECT_FALSE(is_set(RunOptions(), *of_slivers));
+    EXPECT_FALSE(is_set(RunRequest(), *of_slivers));
     const auto of_needle = advised_option(
         advice({.kind = DefectKind::needle, .severity = Severity::warning, .facets = {}, .vertices = {}}));
     ASSERT_TRUE(of_needle);
@@ -140,13 +140,13 @@ class RemeshedRun : public testing::Test {
         ASSERT_TRUE(settle());
     }
     void run(bool volume) {
-        RunOptions options = session_.document().options;
-        options.decompose.parts = 2;
-        options.workers = 2;
+        RunRequest options = session_.document().options;
+        options.parts = 2;
+        options.workers.count = 2;
         options.remeshing = Remeshing::always;
         options.deviation = Length::percent(0.1);
         options.output = folder_.file("run");
-        options.trace_file = folder_.file("run.trace");
+        options.outputs.trace_file = folder_.file("run.trace");
         session_.start_run(options, volume);
         ASSERT_TRUE(settle());
         ASSERT_EQ(session_.document().progress.message, "");
@@ -213,8 +213,8 @@ TEST_F(RemeshedRun, KnowsTheSizesThatWereAskedFor) {
     const std::string path = folder_.file("box.off");
     std::ofstream(path) << test::to_off(test::box({0, 0, 0}, {1, 1, 1}, 3));
     open(path);
-    RunOptions options = session_.document().options;
-    options.decompose.parts = 2;
+    RunRequest options = session_.document().options;
+    options.parts = 2;
     options.sizes.size = 0.5;
     options.sizes.inside = {"sphere:1,1,1,0.2=0.1"};
     session_.start_run(options, false);

@@ -196,11 +196,11 @@ TEST(TreeOfOnePart, IsShownOnceItHasRun) {
     options.auto_run = false;
     Driver driver(options);
     driver.open(asset_path("cube"));
-    EXPECT_EQ(driver.document().options.decompose.parts, 4) << "what the run is to have is known before it";
+    EXPECT_EQ(driver.document().options.parts, 4) << "what the run is to have is known before it";
     EXPECT_GT(times_on_screen("has not been cut yet"), 0);
     EXPECT_FALSE(driver.app().widgets().find("node 1"));
-    RunOptions run;
-    run.decompose.parts = 1;
+    RunRequest run;
+    run.parts = 1;
     driver.app().session().start_run(run, true);
     driver.await("the run", [&] { return !driver.app().session().busy(); });
     driver.settle();

@@ -12,7 +12,7 @@
 
 #include "base/core/words.h"
 #include "files/io/surface_reader.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "support/assets.h"
 #include "support/file_contents.h"
 #include "support/shapes.h"
@@ -333,7 +333,7 @@ TEST(Ui, HasEveryOptionUnderTheHeadingsOfTheHelp) {
     driver.state().panels.display = false;
     driver.state().panels.parameters = true;
     driver.settle();
-    RunOptions run;
+    RunRequest run;
     const auto expect_options_of = [&](const std::string& heading) {
         for (const OptionField& field : option_fields(run)) {
             if (field.group != heading) continue;
@@ -412,9 +412,9 @@ TEST(Ui, CancelsARun) {
     options.auto_run = false;
     Driver driver(options);
     driver.open(asset_path("bearing_cap_52k"));
-    RunOptions run;
+    RunRequest run;
     run.input = asset_path("bearing_cap_52k");
-    run.decompose.parts = 8;
+    run.parts = 8;
     run.sizes.size = 0.5;
     driver.app().session().start_run(run, true);
     driver.await("parts", [&] { return driver.document().progress.running && driver.document().progress.parts > 0; });
@@ -491,7 +491,7 @@ TEST(Ui, OpensAFileFromTheBrowser) {
 
 TEST(Ui, ListsWhatItCanOpen) {
     const TemporaryFolder folder;
-    for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "letter.txt"})
+    for (const char* name : {"a.outputs.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "letter.txt"})
         std::ofstream(folder.file(name)) << "-";
     std::filesystem::create_directories(folder.file("solved/solution"));
     std::ofstream(folder.file("solved/solution/report.json")) << "{}";
@@ -500,7 +500,7 @@ TEST(Ui, ListsWhatItCanOpen) {
     Driver driver(options);
     browse(driver, folder.file(""));
     driver.settle();
-    for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "solved"})
+    for (const char* name : {"a.outputs.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "solved"})
         EXPECT_TRUE(driver.app().widgets().find(std::string("entry ") + name)) << name;
     EXPECT_FALSE(driver.app().widgets().find("entry letter.txt"));
     driver.click("entry solved");

@@ -62,16 +62,16 @@ bool parse_normal(std::string_view text, Vec3& normal, bool& flipped) {
     return normal.norm() > 0;
 }
 
-void read_run_config(const std::string& path, RunOptions& run) {
+void read_run_config(const std::string& path, RunRequest& run) {
     if (path.empty()) return;
     std::vector<ConfigEntry> given = read_config(path);
     // Files that the run would write beside its folder are not for a picture.
     static const std::set<std::string> not_taken = {"output", "quiet", "verbose", "report", "trace", "events", "stl"};
     std::erase_if(given, [](const OptionText& o) { return not_taken.contains(o.name); });
-    const std::int32_t parts = run.decompose.parts;
+    const std::int32_t parts = run.parts;
     const std::vector<OptionField> fields = option_fields(run);
     for (const ConfigEntry& entry : given) set_option(fields, entry);
-    if (parts > 0) run.decompose.parts = parts;
+    if (parts > 0) run.parts = parts;
 }
 
 void add_inputs(CLI::App& app, SceneOptions& options, const std::string& what) {

@@ -37,7 +37,7 @@ struct ViewCommand {
     std::string clip;               ///< the clip plane as given: "x=0.3", "-z=0.5", "node=5", "1,1,0=0.4"
     std::string load_case;          ///< name of the load case; empty: the first one
     bool good_deformation = false;  ///< Deformation::factor is to be that of good_deformation()
-    RunOptions run;
+    RunRequest run;
     std::string print;  ///< text to print instead (help, a usage error); empty: none
     int exit_code = 0;  ///< exit code after `print`
 

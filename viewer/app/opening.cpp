@@ -18,7 +18,7 @@ constexpr double usual_explosion = 0.4;  // Explosion::amount of parts that are 
 
 void Opening::open_files(const std::vector<std::string>& paths) {
     keep_sizes(view_.settings, view_.session.document());
-    RunOptions run = view_.options.run;
+    RunRequest run = view_.options.run;
     run.input_options.more_files.assign(paths.begin() + 1, paths.end());
     view_.session.open(paths.front(), run);
     for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(view_.settings, *path, today());
@@ -53,18 +53,18 @@ void Opening::reload() {
     await_document();
 }
 
-void Opening::open_again(const RunOptions& options) {
+void Opening::open_again(const RunRequest& options) {
     view_.session.open(std::string(view_.session.document().path), options);
     await_document();
 }
 
-void Opening::start_run(const RunOptions& options, bool volume) {
+void Opening::start_run(const RunRequest& options, bool volume) {
     opened_ =
         view_.session.document().path;  // a run by the user is not repeated when repairs have made the surface clean
     view_.session.start_run(options, volume);
 }
 
-void Opening::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
+void Opening::redo_cut(NodeId node, const RunRequest& options, const std::optional<Plane>& plane) {
     view_.session.pair().redo_cut(node, options, plane);
 }
 

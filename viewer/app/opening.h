@@ -16,9 +16,9 @@ class Opening : public FileActions, public RunActions, public RepairActions {
 
     void open_files(const std::vector<std::string>& paths) override;
     void reload() override;
-    void open_again(const RunOptions& options) override;
-    void start_run(const RunOptions& options, bool volume) override;
-    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) override;
+    void open_again(const RunRequest& options) override;
+    void start_run(const RunRequest& options, bool volume) override;
+    void redo_cut(NodeId node, const RunRequest& options, const std::optional<Plane>& plane) override;
     void swap_runs() override;
     void show_other() override;
     void repair(const InputOptions& options) override;

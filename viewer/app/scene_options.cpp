@@ -160,7 +160,7 @@ void add_region_options(CLI::App& app, RegionOptions& options) {
 
 void add_run_options(CLI::App& app, ViewCommand& command, SurfaceRunOptions& options) {
     app.option_defaults()->group("Run");
-    add_number(app, "-n,--parts", command.run.decompose.parts, {"a whole number, 1 or more, at most 2147483647", 1},
+    add_number(app, "-n,--parts", command.run.parts, {"a whole number, 1 or more, at most 2147483647", 1},
                "Number of parts, if INPUT is a surface.")
         ->type_name("K");
     app.add_option("--surface", options.surface, "Of that run, as of kerf mesh.")
@@ -184,10 +184,10 @@ void take_origin(ViewCommand& command) {
     const ViewOrigin& origin = command.origin;
     if (command.input.empty()) {
         command.input = origin.input;
-        const std::int32_t parts = command.run.decompose.parts;
-        const bool is_given = parts != RunOptions().decompose.parts;
+        const std::int32_t parts = command.run.parts;
+        const bool is_given = parts != RunRequest().parts;
         set_options(command.run, origin.run, "The state");
-        if (is_given) command.run.decompose.parts = parts;
+        if (is_given) command.run.parts = parts;
     }
     if (origin.width == 0) return;
     command.picture.width = origin.width;

@@ -65,10 +65,10 @@ void wait_for_document(App& app, const ViewCommand& command, const Deadline& dea
     }
     if (session.document().kind != Document::Kind::surface || session.document().has_problems()) return;
     // A repaired surface is shown as it is then, unless somebody has asked for more.
-    const bool is_told = !session.document().unrepaired || command.run.remeshing != RunOptions().remeshing;
+    const bool is_told = !session.document().unrepaired || command.run.remeshing != RunRequest().remeshing;
     const bool is_remeshed = command.run.remeshing != Remeshing::never && is_told;
     if (!needs_run(session.document(), command.state) && !is_remeshed && !command.clip.starts_with("node=")) return;
-    RunOptions run = command.run;
+    RunRequest run = command.run;
     run.input = session.document().path;
     session.start_run(run, command.state.step.stage == Stage::tetrahedra);
     while (session.busy()) {

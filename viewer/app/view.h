@@ -27,7 +27,7 @@ struct AppOptions {
     /// `auto_run`: a surface that is opened is cut, and meshed if `volume`, with the options `run`; else it is only
     /// shown.
     bool auto_run = true, volume = true;
-    RunOptions run;
+    RunRequest run;
 };
 
 /// The parts of the view that somebody has asked for; all others suit the document.

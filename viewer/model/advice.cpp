@@ -15,6 +15,7 @@
 
 #include "base/core/error.h"
 #include "base/geometry/box.h"
+#include "run/request/run_choices.h"
 #include "surface/repair/repair_plan.h"
 
 namespace kerf::view {
@@ -69,7 +70,7 @@ double diagonal_of_soup(const Soup& soup) {
 
 std::vector<OptionText> advised_options(const std::string& text) {
     std::vector<OptionText> advice;
-    RunOptions options;
+    RunRequest options;
     const std::vector<OptionField> fields = option_fields(options);
     for (std::size_t at = text.find("--"); at != text.npos; at = text.find("--", at + 2)) {
         const std::string option = word_at(text, at + 2);
@@ -91,7 +92,7 @@ std::vector<OptionText> advised_options(const std::string& text) {
 std::optional<OptionText> advised_option(const std::string& text) {
     const std::vector<OptionText> all = advised_options(text);
     if (all.size() != 1 || all.front().text.empty()) return std::nullopt;
-    RunOptions options;
+    RunRequest options;
     for (const OptionField& field : option_fields(options)) {
         const bool is_choice = std::holds_alternative<OptionField::Choice>(field.value);
         if (field.name == all.front().name && !is_choice && !std::holds_alternative<bool*>(field.value))
@@ -100,16 +101,16 @@ std::optional<OptionText> advised_option(const std::string& text) {
     return all.front();
 }
 
-bool is_set(const RunOptions& options, const OptionText& option) {
+bool is_set(const RunRequest& options, const OptionText& option) {
     for (const OptionText& own : option_texts(options, false))
         if (own.name == option.name) return own.text == option.text;
     return false;
 }
 
-std::optional<RunOptions> options_with(RunOptions options, const OptionText& option) {
+std::optional<RunRequest> options_with(RunRequest options, const OptionText& option) {
     try {
         set_options(options, {option}, "The advice");
-        resolved(options);
+        choices_of(options);
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -144,7 +145,7 @@ bool is_input_option(const std::string& option) {
     return std::any_of(fields.begin(), fields.end(), [&](const OptionField& field) { return field.name == option; });
 }
 
-std::string usual_value(const std::string& option, const RunOptions& options, const CheckedSoup* checked) {
+std::string usual_value(const std::string& option, const RunRequest& options, const CheckedSoup* checked) {
     if (option == "fill-holes" && checked) {
         std::size_t edges = 0;
         for (const Defect& defect : checked->diagnosis.defects)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "run/prepare/input.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf::view {
 
@@ -20,10 +20,10 @@ std::vector<OptionText> advised_options(const std::string& text);
 std::optional<OptionText> advised_option(const std::string& text);
 
 /// Returns whether the options have this option with this value.
-bool is_set(const RunOptions& options, const OptionText& option);
+bool is_set(const RunRequest& options, const OptionText& option);
 
 /// Returns `options` with one of them changed, or nothing if the value does not exist or is out of range.
-std::optional<RunOptions> options_with(RunOptions options, const OptionText& option);
+std::optional<RunRequest> options_with(RunRequest options, const OptionText& option);
 
 /// Returns the list of repairs `plan` (RepairOptions::plan) with those steps of `more` added that it lacks.
 std::string with_repairs(const std::string& plan, const std::string& more);
@@ -38,6 +38,6 @@ bool is_input_option(const std::string& option);
 /// Returns a value to begin with where a text names none: for --fill-holes the edges of the largest hole, for --weld a
 /// distance at which points are as good as equal, for other options twice the value that the run had. Empty if nothing
 /// is known. `checked` may be null.
-std::string usual_value(const std::string& option, const RunOptions& options, const CheckedSoup* checked);
+std::string usual_value(const std::string& option, const RunRequest& options, const CheckedSoup* checked);
 
 }  // namespace kerf::view

@@ -10,7 +10,7 @@
 
 #include "base/core/error.h"
 #include "run/prepare/input.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "run/run/trace.h"
 #include "viewer/model/inside/region_places.h"
 #include "viewer/model/inside/solution.h"
@@ -128,7 +128,7 @@ struct Document {
     std::string saved_as;                        ///< place to which RunPair::save() has copied `folder`; empty: none
     double cut_seconds = -1, mesh_seconds = -1;  ///< wall clock of the whole run; negative: not known
     std::optional<Solution> solution;            ///< the solution that was opened and stands on these parts
-    RunOptions options;                          ///< options of the run, or of the next one
+    RunRequest options;                          ///< options of the run, or of the next one
     bool remeshed = false;  ///< the surface that was cut is not that of the file, which is there to compare with
     std::vector<std::string> region_names;   ///< names of the regions, where there are several
     std::vector<RegionPlace> region_places;  ///< places of these regions; empty: not known (yet)

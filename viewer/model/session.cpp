@@ -35,7 +35,7 @@ struct Session::Parts {
 Session::Session(std::string kerf_program) : parts_(std::make_unique<Parts>(std::move(kerf_program))) {}
 Session::~Session() = default;
 
-void Session::open(const std::string& path, const RunOptions& options) {
+void Session::open(const std::string& path, const RunRequest& options) {
     close();
     parts_->loader.open(path, options);
 }
@@ -43,7 +43,7 @@ void Session::open(const std::string& path, const RunOptions& options) {
 void Session::reload() {
     const Document& document = parts_->pair.now.document;
     if (document.path.empty()) return;
-    RunOptions options = document.options;
+    RunRequest options = document.options;
     const bool is_result = document.kind == Document::Kind::trace || document.kind == Document::Kind::run;
     if (is_result) options.input_options.more_files.clear();  // of the files that it was made of
     open(std::string(document.path), options);
@@ -96,7 +96,7 @@ bool Session::pending() const { return document().is_opening() || parts_->fetche
 const Document& Session::document() const { return parts_->pair.now.document; }
 const Document* Session::other_document() const { return parts_->pair.other ? &parts_->pair.other->document : nullptr; }
 bool Session::shows_before() const { return parts_->pair.shows_before; }
-void Session::start_run(RunOptions options, bool volume) { parts_->own_runs.start(std::move(options), volume); }
+void Session::start_run(RunRequest options, bool volume) { parts_->own_runs.start(std::move(options), volume); }
 void Session::cancel_run() { parts_->own_runs.cancel(); }
 Fetched& Session::fetched() { return parts_->fetched; }
 Repairs& Session::repairs() { return parts_->repairs; }

@@ -29,7 +29,7 @@ class Session {
     /// InputOptions::more_files are opened with it, and all must be surfaces. Closes the document before, with all
     /// work for it. Never throws: errors are in document().error. `options` are those of the next run of a surface, by
     /// which it is read and checked; a run and a trace bring theirs.
-    void open(const std::string& path, const RunOptions& options = {});
+    void open(const std::string& path, const RunRequest& options = {});
     void reload();
     void close();
 
@@ -44,7 +44,7 @@ class Session {
 
     /// Cuts and, if `volume`, meshes the surface that is open, with options.decompose and so on as given, into
     /// options.output, or into a temporary folder if that is empty. The document fills as it goes.
-    void start_run(RunOptions options, bool volume);
+    void start_run(RunRequest options, bool volume);
     /// Interrupts our run or repair. A run is killed if it has not ended after five seconds.
     void cancel_run();
 

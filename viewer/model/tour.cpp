@@ -95,7 +95,7 @@ const CutTry* used_try(const Cut& cut) {
 }
 
 void add_plane(const Document& document, const Cut& cut, Figures& figures) {
-    const CutOptions& options = document.options.decompose.cut;
+    const CutChoices& options = document.options.cut;
     constexpr const char* ranks[] = {"its longest direction", "the second of its directions",
                                      "the shortest of its directions"};
     const CutTry* attempt = used_try(cut);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cut/cut/cut.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "viewer/model/camera.h"
 #include "viewer/model/stage.h"
 

@@ -20,7 +20,7 @@ class FileActions {
     virtual void open_files(
         const std::vector<std::string>& paths) = 0;  ///< opens at least one, together; see Session::open()
     virtual void reload() = 0;
-    virtual void open_again(const RunOptions& options) = 0;  ///< reads the open files again, with these options
+    virtual void open_again(const RunRequest& options) = 0;  ///< reads the open files again, with these options
 };
 
 class CameraActions {
@@ -57,9 +57,9 @@ class PlayActions {
 class RunActions {
  public:
     virtual ~RunActions() = default;
-    virtual void start_run(const RunOptions& options, bool volume) = 0;
+    virtual void start_run(const RunRequest& options, bool volume) = 0;
     /// Makes the cut of a node again with these options, at the plane if there is one, else where it was.
-    virtual void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) = 0;
+    virtual void redo_cut(NodeId node, const RunRequest& options, const std::optional<Plane>& plane) = 0;
     virtual void swap_runs() = 0;
     /// Goes from the state before a run or a repair to the state after it, and back.
     virtual void show_other() = 0;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "run/request/run_choices.h"
 #include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
@@ -94,7 +95,7 @@ bool is_common(const std::string& heading) { return heading == option_group::cut
 void check_options(ParametersMemory& memory) {
     try {
         memory.wrong.clear();
-        resolved(memory.options);
+        choices_of(memory.options);
     } catch (const Error& error) {
         memory.wrong = error.what();
     }
@@ -102,7 +103,7 @@ void check_options(ParametersMemory& memory) {
 
 // Draws all fields under the headings of the help.
 void draw_fields(UiContext& context, ParametersMemory& memory) {
-    RunOptions given = context.session.document().options;
+    RunRequest given = context.session.document().options;
     const std::vector<OptionField> before = option_fields(given), now = option_fields(memory.options);
     const Palette& colors = palette(context.state.theme);
     bool edited = false;
@@ -120,7 +121,7 @@ void draw_fields(UiContext& context, ParametersMemory& memory) {
     if (edited) check_options(memory);
 }
 
-void put_options(ParametersMemory& memory, const RunOptions& options) {
+void put_options(ParametersMemory& memory, const RunRequest& options) {
     memory.options = options;
     check_options(memory);
 }

@@ -50,7 +50,7 @@ void draw_option(UiContext& context, ProblemsMemory& memory, OptionText advice) 
     if (run.value != run.made_for)
         run.options = run.value.empty() ? std::nullopt : options_with(document.options, advice);
     run.made_for = run.value;
-    const std::optional<RunOptions>& options = run.options;
+    const std::optional<RunRequest>& options = run.options;
     const char* does = opens ? "Reads the file again" : "Checks the surface and runs again";
     const std::string tip = options ? fmt::format("{} with --{} {}", does, advice.name, advice.text)
                                     : fmt::format("Needs a value of --{}", advice.name);

@@ -227,7 +227,7 @@ void draw_ending(UiContext& context, RepairMemory& memory) {
     const bool has_run = document.trace || !document.folder.empty();
     if (has_run || document.has_problems() || document.progress.running) return;
     ImGui::SameLine();
-    const RunOptions options = document.options;
+    const RunRequest options = document.options;
     if (context.widgets.small_button("Mesh it", "Cuts and meshes the repaired surface"))
         context.actions.runs.start_run(options, options.volume);
 }

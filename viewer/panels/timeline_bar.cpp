@@ -237,9 +237,9 @@ class TimelineBar {
 
 // Every run that is started here leaves a trace. The open folder stays as it is.
 void record_stages(UiContext& context) {
-    RunOptions options = context.session.document().options;
+    RunRequest options = context.session.document().options;
     options.output.clear();
-    options.trace_file.clear();
+    options.outputs.trace_file.clear();
     context.actions.runs.start_run(options, false);
 }
 

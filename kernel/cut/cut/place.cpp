@@ -107,8 +107,8 @@ CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::i
                       const CutOptions& options) {
     KERF_CHECK(leaves >= 2);
     CutPlace place{static_cast<double>(leaves / 2) / leaves};
-    KERF_CHECK(!options.bisected_load().depends_on_place() || options.load.samples);
-    const bool free = options.criterion == Criterion::inertia && options.load.balance != Balance::inertia;
+    KERF_CHECK(!options.bisected_load().depends_on_place() || options.samples);
+    const bool free = options.criterion == Criterion::inertia && options.balance != Balance::inertia;
     if (!free || options.axis >= 0 || leaves < least_leaves) return place;
     const double half = place.fraction;
     const std::vector<Vec3> directions = cut_directions(surface, mass, options);

@@ -179,7 +179,7 @@ Decomposition cut_regions(const Complex& complex, const DecomposeOptions& option
 
 CutOptions DecomposeOptions::cut_in(RegionIndex region) const {
     CutOptions options = cut;
-    if (!region_sizes.empty()) options.size = options.load.size = region_sizes.of(region, cut.size);
+    if (!region_sizes.empty()) options.size = region_sizes.of(region, cut.size);
     return options;
 }
 

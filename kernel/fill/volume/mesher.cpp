@@ -11,9 +11,9 @@
 
 namespace kerf {
 
-void check_mesher_options(const MesherOptions& options) {
+void check_mesher_options(const MesherChoices& options) {
     require_in(radius_edge_range, "radius-edge", options.radius_edge);
-    find_mesher(options.name).check(options);
+    find_mesher(options.name).check(MesherOptions(options));
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/core/user_number.h"
 #include "fill/improve/improve.h"
@@ -32,15 +33,24 @@ struct TetgenOptions {
     }
 };
 
-struct MesherOptions {
+/// The choices that hold for all bodies of a run.
+struct MesherChoices {
     std::string name = "auto";  ///< name of the mesher, see meshers()
-    SizeField size = {};  ///< size of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where it
-                          ///< improved the shape afterwards
-    double radius_edge = 1.4;  ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
-    /// Whether the cells are improved, within `size`, see improve(); never those of TetGen's own switches, but for
+    double radius_edge = 1.4;   ///< upper bound of circumradius over shortest edge; > 1, 0: no refinement
+    /// Whether the cells are improved, within their size, see improve(); never those of TetGen's own switches, but for
     /// cells without volume.
     bool improve = true;
     TetgenOptions tetgen = {};  ///< options of TetGen, also for meshers that ask it where they fail
+};
+
+/// The options for one body.
+struct MesherOptions : MesherChoices {
+    MesherOptions() = default;
+    explicit MesherOptions(MesherChoices choices, SizeField size_of_body = {})
+        : MesherChoices(std::move(choices)), size(std::move(size_of_body)) {}
+
+    SizeField size;  ///< size of tetrahedra. TetGen leaves a few larger ones: next to coarse facets, and where it
+                     ///< improved the shape afterwards
 
     template <class Archive>
     void archive(Archive& a) {
@@ -64,7 +74,7 @@ struct Filling {
 
 /// Checks the options of a mesher. Throws Error(usage), naming the option, for values out of range, for names of no
 /// mesher, and for options that the mesher refuses.
-void check_mesher_options(const MesherOptions& options);
+void check_mesher_options(const MesherChoices& options);
 
 /// Fills the closed surface, which must be well-formed, with tetrahedra; every facet of it is kept and none is added.
 /// It may touch itself at vertices and along edges, which are there once then (joined_by_key(),

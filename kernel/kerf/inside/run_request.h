@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kerf/kerf.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 
@@ -13,6 +13,6 @@ void refuse_options_of_surface(const NamedOptions& options);
 
 /// Returns the options of a run on this input into a folder. Throws Error(usage) for names and values that are no
 /// options.
-RunOptions run_options(const std::string& input, const MeshOptions& options, const std::string& folder);
+RunRequest run_options(const std::string& input, const MeshOptions& options, const std::string& folder);
 
 }  // namespace kerf

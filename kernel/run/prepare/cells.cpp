@@ -28,18 +28,23 @@ constexpr double good_forecast = 0.005, good_remeshing = 0.05, noted_excess = 0.
 constexpr double usual_slope = -2.3, flattest_slope = -0.8, steepest_slope = -3.2, largest_step = 4;
 constexpr double usual_edge = 0.89, usual_longest = 1;  // of facets of a remeshed surface, over the wanted length
 
-// Forecasts of the number of tetrahedra that a surface with these options will be filled with, by size. 0: no size.
+RunRequest with_edge(const RunRequest& request, double size) {
+    RunRequest sized = request;
+    sized.sizes = request.sizes.with_edge(size);
+    return sized;
+}
+
+// Forecasts of the number of tetrahedra that a surface will be filled with for this request, by size. 0: no size.
 class TetForecast {
  public:
-    TetForecast(const Input& input, RunOptions options)
-        : input_(input), surface_(input.complex.arrays()), options_(std::move(options)) {
-        options_.sizes.cells = 0;
-        if (options_.sizes.depends_on_place()) places_ = read_size_field(options_.sizes, surface_, input.patch_names);
+    TetForecast(const Input& input, const RunRequest& request)
+        : input_(input), surface_(input.complex.arrays()), request_(request) {
+        places_ = read_size_field(request.sizes, surface_, input.patch_names);
     }
     double tets(double size, CoarseFacets coarse = CoarseFacets::kept) const {
-        const RunOptions options = options_of(size);
-        return tets_at_facets(surface_, half_thickness(), options.mesher, coarse) +
-               tets_inside(sized_volume_of(options), options.mesher);
+        const MesherOptions mesher = mesher_for(size);
+        return tets_at_facets(surface_, half_thickness(), mesher, coarse) +
+               tets_inside(sized_volume_of(mesher.size), mesher);
     }
     // Forecast for a surface that this change will be made to first.
     double tets_after(SurfaceChange change, double size) const {
@@ -49,24 +54,24 @@ class TetForecast {
 
  private:
     double tets_if_remeshed(double size) const {
-        const RunOptions options = options_of(size);
+        const MesherOptions mesher = mesher_for(size);
         const FacetShape usual{usual_edge * size, usual_longest * size};
-        const double of_facet = tets_at_facet(usual, size, half_thickness(), options.mesher);
-        return of_facet * forecast_changed_facets(input_, with_size(options_, size)) +
-               tets_inside(sized_volume_of(options), options.mesher);
+        const double of_facet = tets_at_facet(usual, size, half_thickness(), mesher);
+        return of_facet * forecast_changed_facets(input_, with_edge(request_, size)) +
+               tets_inside(sized_volume_of(mesher.size), mesher);
     }
 
-    RunOptions options_of(double size) const {
-        return with_sizes(options_, places_.with_constant(size > 0 ? regular_tet_volume(size) : 0));
+    MesherOptions mesher_for(double size) const {
+        return MesherOptions(request_.mesher, places_.with_constant(size > 0 ? regular_tet_volume(size) : 0));
     }
     double half_thickness() const { return input_.volume / input_.area; }
-    double sized_volume_of(const RunOptions& options) const {
-        return sized_volume(options.mesher.size, surface_.vertices, surface_.facets, input_.volume);
+    double sized_volume_of(const SizeField& size) const {
+        return sized_volume(size, surface_.vertices, surface_.facets, input_.volume);
     }
 
     const Input& input_;
     SurfaceArrays surface_;
-    RunOptions options_;
+    const RunRequest& request_;
     SizeField places_;  // the other sizes that are asked for
 };
 
@@ -99,9 +104,9 @@ double find_root(double small, double large, const Excess& excess) {
     return with_four_digits(std::exp(middle));
 }
 
-double forecast_size(const Input& input, const RunOptions& options, SurfaceChange change) {
-    const TetForecast forecast(input, options);
-    const auto cells = static_cast<double>(options.sizes.cells);
+double forecast_size(const Input& input, const RunRequest& request, SurfaceChange change) {
+    const TetForecast forecast(input, request);
+    const auto cells = static_cast<double>(request.sizes.cells);
     const double small = std::max(regular_tet_edge(input.volume / cells), least_share * input.diagonal);
     return find_root(small, std::max(input.diagonal, 2 * small),
                      [&](double size) { return std::log(forecast.tets_after(change, size) / cells); });
@@ -122,28 +127,28 @@ double next_size(const std::vector<FoundSize>& tried) {
 
 double excess_of(const FoundSize& found) { return std::log(found.tets / static_cast<double>(found.cells)); }
 
-SizedInput size_to_cells(Input input, const RunOptions& options, StageListener* listener) {
-    const double size = forecast_size(input, options, SurfaceChange::none);
-    const FoundSize found{options.sizes.cells, size, TetForecast(input, options).tets(size)};
-    RunOptions sized = with_size(options, size);
+SizedInput size_to_cells(Input input, const RunRequest& request, StageListener* listener) {
+    const double size = forecast_size(input, request, SurfaceChange::none);
+    const FoundSize found{request.sizes.cells, size, TetForecast(input, request).tets(size)};
+    const RunRequest sized = with_edge(request, size);
     input = remesh_where_asked(std::move(input), sized, listener);
-    return {std::move(input), std::move(sized), found};
+    return {std::move(input), sized.sizes, found};
 }
 
-SizedInput change_to_cells(const Input& input, const RunOptions& options, SurfaceChange change,
+SizedInput change_to_cells(const Input& input, const RunRequest& request, SurfaceChange change,
                            StageListener* listener) {
     SizedInput best;
     std::vector<FoundSize> tried;
-    double size = forecast_size(input, options, change);
-    if (size == 0 && change == SurfaceChange::division) return size_to_cells(input, options, listener);
+    double size = forecast_size(input, request, change);
+    if (size == 0 && change == SurfaceChange::division) return size_to_cells(input, request, listener);
     if (size == 0) size = with_four_digits(input.diagonal);
     while (true) {
-        RunOptions sized = with_size(options, size);
+        const RunRequest sized = with_edge(request, size);
         Input changed = remesh_where_asked(input, sized, listener);
-        tried.push_back({options.sizes.cells, size, TetForecast(changed, options).tets(size)});
+        tried.push_back({request.sizes.cells, size, TetForecast(changed, request).tets(size)});
         const double excess = excess_of(tried.back());
         if (!best.found || std::abs(excess) < std::abs(excess_of(*best.found)))
-            best = {std::move(changed), std::move(sized), tried.back()};
+            best = {std::move(changed), sized.sizes, tried.back()};
         if (std::abs(excess) < good_remeshing || tried.size() == most_remeshings) break;
         size = std::min(next_size(tried), with_four_digits(input.diagonal));
         if (size == tried.back().size) break;
@@ -171,19 +176,18 @@ std::string note_of(const FoundSize& found, bool is_remeshed, const SizeOptions&
 
 }  // namespace
 
-RunOptions with_forecast_size(const Input& input, RunOptions options) {
-    if (options.sizes.cells == 0) return options;
-    const double size = forecast_size(input, options, surface_change(input, options));
-    return with_size(std::move(options), size);
+SizeOptions forecast_sizes(const Input& input, const RunRequest& request) {
+    if (request.sizes.cells == 0) return request.sizes;
+    return request.sizes.with_edge(forecast_size(input, request, surface_change(input, request)));
 }
 
-SizedInput remesh_and_size(Input input, const RunOptions& options, StageListener* listener) {
-    if (options.sizes.cells == 0)
-        return {remesh_where_asked(std::move(input), options, listener), options, std::nullopt};
-    const SurfaceChange change = surface_change(input, options);
-    SizedInput sized = change == SurfaceChange::none ? size_to_cells(std::move(input), options, listener)
-                                                     : change_to_cells(input, options, change, listener);
-    const std::string note = note_of(*sized.found, change == SurfaceChange::remeshing, options.sizes);
+SizedInput remesh_and_size(Input input, const RunRequest& request, StageListener* listener) {
+    if (request.sizes.cells == 0)
+        return {remesh_where_asked(std::move(input), request, listener), request.sizes, std::nullopt};
+    const SurfaceChange change = surface_change(input, request);
+    SizedInput sized = change == SurfaceChange::none ? size_to_cells(std::move(input), request, listener)
+                                                     : change_to_cells(input, request, change, listener);
+    const std::string note = note_of(*sized.found, change == SurfaceChange::remeshing, request.sizes);
     if (!note.empty()) sized.input.notes.push_back(note);
     return sized;
 }

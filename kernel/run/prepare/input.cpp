@@ -53,13 +53,13 @@ double diagonal_of(const Soup& soup) {
 }
 
 // Points that the user gives are in place of those of the file.
-void take_points(Soup& soup, const InputOptions& options) {
-    if (options.regions.empty()) return;
+void take_points(Soup& soup, const std::vector<RegionSeed>& seeds) {
+    if (seeds.empty()) return;
     if (!soup.sides.empty())
         throw Error(ErrorCode::usage,
                     "--region is for facets that do not say what they bound, but this file has "
                     "regions. Leave it out.");
-    soup.seeds = seeds_of(options);
+    soup.seeds = seeds;
 }
 
 // Moves vertices of a surface that is known to be clean.
@@ -244,24 +244,26 @@ void check_given(Soup& soup) {
     check_rows(soup);
 }
 
-Input input_of_arrays(Soup soup, const InputOptions& options, const std::function<void()>& check_cancelled) {
+Input input_of_arrays(Soup soup, const InputChoices& choices, const std::function<void()>& check_cancelled) {
     check_given(soup);
     const std::string hash = hash_of(soup);
-    scale(soup, options.scale);
-    Input input = to_input(check_soup(std::move(soup), options, 1, check_cancelled), name_of_arrays, options, "");
+    scale(soup, choices.options.scale);
+    Input input =
+        to_input(check_soup(std::move(soup), choices, 1, check_cancelled), name_of_arrays, choices.options, "");
     input.file_hash = hash;
     return input;
 }
 
 }  // namespace
 
-CheckedSoup check_files(InputFiles files, const InputOptions& options, double needle_angle_deg,
+CheckedSoup check_files(InputFiles files, const InputChoices& choices, double needle_angle_deg,
                         const std::function<void()>& check_cancelled) {
+    const InputOptions& options = choices.options;
     CheckedSoup checked{std::move(files.soup), {}};
     Soup& soup = checked.soup;
     TidyCounts& tidied = checked.tidied;
     if (!files.is_welded) tidied.welded_vertices = weld_exactly(soup);
-    RepairPlan plan = repair_plan_of(options);
+    RepairPlan plan = choices.repairs;
     plan.are_walls |= !files.walls.empty() || !soup.seeds.empty();
     checked.ladder = repair(soup, plan, check_cancelled);
     tidied.unused_vertices = drop_unused_vertices(soup);
@@ -269,28 +271,28 @@ CheckedSoup check_files(InputFiles files, const InputOptions& options, double ne
         checked.wrapped = wrap(soup, options.wrapping, check_cancelled);
         files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
     }
-    take_points(soup, options);
+    take_points(soup, choices.seeds);
     diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);
     const std::vector<char>& dropped = checked.diagnosis.dropped;
     tidied.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
     return checked;
 }
 
-CheckedSoup check_input(const std::string& path, const InputOptions& options, double needle_angle_deg,
+CheckedSoup check_input(const std::string& path, const InputChoices& choices, double needle_angle_deg,
                         const std::function<void()>& check_cancelled) {
-    return check_files(read_input_files(path, options), options, needle_angle_deg, check_cancelled);
+    return check_files(read_input_files(path, choices.options), choices, needle_angle_deg, check_cancelled);
 }
 
-CheckedSoup check_soup(Soup read, const InputOptions& options, double needle_angle_deg,
+CheckedSoup check_soup(Soup read, const InputChoices& choices, double needle_angle_deg,
                        const std::function<void()>& check_cancelled) {
-    return check_files({std::move(read), {}, {}, {}}, options, needle_angle_deg, check_cancelled);
+    return check_files({std::move(read), {}, {}, {}}, choices, needle_angle_deg, check_cancelled);
 }
 
-CheckedSoup check_arrays(Soup soup, const InputOptions& options, double needle_angle_deg,
+CheckedSoup check_arrays(Soup soup, const InputChoices& choices, double needle_angle_deg,
                          const std::function<void()>& check_cancelled) {
     check_given(soup);
-    scale(soup, options.scale);
-    return check_soup(std::move(soup), options, needle_angle_deg, check_cancelled);
+    scale(soup, choices.options.scale);
+    return check_soup(std::move(soup), choices, needle_angle_deg, check_cancelled);
 }
 
 Complex make_complex(Soup soup) {
@@ -322,34 +324,34 @@ std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input
     return volumes;
 }
 
-Input read_input(const std::string& path, const InputOptions& options, StageListener* listener) {
-    InputFiles files = read_input_files(path, options);
+Input read_input(const std::string& path, const InputChoices& choices, StageListener* listener) {
+    InputFiles files = read_input_files(path, choices.options);
     const std::string hash = files.hash;
-    const std::size_t more = options.more_files.size();
+    const std::size_t more = choices.options.more_files.size();
     const std::string all = more == 0 ? path : fmt::format("{} and {} more file{}", path, more, more == 1 ? "" : "s");
-    if (!repair_plan_of(options).only_prepares()) tell_progress(listener, "repair", 0, 0);
-    Input input = to_input(check_files(std::move(files), options, 1, cancellation_check(listener)), all, options,
-                           " Run kerf check on it for all defects.");
+    if (!choices.repairs.only_prepares()) tell_progress(listener, "repair", 0, 0);
+    Input input = to_input(check_files(std::move(files), choices, 1, cancellation_check(listener)), all,
+                           choices.options, " Run kerf check on it for all defects.");
     input.path = path;
     input.file_hash = hash;
     return input;
 }
 
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch,
-                 std::vector<std::string> patch_names, const InputOptions& options,
+                 std::vector<std::string> patch_names, const InputChoices& choices,
                  const std::function<void()>& check_cancelled) {
-    return input_of_arrays({std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)}, options,
+    return input_of_arrays({std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)}, choices,
                            check_cancelled);
 }
 
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
                  std::vector<std::string> region_names, std::vector<std::int32_t> patch,
-                 std::vector<std::string> patch_names, const InputOptions& options,
+                 std::vector<std::string> patch_names, const InputChoices& choices,
                  const std::function<void()>& check_cancelled) {
     Soup soup{std::move(vertices), std::move(facets), std::move(patch), std::move(patch_names)};
     soup.sides = std::move(sides);
     soup.region_names = std::move(region_names);
-    return input_of_arrays(std::move(soup), options, check_cancelled);
+    return input_of_arrays(std::move(soup), choices, check_cancelled);
 }
 
 std::vector<double> region_volumes(const Input& input) {

@@ -5,7 +5,7 @@
 
 namespace kerf {
 
-RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener) {
+RemeshedFile remesh_file(RunRequest options, const std::string& output, StageListener* listener) {
     require_surface_file("--output", output);
     refuse_to_overwrite(options.input, "--output", output);
     require_writable("--output", output, output_kind::surface);
@@ -18,9 +18,11 @@ RemeshedFile remesh_file(RunOptions options, const std::string& output, StageLis
     return {sized.input.complex.facet_count(), *sized.input.remeshed, sized.found, sized.input.wrapped};
 }
 
-SizedInput remesh_always(Input input, RunOptions options, StageListener* listener) {
+SizedInput remesh_always(Input input, RunRequest options, StageListener* listener) {
     options.remeshing = Remeshing::always;
-    options = with_lengths(std::move(options), input.diagonal);
+    options.deviation = options.deviation.of(input.diagonal);
+    options.sizes.resolve_lengths(input.diagonal);
+    options.sizes.check();
     return remesh_and_size(std::move(input), options, listener);
 }
 

@@ -7,13 +7,13 @@
 #include "run/prepare/cells.h"
 #include "run/prepare/input.h"
 #include "run/prepare/stage_listener.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 
 /// Remeshes a surface within options.deviation to the wanted lengths (run/prepare/remeshing.h), or to lengths that give
 /// the wanted number of tetrahedra (run/prepare/cells.h). `listener` may be null. Throws Error.
-SizedInput remesh_always(Input input, RunOptions options, StageListener* listener = nullptr);
+SizedInput remesh_always(Input input, RunRequest options, StageListener* listener = nullptr);
 
 /// Report on a file that remesh_file() has written.
 struct RemeshedFile {
@@ -25,6 +25,6 @@ struct RemeshedFile {
 
 /// Applies remesh_always() to options.input, and writes the surface to `output` as write_surface() does. Throws Error,
 /// before the work where the output cannot be written.
-RemeshedFile remesh_file(RunOptions options, const std::string& output, StageListener* listener = nullptr);
+RemeshedFile remesh_file(RunRequest options, const std::string& output, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -67,15 +67,14 @@ double smallest_angle(const SurfaceArrays& surface) {
 }
 
 // Lengths in space that the options ask for; the growth from the surface's own edges, which are to change, is not.
-SizeField wanted_lengths(const RunOptions& options, const Input& input) {
+SizeField wanted_lengths(const RunRequest& options, const Input& input) {
     SizeOptions sizes = options.sizes;
     sizes.growth = 0;
-    return sizes.depends_on_place() ? read_size_field(sizes, input.complex.arrays(), input.patch_names)
-                                    : SizeField(sizes.constant_max_volume());
+    return read_size_field(sizes, input);
 }
 
 // The same on facets, of which those of a region may have a size of its own; of a wall the smaller one counts.
-FacetSizes wanted_on_facets(const RunOptions& options, const Input& input) {
+FacetSizes wanted_on_facets(const RunRequest& options, const Input& input) {
     const SizeField all = wanted_lengths(options, input);
     const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (volumes.empty()) return all;
@@ -102,7 +101,7 @@ FacetSizes wanted_on_facets(const RunOptions& options, const Input& input) {
 }
 
 // Edge where nothing else is wanted.
-double longest_edge(const RunOptions& options, double diagonal) {
+double longest_edge(const RunRequest& options, double diagonal) {
     const double max_volume = options.sizes.constant_max_volume();
     return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal)
                           : longest_shares[static_cast<int>(options.sizes.fineness)] * diagonal;
@@ -139,7 +138,7 @@ struct RemeshTask {
 
 // Sets the length that is wanted at a point of a label, and the longest one, by the sizes of regions. `all`: the sizes
 // of the other regions.
-void want_lengths_of_regions(const RunOptions& options, const SizeField& all, const Input& input, RemeshTask& task) {
+void want_lengths_of_regions(const RunRequest& options, const SizeField& all, const Input& input, RemeshTask& task) {
     const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0; })) return;
     const RegionSizes sizes(volumes);
@@ -181,12 +180,12 @@ double slender_deviation(const LabelledFacets& facets, double usual) {
 
 // A deviation that is asked for says how much the shape may change; a wrap is another shape than the file's. Where
 // curved cells follow, vertices are put on the faces of the model again, and the edges between them bulge.
-bool may_change_volume(const Input& input, const RunOptions& options) {
+bool may_change_volume(const Input& input, const RunRequest& options) {
     return options.deviation.number() > 0 || input.wrapped || (input.is_cad && options.has_curved_edges());
 }
 
 RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
-                       const RunOptions& options) {
+                       const RunRequest& options) {
     constexpr double share_of_gap = 0.1;  // a wrap is rough where it bridges
     const SizeField wanted = wanted_lengths(options, input);
     RemeshTask task = {label_facets(input.complex),
@@ -209,7 +208,7 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
         }
     }
     if (!may_change_volume(input, options)) result.volume_tolerance = volume_tolerance;
-    if (const double growth = with_fineness_at_kept_facets(options).sizes.growth; growth > 0) result.growth = growth;
+    if (const double growth = options.sizes.growth_beside_kept_facets(); growth > 0) result.growth = growth;
     const bool may_keep = options.remeshing == Remeshing::where_needed && !input.is_cad && !result.wanted;
     if (may_keep && !bad.are_too_wide()) result.kept = facets_away_from_slivers(task.facets.surface);
     if (!input.is_cad && !input.wrapped)
@@ -233,7 +232,7 @@ std::string note_of_periodicity(const Periodicity& periodicity) {
                                            : "remeshed, they do not. --surface split keeps the facets.");
 }
 
-void check_memory(double facets, const RunOptions& options, double edge) {
+void check_memory(double facets, const RunRequest& options, double edge) {
     const double most = most_memory_bytes() / bytes_per_facet;
     if (facets <= most) return;
     // A twentieth more than the memory allows, so that it stays enough when it is rounded.
@@ -287,7 +286,7 @@ void refuse_changed_volumes(const Input& input) {
                             where, now[worst], before[worst], 100 * (now[worst] - before[worst]) / before[worst]));
 }
 
-Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
+Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunRequest& options,
                StageListener* listener) {
     RemeshTask task = remesh_task(input, before, bad, options);
     RemeshOptions& wanted = task.options;
@@ -329,7 +328,7 @@ Complex with_pieces(const Complex& before, DividedSurface divided) {
     return {std::move(divided.surface), std::move(sides), region_names(before)};
 }
 
-Input divided(Input input, const SurfaceArrays& before, const RunOptions& options, StageListener* listener) {
+Input divided(Input input, const SurfaceArrays& before, const RunRequest& options, StageListener* listener) {
     const FacetSizes wanted = wanted_on_facets(options, input);
     check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal));
     DividedSurface result = divide_facets(before, wanted, CancellationCheck(step_counter(listener)));
@@ -346,7 +345,7 @@ Input divided(Input input, const SurfaceArrays& before, const RunOptions& option
 }
 
 // A surface may be so rough, or so thin, that no bound can be kept. Its facets do.
-Input remeshed_if_possible(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunOptions& options,
+Input remeshed_if_possible(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunRequest& options,
                            StageListener* listener) {
     try {
         return remeshed(input, before, bad, options, listener);
@@ -357,7 +356,7 @@ Input remeshed_if_possible(Input input, const SurfaceArrays& before, const BadFa
     }
 }
 
-SurfaceChange change_of(const Input& input, const BadFacets& bad, const RunOptions& options) {
+SurfaceChange change_of(const Input& input, const BadFacets& bad, const RunRequest& options) {
     if (options.remeshing == Remeshing::never) return SurfaceChange::none;
     if (options.remeshing == Remeshing::always || input.is_cad || bad.spoil_cells()) return SurfaceChange::remeshing;
     if (options.sizes.cells > 0 || has_facets_to_divide(input.complex, wanted_on_facets(options, input)))
@@ -367,7 +366,7 @@ SurfaceChange change_of(const Input& input, const BadFacets& bad, const RunOptio
 
 }  // namespace
 
-SurfaceChange surface_change(const Input& input, const RunOptions& options) {
+SurfaceChange surface_change(const Input& input, const RunRequest& options) {
     return change_of(input, find_bad_facets(input), options);
 }
 
@@ -389,7 +388,7 @@ double deviation_for(const Length& wanted, double diagonal) {
     return deviation;
 }
 
-double forecast_changed_facets(const Input& input, const RunOptions& options) {
+double forecast_changed_facets(const Input& input, const RunRequest& options) {
     const BadFacets bad = find_bad_facets(input);
     switch (change_of(input, bad, options)) {
         case SurfaceChange::none:
@@ -404,7 +403,7 @@ double forecast_changed_facets(const Input& input, const RunOptions& options) {
     return static_cast<double>(input.facets);
 }
 
-Input remesh_where_asked(Input input, const RunOptions& options, StageListener* listener) {
+Input remesh_where_asked(Input input, const RunRequest& options, StageListener* listener) {
     const BadFacets bad = find_bad_facets(input);
     const SurfaceChange change = change_of(input, bad, options);
     if (change != SurfaceChange::remeshing)

@@ -44,17 +44,16 @@ SizedMesh read_sized_mesh(const std::string& path) {
 
 SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names) {
+    if (!options.depends_on_place()) return SizeField(options.constant_max_volume());
     std::optional<SizedMesh> background;
     if (!options.field_file.empty()) background = read_sized_mesh(options.field_file);
     if (options.background) background = *options.background;
     return make_size_field(options, surface, patch_names, std::move(background));
 }
 
-RunOptions with_sizes_on(RunOptions options, const SurfaceArrays& surface,
-                         const std::vector<std::string>& patch_names) {
-    if (!options.sizes.depends_on_place()) return options;
-    const SizeField field = read_size_field(options.sizes, surface, patch_names);
-    return with_sizes(std::move(options), field);
+SizeField read_size_field(const SizeOptions& options, const Input& input) {
+    return read_size_field(options, options.depends_on_place() ? input.complex.arrays() : SurfaceArrays(),
+                           input.patch_names);
 }
 
 }  // namespace kerf

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "run/request/options.h"
+#include "run/prepare/input.h"
 #include "surface/size/size_options.h"
 
 namespace kerf {
 
-/// Makes the field as make_size_field(), with the background mesh that the options name or hold. Throws Error(io) or
-/// Error(input) for a file that cannot be read or has no positive scalar at each of its nodes, Error(usage) as
-/// make_size_field() does.
+/// Returns the field as make_size_field() makes it, with the background mesh that the options name or hold. It is the
+/// one way from options to sizes: cuts, forecasts, the remesher and meshers are handed what it returns. Throws
+/// Error(io) or Error(input) for a file that cannot be read or has no positive scalar at each of its nodes,
+/// Error(usage) as make_size_field() does.
 SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names);
 
-/// Returns options by which cuts, forecasts and the mesher obey the sizes that are asked for over this surface;
-/// unchanged where sizes do not depend on the place. Throws as read_size_field() does.
-RunOptions with_sizes_on(RunOptions options, const SurfaceArrays& surface, const std::vector<std::string>& patch_names);
+/// Returns the same over the surface of an input, which is looked at only where sizes depend on the place.
+SizeField read_size_field(const SizeOptions& options, const Input& input);
 
 }  // namespace kerf

@@ -78,11 +78,11 @@ const Vec3* SurfaceNodes::find(const UndirectedEdge& edge) const {
     return found != edges.end() && *found == edge ? &points[static_cast<std::size_t>(found - edges.begin())] : nullptr;
 }
 
-SurfaceArrays surface_behind(const Input& input, const RunOptions& options) {
+SurfaceArrays surface_behind(const Input& input, const RunRequest& options) {
     return options.has_curved_edges() && !input.is_cad ? input.complex.arrays() : SurfaceArrays();
 }
 
-SurfaceNodes make_surface_nodes(Input& input, const SurfaceArrays& behind, const RunOptions& options) {
+SurfaceNodes make_surface_nodes(Input& input, const SurfaceArrays& behind, const RunRequest& options) {
     SurfaceNodes nodes;
     if (!options.has_curved_edges()) return nodes;
     std::vector<Vec3> points;

@@ -6,7 +6,7 @@
 
 #include "base/core/types.h"
 #include "run/prepare/input.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 
@@ -24,7 +24,7 @@ struct SurfaceNodes {
 
 /// Returns the surface as it was read, where remeshing hides it: needed for nodes if the input is of triangles. Empty
 /// if the options ask for no nodes.
-SurfaceArrays surface_behind(const Input& input, const RunOptions& options);
+SurfaceArrays surface_behind(const Input& input, const RunRequest& options);
 
 /// Returns the nodes for the surface of `input`, ready to be cut, or none where the options or the input ask for
 /// straight edges alone, with a note in Input::notes where that may surprise.
@@ -39,6 +39,6 @@ SurfaceArrays surface_behind(const Input& input, const RunOptions& options);
 ///
 /// Throws as project_on_cad_file() does. Deterministic. O(n log n), and the time of kerf-cad: that for reading the file
 /// again, and some microseconds an edge.
-SurfaceNodes make_surface_nodes(Input& input, const SurfaceArrays& behind, const RunOptions& options);
+SurfaceNodes make_surface_nodes(Input& input, const SurfaceArrays& behind, const RunRequest& options);
 
 }  // namespace kerf

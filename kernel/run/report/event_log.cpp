@@ -42,13 +42,13 @@ void EventLog::write(Object json) {
     }
 }
 
-void EventLog::on_start(const RunOptions& options) {
+void EventLog::on_start(const RunRequest& request) {
     write(Json{{"event", "run"},
-               {"input", absolute(options.input)},
-               {"scale", options.input_options.scale},
-               {"output", options.dry_run ? "" : absolute(options.output)},
-               {"trace", absolute(options.trace_file)},
-               {"parts", options.decompose.parts}});
+               {"input", absolute(request.input)},
+               {"scale", request.input_options.scale},
+               {"output", request.dry_run ? "" : absolute(request.output)},
+               {"trace", absolute(request.outputs.trace_file)},
+               {"parts", request.parts}});
 }
 
 void EventLog::on_progress(const char* stage, std::size_t, std::size_t) {

@@ -39,7 +39,7 @@ class EventLog : public RunListener {
     ~EventLog() override;
 
     /// Writes the first event. Throws Error(io).
-    void on_start(const RunOptions& options);
+    void on_start(const RunRequest& request);
     void on_progress(const char* stage, std::size_t done, std::size_t total) override;
     void on_parts(const std::vector<PartReport>& parts, const std::string& plan) override;
     void on_part(const PartEvent& event) override;

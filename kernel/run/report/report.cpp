@@ -59,7 +59,7 @@ std::string fallbacks_text(const RunReport& report) {
 
 // Returns how many parts TetGen had to fill for Kerf's own mesher, and the reasons.
 std::string tetgen_text(const RunReport& report) {
-    const MesherOptions& asked = report.options.mesher;
+    const MesherChoices& asked = report.request.mesher;
     if (report.mesh.parts_by_tetgen == 0 || asked.name == "tetgen" || !asked.tetgen.switches.empty()) return "";
     const auto reason_of = [](const PartReport& part) {
         const PartResult& result = part.result;
@@ -138,7 +138,7 @@ std::vector<ExceededBound> told_bounds(const RunReport& report, bool all) {
     std::vector<ExceededBound> bounds = exceeded_bounds(report);
     if (!all)
         std::erase_if(bounds, [](const ExceededBound& each) {
-            return std::string_view(each.option) == "radius-edge" && each.bound == MesherOptions{}.radius_edge;
+            return std::string_view(each.option) == "radius-edge" && each.bound == MesherChoices().radius_edge;
         });
     return bounds;
 }
@@ -147,7 +147,7 @@ std::vector<ExceededBound> told_bounds(const RunReport& report, bool all) {
 std::string time_text(const RunReport& report) {
     const StageSeconds& s = report.seconds;
     std::string text = fmt::format("{:.2f} s: read {:.2f}, decompose {:.2f}", s.wall, s.read, s.decompose);
-    if (!report.options.volume) return text;
+    if (!report.request.volume) return text;
     const WorkerSeconds& w = report.worker_seconds;
     text += fmt::format(
         ", prepare {:.2f}, mesh {:.2f} (mesher {:.2f}, verify {:.2f}, store {:.2f}, start {:.2f}, idle {:.2f})",
@@ -270,7 +270,7 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
 }
 
 void add_cuts(ReportLines& lines, const RunReport& report) {
-    lines.add("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.options.decompose.parts,
+    lines.add("parts", fmt::format("{} of {} wanted; {}", report.parts.size(), report.request.parts,
                                    strategies_text(report.cut.nodes)));
     if (report.cut.split_facets > 0)
         lines.add("split", fmt::format("{} facets, where no contour of edges exists (--surface keep forbids it)",
@@ -311,8 +311,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     if (all) lines.add("recovered", recovery_text(report.mesh.recovery));
     if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
     if (all && !report.mesh.sizes.empty())
-        lines.add("sizes",
-                  size_text(report.mesh.sizes, report.input.patch_names, !report.options.mesher.size.is_constant()));
+        lines.add("sizes", size_text(report.mesh.sizes, report.input.patch_names, !report.size.is_constant()));
     const Distribution& dihedral = report.mesh.quality.all.measures[0];
     const Distribution& ratio = report.mesh.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
@@ -333,8 +332,8 @@ std::string volume_text(const RunReport& report) {
 }
 
 std::string ranks_text(const RunReport& report) {
-    return fmt::format("{} rank{} x {} worker{}", report.ranks, report.ranks == 1 ? "" : "s", report.options.workers,
-                       report.options.workers == 1 ? "" : "s");
+    return fmt::format("{} rank{} x {} worker{}", report.ranks, report.ranks == 1 ? "" : "s",
+                       report.request.workers.count, report.request.workers.count == 1 ? "" : "s");
 }
 
 std::string processes_text(const RunReport& report) {
@@ -345,7 +344,7 @@ std::string processes_text(const RunReport& report) {
 }  // namespace
 
 std::string to_text(const RunReport& report, ReportDetail detail) {
-    const bool all = detail == ReportDetail::all, meshed = report.options.volume;
+    const bool all = detail == ReportDetail::all, meshed = report.request.volume;
     ReportLines lines;
     add_input(lines, report, all);
     if (all || !meshed) add_cuts(lines, report);

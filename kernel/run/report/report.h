@@ -11,7 +11,7 @@
 #include "fill/improve/improve.h"
 #include "run/prepare/cells.h"
 #include "run/prepare/input.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "run/work/part_queue.h"
 
 namespace kerf {
@@ -165,8 +165,9 @@ struct FolderReport {
 };
 
 struct RunReport {
-    Input input;  ///< facts about the surface that was cut; the surface itself only if it has several regions
-    RunOptions options;
+    Input input;         ///< facts about the surface that was cut; the surface itself only if it has several regions
+    RunRequest request;  ///< with the choices of the run in place of those that were left open
+    SizeField size;      ///< wanted edge lengths
     std::optional<FoundSize> found_size;  ///< size that was found for the number of tetrahedra that was asked for
     int ranks = 1;
     CutReport cut;

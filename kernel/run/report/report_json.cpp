@@ -93,9 +93,9 @@ Json input_json(const Input& input) {
     return json;
 }
 
-Json options_json(RunOptions options) {
+Json options_json(RunRequest request) {
     Json json = Json::object();
-    for (const OptionField& field : option_fields(options))
+    for (const OptionField& field : option_fields(request))
         json[field.name] = std::visit(
             [](const auto& value) -> Json {
                 if constexpr (std::is_same_v<std::decay_t<decltype(value)>, OptionField::Choice>)
@@ -188,7 +188,7 @@ Json part_json(const PartReport& part, const std::string& wanted_mesher) {
 Json parts_json(const RunReport& report) {
     Json json = Json::array();
     for (const PartReport& part : report.parts) {
-        json.push_back(part_json(part, report.options.mesher.name));
+        json.push_back(part_json(part, report.request.mesher.name));
         if (!report.input.regions.empty()) json.back()["region"] = part.region.value();
     }
     return json;
@@ -199,9 +199,9 @@ Json totals_json(const RunReport& report) {
     for (const TreeNode& node : report.cut.nodes) interface_area += node.interface_area;
     double volume = 0;
     for (const PartReport& part : report.parts)
-        volume += report.options.volume ? part.result.laws.volume : part.surface_volume;
+        volume += report.request.volume ? part.result.laws.volume : part.surface_volume;
     return {{"vertices", report.mesh.vertices},
-            {"order", report.options.order},
+            {"order", report.request.order},
             {"nodes", std::max(report.mesh.nodes, report.mesh.vertices)},
             {"curved_nodes", report.mesh.curved_nodes},
             {"tets", report.mesh.tets},
@@ -309,7 +309,7 @@ std::string to_json(const RunReport& report) {
         {"schema", 1},
         {"kerf", version},
         {"input", input_json(report.input)},
-        {"options", options_json(report.options)},
+        {"options", options_json(report.request)},
         {"tree", array_of(report.cut.nodes, node_json)},
         {"parts", parts_json(report)},
         {"totals", totals_json(report)},

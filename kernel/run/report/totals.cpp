@@ -47,8 +47,8 @@ std::vector<RegionVolume> volumes_of_regions(const RunReport& report) {
     for (const PartReport& part : report.parts) {
         const MeshLaws& laws = part.result.laws;
         RegionVolume& region = volumes[static_cast<std::size_t>(part.region.value())];
-        region.of_parts += report.options.volume ? laws.volume : part.surface_volume;
-        region.error += report.options.volume ? laws.volume_error : part.surface_volume_error;
+        region.of_parts += report.request.volume ? laws.volume : part.surface_volume;
+        region.error += report.request.volume ? laws.volume_error : part.surface_volume_error;
         ++parts[static_cast<std::size_t>(part.region.value())];
     }
     // Volumes are positive, and added in order.
@@ -66,7 +66,7 @@ RunVerification verify_parts(const RunReport& report) {
         v.tets_without_volume += laws.tets_without_volume;
         v.input_faces_missing += laws.missing_facets;
         v.extra_boundary_faces += laws.extra_boundary_faces;
-        if (!report.options.volume) continue;
+        if (!report.request.volume) continue;
         v.tets_zero_parts += part.result.tets == 0;
         parts_hold &= part.result.code == 0 && laws.hold();
     }
@@ -83,12 +83,12 @@ RunVerification verify_parts(const RunReport& report) {
 
 // Measures how the workers spent the meshing stage, as means over all of them.
 void measure_workers(RunReport& report) {
-    const auto workers = static_cast<std::size_t>(report.ranks * report.options.workers);
+    const auto workers = static_cast<std::size_t>(report.ranks * report.request.workers.count);
     std::vector<double> busy(workers, 0);
     WorkerSeconds& mean = report.worker_seconds;
     for (const PartReport& part : report.parts) {
         if (part.resumed) continue;
-        busy[static_cast<std::size_t>(part.rank * report.options.workers + part.worker)] += part.seconds;
+        busy[static_cast<std::size_t>(part.rank * report.request.workers.count + part.worker)] += part.seconds;
         mean.mesher += part.result.mesh_seconds;
         mean.verify += part.result.verify_seconds;
         mean.store += part.result.store_seconds;
@@ -120,13 +120,13 @@ void add_up_parts(RunReport& report) {
         report.mesh.sizes.add(part.result.sizes);
         report.mesh.improve_seconds += part.result.improve_seconds;
         report.mesh.recovery.add(part.result.recovery);
-        if (report.options.volume && part.result.code == 0) {
+        if (report.request.volume && part.result.code == 0) {
             ++report.mesh.parts_by_way[part.result.way()];
             report.mesh.parts_by_tetgen += part.result.is_by_tetgen();
         }
         hashes.push_back({part.id, part.result.hash});
     }
-    if (report.options.volume) report.mesh.hash = hash_of_parts(hashes);
+    if (report.request.volume) report.mesh.hash = hash_of_parts(hashes);
     report.verification = verify_parts(report);
     measure_workers(report);
     report.exit_code = failure_code(report.parts);

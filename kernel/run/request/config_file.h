@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 

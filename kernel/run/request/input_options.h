@@ -63,4 +63,14 @@ RepairPlan repair_plan_of(const InputOptions& options);
 /// Returns the points of `regions`. Throws Error(usage), naming option, value and form.
 std::vector<RegionSeed> seeds_of(const InputOptions& options);
 
+/// Options of a surface with the meaning of their texts.
+struct InputChoices {
+    /// Parses the texts. Throws Error(usage), naming option, value and form.
+    InputChoices(const InputOptions& given = {});  // NOLINT(google-explicit-constructor): the same, understood
+
+    InputOptions options;
+    RepairPlan repairs;             ///< repair_plan_of() them
+    std::vector<RegionSeed> seeds;  ///< seeds_of() them
+};
+
 }  // namespace kerf

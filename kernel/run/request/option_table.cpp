@@ -11,7 +11,7 @@
 
 #include "base/core/error.h"
 #include "fill/volume/meshers.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 
@@ -54,15 +54,15 @@ OptionField::Choice mesher_choice(std::string& name) {
 }
 
 // The choice of the change of the surface, from none to most, which sets three options together.
-OptionField::Choice surface_choice(RunOptions& o) {
+OptionField::Choice surface_choice(RunRequest& o) {
     const auto get = [&o] {
         if (o.input_options.wrap) return 4;
         if (o.remeshing == Remeshing::where_needed) return 3;
         if (o.remeshing == Remeshing::always) return 2;
-        return o.decompose.facets == FacetPolicy::keep ? 0 : 1;
+        return o.facets == FacetPolicy::keep ? 0 : 1;
     };
     const auto set = [&o](int value) {
-        o.decompose.facets = value == 0 ? FacetPolicy::keep : FacetPolicy::split;
+        o.facets = value == 0 ? FacetPolicy::keep : FacetPolicy::split;
         o.input_options.wrap = value == 4;
         o.remeshing = value == 2 || value == 4 ? Remeshing::always
                       : value == 3             ? Remeshing::where_needed
@@ -222,75 +222,75 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
      place<&SizeOptions::cells_across>, true, size_range::cells_across},
 };
 
-constexpr OptionRow<RunOptions> parts_rows[] = {
+constexpr OptionRow<RunRequest> parts_rows[] = {
     {"parts",
      "n",
      option_group::cuts,
      "K",
      "Number of parts K >= 1. Default: 4 for each worker, or what --memory asks for.",
-     place<&RunOptions::decompose, &DecomposeOptions::parts>,
+     place<&RunRequest::parts>,
      true,
      {"a whole number, 1 or more, at most 2147483647", 1, 2147483647, true}},
 };
 
-constexpr OptionRow<RunOptions> meshing_rows[] = {
+constexpr OptionRow<RunRequest> meshing_rows[] = {
     {"radius-edge", "", option_group::meshing, "Q",
      "Bound of circumradius over shortest edge; 0: no refinement. Default 1.4.",
-     place<&RunOptions::mesher, &MesherOptions::radius_edge>, true, radius_edge_range},
+     place<&RunRequest::mesher, &MesherChoices::radius_edge>, true, radius_edge_range},
     {"cut", "", option_group::cuts, "",
      "Where planes lie: across the principal axis, or a coordinate axis. Default inertia.",
-     [](RunOptions& o) -> OptionField::Value {
-         return choice(o.decompose.cut.criterion, {"inertia", "volume", "equidistant"});
+     [](RunRequest& o) -> OptionField::Value {
+         return choice(o.cut.criterion, {"inertia", "volume", "equidistant"});
      }},
     {"axis", "", option_group::cuts, "", "Coordinate axis across which to cut. Default: chosen by --cut.",
-     [](RunOptions& o) -> OptionField::Value {
-         return choice(o.decompose.cut.axis, {"auto", "x", "y", "z"}, -1);
+     [](RunRequest& o) -> OptionField::Value {
+         return choice(o.cut.axis, {"auto", "x", "y", "z"}, -1);
      }},
     {"balance", "", option_group::expert, "", "What the halves of a cut have alike. Default work.",
-     [](RunOptions& o) -> OptionField::Value {
-         return choice(o.decompose.cut.load.balance, {"nodes", "faces", "volume", "inertia", "work"});
+     [](RunRequest& o) -> OptionField::Value {
+         return choice(o.cut.balance, {"nodes", "faces", "volume", "inertia", "work"});
      }},
     {"contour", "", option_group::expert, "",
      "How contours are found: minimum cut, crossed edges, or split facets. Default min-cut.",
-     [](RunOptions& o) -> OptionField::Value {
-         return choice(o.decompose.cut.contour, {"min-cut", "edges", "straight"});
+     [](RunRequest& o) -> OptionField::Value {
+         return choice(o.cut.contour, {"min-cut", "edges", "straight"});
      }},
     {"surface", "", option_group::input, "",
      "keep every facet; split some where no contour of edges exists; remesh all within --deviation; auto: remesh CAD "
      "files, and where slivers would spoil the cells, else split, and divide what is coarser than sizes; wrap it "
      "first, whatever it is, and remesh that. Default auto.",
-     [](RunOptions& o) -> OptionField::Value { return surface_choice(o); }},
+     [](RunRequest& o) -> OptionField::Value { return surface_choice(o); }},
     {"deviation", "", option_group::input, "D",
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "
      "twentieth of the shortest edge that is wanted, or 0.05% if none is; less where the body is thin; of a wrap, a "
      "tenth of the gap if that is more. Volumes are held unless it is given.",
-     place<&RunOptions::deviation>, true, deviation_range},
+     place<&RunRequest::deviation>, true, deviation_range},
     {"order",
      "",
      option_group::meshing,
      "N",
      "Order of the cells: 1, the default, or 2 with a node on each edge, as structural analysis wants them.",
-     place<&RunOptions::order>,
+     place<&RunRequest::order>,
      true,
      {"1 or 2", 1, 2}},
     {"curve", "", option_group::meshing, "",
      "Of order 2: auto, the default, has nodes of edges on the true surface of CAD and on the input of what is "
      "remeshed; straight, in the middle of the edges.",
-     [](RunOptions& o) -> OptionField::Value {
+     [](RunRequest& o) -> OptionField::Value {
          return choice(o.curving, {"auto", "straight"});
      }},
     {"mesher", "", option_group::meshing, "",
      "What fills the parts: auto, the default, takes lattice, unless --tetgen-switches is given.",
-     [](RunOptions& o) -> OptionField::Value { return mesher_choice(o.mesher.name); }},
+     [](RunRequest& o) -> OptionField::Value { return mesher_choice(o.mesher.name); }},
     {"improve", "", option_group::meshing, "",
      "Better cells in place of the worst; not with --tetgen-switches. Default true: --no-improve keeps them.",
-     place<&RunOptions::mesher, &MesherOptions::improve>},
+     place<&RunRequest::mesher, &MesherChoices::improve>},
     {"workers",
      "j",
      option_group::running,
      "W",
      "Mesher processes of each rank. Default: its share of the processors that it may use.",
-     place<&RunOptions::workers>,
+     place<&RunRequest::workers, &WorkerOptions::count>,
      false,
      {"a whole number, 0 (share of the processors) to 4096", 0, 4096}},
     {"timeout",
@@ -298,7 +298,7 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      option_group::running,
      "S",
      "Seconds for one attempt at one part; 0: none. A part that took longer is marked in the report. Default 600.",
-     place<&RunOptions::timeout_seconds>,
+     place<&RunRequest::workers, &WorkerOptions::timeout_seconds>,
      false,
      {"0 (none), or 0.001 to 1e9 seconds", 1e-3, 1e9, true}},
     {"memory",
@@ -306,7 +306,7 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      option_group::running,
      "SIZE",
      "Memory of one worker, as 2G or 500M, or a number of MB, by which K is chosen, too; 0: unlimited. Default 0.",
-     [](RunOptions& o) -> OptionField::Value { return OptionField::Memory{&o.memory_mb}; },
+     [](RunRequest& o) -> OptionField::Value { return OptionField::Memory{&o.workers.memory_mb}; },
      false,
      {"a size such as 2G or 500M, or a whole number of MB, 0 (unlimited) to 1099511627776", 0, 0x1p40}},
     {"attempts",
@@ -314,38 +314,40 @@ constexpr OptionRow<RunOptions> meshing_rows[] = {
      option_group::expert,
      "N",
      "Attempts at a part, at most: with other orders, tolerances, weaker bounds. Default 10.",
-     place<&RunOptions::attempts>,
+     place<&RunRequest::workers, &WorkerOptions::attempts>,
      true,
      {"a whole number, 1 or more", 1}},
     {"tetgen-switches", "", option_group::expert, "SWITCHES",
      "Expert: TetGen switches instead of q and a (p, Y are always on).",
-     [](RunOptions& o) -> OptionField::Value { return &o.mesher.tetgen.switches; }},
+     [](RunRequest& o) -> OptionField::Value { return &o.mesher.tetgen.switches; }},
 };
 
-constexpr OptionRow<RunOptions> output_rows[] = {
+constexpr OptionRow<RunRequest> output_rows[] = {
     {"format", "", option_group::output, "LIST",
      "Formats of the result, with commas between; kerf export --help lists them. Default vtu.",
-     place<&RunOptions::formats>, false},
+     place<&RunRequest::outputs, &OutputOptions::formats>, false},
     {"fields", "", option_group::output, "LIST",
      "Qualities of each cell in vtu files, with commas between: min-dihedral, max-dihedral, radius-edge, aspect, "
      "shape; or all, or none. Default min-dihedral.",
-     place<&RunOptions::fields>, false},
+     place<&RunRequest::outputs, &OutputOptions::fields>, false},
     {"patch-type", "", option_group::output, "NAME=TYPE",
      "OpenFOAM's type of a patch: patch (default), wall, symmetry, symmetryPlane. Repeatable.",
-     place<&RunOptions::patch_types>, false},
+     place<&RunRequest::outputs, &OutputOptions::patch_types>, false},
     {"split-regions", "", option_group::output, "",
-     "OpenFOAM: one mesh for each region, their walls mapped to each other.", place<&RunOptions::split_regions>, false},
+     "OpenFOAM: one mesh for each region, their walls mapped to each other.",
+     place<&RunRequest::outputs, &OutputOptions::split_regions>, false},
     {"reference", "", option_group::output, "",
      "Mesh the whole in one piece, too, and compare: comparison.svg, and a table with -v.",
-     place<&RunOptions::reference>, false},
+     place<&RunRequest::outputs, &OutputOptions::reference>, false},
     {"stl", "", option_group::output, "", "Write the closed surface of every part as binary STL, too.",
-     place<&RunOptions::stl>, false},
-    {"report", "", option_group::output, "FILE", "Write the report to this file too.", place<&RunOptions::report_file>,
-     false},
+     place<&RunRequest::outputs, &OutputOptions::stl>, false},
+    {"report", "", option_group::output, "FILE", "Write the report to this file too.",
+     place<&RunRequest::outputs, &OutputOptions::report_file>, false},
     {"events", "", option_group::running, "FILE",
-     "Write progress as one JSON object per line to this file, or to fd:N.", place<&RunOptions::events_file>, false},
+     "Write progress as one JSON object per line to this file, or to fd:N.",
+     place<&RunRequest::outputs, &OutputOptions::events_file>, false},
     {"trace", "", option_group::expert, "FILE", "Write every cut with its stages and refused tries to this file.",
-     place<&RunOptions::trace_file>, false},
+     place<&RunRequest::outputs, &OutputOptions::trace_file>, false},
 };
 
 }  // namespace
@@ -362,13 +364,13 @@ std::vector<OptionField> size_option_fields(SizeOptions& options) {
     return fields;
 }
 
-std::vector<OptionField> option_fields(RunOptions& options) {
+std::vector<OptionField> option_fields(RunRequest& request) {
     std::vector<OptionField> fields;
-    append_fields(fields, parts_rows, options);
-    append_fields(fields, size_rows, options.sizes);
-    append_fields(fields, meshing_rows, options);
-    append_fields(fields, output_rows, options);
-    append_fields(fields, input_rows, options.input_options);
+    append_fields(fields, parts_rows, request);
+    append_fields(fields, size_rows, request.sizes);
+    append_fields(fields, meshing_rows, request);
+    append_fields(fields, output_rows, request);
+    append_fields(fields, input_rows, request.input_options);
     return fields;
 }
 
@@ -399,15 +401,15 @@ std::vector<std::string> command_words(InputOptions options) {
     return words;
 }
 
-std::vector<OptionText> option_texts(RunOptions options, bool shapes_parts_only) {
+std::vector<OptionText> option_texts(RunRequest request, bool shapes_parts_only) {
     std::vector<OptionText> texts;
-    for (const OptionField& field : option_fields(options))
+    for (const OptionField& field : option_fields(request))
         if (field.shapes_parts || !shapes_parts_only) texts.push_back({field.name, field.text()});
     return texts;
 }
 
-void set_options(RunOptions& options, const std::vector<OptionText>& texts, const std::string& source) {
-    const std::vector<OptionField> fields = option_fields(options);
+void set_options(RunRequest& request, const std::vector<OptionText>& texts, const std::string& source) {
+    const std::vector<OptionField> fields = option_fields(request);
     for (const OptionText& option : texts) {
         const auto field =
             std::find_if(fields.begin(), fields.end(), [&](const OptionField& f) { return f.name == option.name; });

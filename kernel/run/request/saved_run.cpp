@@ -1,6 +1,6 @@
 // A saved run is a JSON file in the partial folder of a run: the input with its hash, and all options as texts of the
-// table (run/request/options.h). It is written durably before the work and removed when a run has ended well, so that
-// its existence says that parts may be missing. Options of the host and of the caller, workers and events, are not
+// table (run/request/run_request.h). It is written durably before the work and removed when a run has ended well, so
+// that its existence says that parts may be missing. Options of the host and of the caller, workers and events, are not
 // saved. A file that cannot be read counts as absent where only reuse is at stake (is_same_run(),
 // interrupted_part_count()), and is an error where a user asks to continue.
 #include "run/request/saved_run.h"
@@ -23,8 +23,8 @@ namespace kerf {
 
 namespace {
 
-RunOptions load_saved_run(const std::string& file) {
-    RunOptions options;
+RunRequest load_saved_run(const std::string& file) {
+    RunRequest options;
     try {
         const auto json = parse_json(read_file(file));
         options.input = path_of_text(json.at("input").get<std::string>());
@@ -44,11 +44,11 @@ RunOptions load_saved_run(const std::string& file) {
 
 }  // namespace
 
-void save_run(const std::string& path, const RunOptions& options, const std::string& input_hash) {
-    RunOptions saved = options;
-    saved.workers = 0;          // the host that continues may have other cores
-    saved.events_file.clear();  // the caller that continues names its own
-    for (std::string* file : {&saved.report_file, &saved.trace_file})
+void save_run(const std::string& path, const RunRequest& options, const std::string& input_hash) {
+    RunRequest saved = options;
+    saved.workers.count = 0;            // the host that continues may have other cores
+    saved.outputs.events_file.clear();  // the caller that continues names its own
+    for (std::string* file : {&saved.outputs.report_file, &saved.outputs.trace_file})
         if (!file->empty()) *file = std::filesystem::absolute(*file).string();
     nlohmann::ordered_json json = {{"input", path_text(std::filesystem::absolute(options.input).string())},
                                    {"input_hash", input_hash}};
@@ -62,7 +62,7 @@ bool is_complete_run(const std::string& folder) {
     return !std::filesystem::exists(RunFolder::saved_run_file(output), ignored) && inspect_run_folder(output).is_valid;
 }
 
-RunOptions load_interrupted_run(const std::string& folder) {
+RunRequest load_interrupted_run(const std::string& folder) {
     const std::string output = RunFolder::result_of(folder);
     const std::string file = RunFolder::saved_run_file(output);
     std::error_code ignored;
@@ -70,12 +70,12 @@ RunOptions load_interrupted_run(const std::string& folder) {
         throw Error(ErrorCode::io, fmt::format("No interrupted run waits for {}: {} does not exist. Start one with "
                                                "kerf mesh INPUT -o {}.",
                                                output, file, output));
-    RunOptions options = load_saved_run(file);
+    RunRequest options = load_saved_run(file);
     options.output = std::filesystem::absolute(output).string();
     return options;
 }
 
-void refuse_changed_input(const RunOptions& options, const std::string& input_hash) {
+void refuse_changed_input(const RunRequest& options, const std::string& input_hash) {
     if (options.input_hash.empty() || options.input_hash == input_hash) return;
     throw Error(ErrorCode::io,
                 fmt::format("{} is not the file that the interrupted run has read: its bytes are others. "
@@ -83,9 +83,9 @@ void refuse_changed_input(const RunOptions& options, const std::string& input_ha
                             options.input, options.input, options.output));
 }
 
-bool is_same_run(const std::string& saved_run_file, const RunOptions& options, const std::string& input_hash) {
+bool is_same_run(const std::string& saved_run_file, const RunRequest& options, const std::string& input_hash) {
     try {
-        const RunOptions saved = load_saved_run(saved_run_file);
+        const RunRequest saved = load_saved_run(saved_run_file);
         const std::vector<OptionText> one = option_texts(saved, true), other = option_texts(options, true);
         return saved.input_hash == input_hash &&
                std::equal(one.begin(), one.end(), other.begin(), other.end(),
@@ -97,8 +97,8 @@ bool is_same_run(const std::string& saved_run_file, const RunOptions& options, c
 
 std::int32_t interrupted_part_count(const std::string& output, const std::string& input_hash) {
     try {
-        const RunOptions saved = load_interrupted_run(output);
-        return saved.input_hash == input_hash ? saved.decompose.parts : 0;
+        const RunRequest saved = load_interrupted_run(output);
+        return saved.input_hash == input_hash ? saved.parts : 0;
     } catch (const Error&) {
         return 0;
     }

@@ -38,19 +38,22 @@ Decomposition cut_here(Input& input, const DecomposeOptions& options, LeafRange 
 
 }  // namespace
 
-Decomposition cut_surface(Communicator& ranks, Input& input, const RunOptions& options, StageListener* listener) {
-    DecomposeOptions wanted = options.decompose;
+Decomposition cut_surface(Communicator& ranks, Input& input, const RunPlan& plan, StageListener* listener) {
+    const RunRequest& request = plan.request();
+    const DecomposeOptions options = plan.decompose_options();
+    DecomposeOptions wanted = options;
+    const std::string& trace_file = request.outputs.trace_file;
     const LeafRange range = range_of_rank(wanted.parts, ranks);
     CutListener* cuts = listener;
     std::optional<TraceRecorder> trace;
     // A forecast counts the triangles of fine interfaces without making them.
-    if (options.dry_run && options.trace_file.empty()) wanted.cut.size = SizeField();
-    if (!options.trace_file.empty()) cuts = &trace.emplace(options, input, cuts);
+    if (request.dry_run && trace_file.empty()) wanted.cut.size = SizeField();
+    if (!trace_file.empty()) cuts = &trace.emplace(request, input, cuts);
     in_agreement(ranks, [&] { tell_progress(listener, "decompose", 0, 1); });
     Decomposition own = ranks.size() > 1 ? decompose_on_ranks(ranks, input.complex, wanted, cuts)
                                          : in_agreement(ranks, [&] { return cut_here(input, wanted, range, cuts); });
-    if (wanted.facets == FacetPolicy::split) own = divide_unfinished(ranks, std::move(own), options.decompose, cuts);
-    if (trace) trace->write(options.trace_file, ranks, own, range);  // a run that fails later has one, too
+    if (wanted.facets == FacetPolicy::split) own = divide_unfinished(ranks, std::move(own), options, cuts);
+    if (trace) trace->write(trace_file, ranks, own, range);  // a run that fails later has one, too
     return own;
 }
 

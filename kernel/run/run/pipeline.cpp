@@ -22,7 +22,8 @@ RunReport report_of_plan(const RunContext& run, Input input) {
     RunReport report;
     report.mesh.quality = PartQuality(input.diagonal);
     report.input = std::move(input);
-    report.options = run.plan.options;
+    report.request = run.plan.request();
+    report.size = run.plan.size;
     report.ranks = run.ranks.size();
     report.found_size = run.plan.found_size;
     report.seconds.read = run.longest(run.whole);
@@ -31,26 +32,26 @@ RunReport report_of_plan(const RunContext& run, Input input) {
 
 }  // namespace
 
-RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks, RunListener* listener,
+RunReport run(const RunRequest& request, int cores_of_rank, Communicator& ranks, RunListener* listener,
               std::optional<Input> surface) {
     const Stopwatch whole;
     const ThreadLimitGuard limit;  // the plan sets one
     PlannedRun planned = plan_run(request, cores_of_rank, ranks, listener, std::move(surface));
-    const RunOptions& options = planned.plan.options;
     const RunContext run{planned.plan, ranks, listener, whole};
+    const RunRequest& wanted = run.plan.request();
     RunReport report = report_of_plan(run, std::move(planned.input));
     const std::optional<Surface> whole_surface = surface_for_reference(run, report.input);
     std::optional<RunFolder> folder;  // none for a dry run
     try {
-        if (!options.dry_run) keep_folder(run, report.input, folder.emplace(open_folder(run, report.input)));
+        if (!wanted.dry_run) keep_folder(run, report.input, folder.emplace(open_folder(run, report.input)));
         CutParts cut = cut_into_parts(run, std::move(report));
         report = std::move(cut.report);
-        if (options.dry_run) {
+        if (wanted.dry_run) {
             announce_parts(run, report);
             return report;
         }
         std::optional<VolumeStage> volume;
-        if (options.volume) volume.emplace(ranks, *folder, planned.plan, report.input.diagonal, listener);
+        if (wanted.volume) volume.emplace(ranks, *folder, planned.plan, report.input.diagonal, listener);
         report =
             hand_over_parts(run, *folder, std::move(report), std::move(cut.prepared.own), volume ? &*volume : nullptr);
         announce_parts(run, report);
@@ -61,7 +62,7 @@ RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks,
         add_up_parts(report);
         return finish_run(run, folder, std::move(report));
     } catch (const Error& error) {
-        throw with_way_to_go_on(options, folder, error);
+        throw with_way_to_go_on(wanted, folder, error);
     }
 }
 

@@ -18,7 +18,7 @@ namespace kerf {
 /// folder then does not exist, but finished parts wait beside it for the next run into it (files/io/run_folder.h),
 /// which has only the other parts to do. With request.dry_run the run ends after on_parts() of the listener, and
 /// nothing is written but the trace. `surface`: taken instead of a file, by the first rank.
-RunReport run(const RunOptions& request, int cores_of_rank, Communicator& ranks, RunListener* listener = nullptr,
+RunReport run(const RunRequest& request, int cores_of_rank, Communicator& ranks, RunListener* listener = nullptr,
               std::optional<Input> surface = {});
 
 }  // namespace kerf

@@ -34,62 +34,59 @@ namespace kerf {
 
 namespace {
 
+constexpr double coarse_radius_edge = 2;
+
 // The fewest facets of a part. Fewer than the first number leave no contour of edges; fewer than a tetrahedron has make
 // no part.
-std::int64_t least_facets(const DecomposeOptions& options) {
-    return options.facets == FacetPolicy::keep ? min_facets_per_part : 4;
-}
+std::int64_t least_facets(FacetPolicy facets) { return facets == FacetPolicy::keep ? min_facets_per_part : 4; }
 
 // K as given, if the surface allows it; else that of a run into the same folder that was interrupted, perhaps on
 // another machine; else as it follows from the surface, its sized volume, the machine and its memory.
-std::int32_t part_count(const Input& input, const RunOptions& options, double volume, int ranks) {
+std::int32_t part_count(const Input& input, const RunPlan& plan, double volume, int ranks) {
+    const RunRequest& request = plan.request();
     const std::int32_t regions = input.complex.region_count();
     const auto most =
-        static_cast<std::int32_t>(std::max<std::int64_t>(regions, input.facets / least_facets(options.decompose)));
-    const std::int32_t wanted = options.decompose.parts;
-    if (wanted == 0) {
-        const std::int32_t interrupted = options.dry_run ? 0 : interrupted_part_count(options.output, input.file_hash);
+        static_cast<std::int32_t>(std::max<std::int64_t>(regions, input.facets / least_facets(request.facets)));
+    if (request.parts == 0) {
+        const std::int32_t interrupted = request.dry_run ? 0 : interrupted_part_count(request.output, input.file_hash);
         if (interrupted >= regions && interrupted <= most) return interrupted;
-        return std::max({choose_parts(options, static_cast<double>(input.facets), volume, ranks, most),
-                         std::min(options.least_parts, most), regions});
+        const auto facets = static_cast<double>(input.facets);
+        return std::max({choose_parts(request.workers, plan.mesher(), facets, volume, ranks, most),
+                         std::min(request.least_parts, most), regions});
     }
-    if (wanted > most)
+    if (request.parts > most)
         throw Error(ErrorCode::usage, fmt::format("{} has {} facets, too few for {} parts. Use -n {} or fewer, or a "
                                                   "finer surface.",
-                                                  input.path, input.facets, wanted, most));
-    return std::max(wanted, regions);
-}
-
-RunOptions sized_on(const Input& input, RunOptions options) {
-    return with_sizes_on(std::move(options), input.complex.arrays(), input.patch_names);
+                                                  input.path, input.facets, request.parts, most));
+    return std::max(request.parts, regions);
 }
 
 // The sized volume, in units of the size that holds where no region has one of its own.
-double sized_volume_of(const Input& input, const RunOptions& options) {
-    const RegionSizes& sizes = options.decompose.region_sizes;
-    const SizeField& all = options.mesher.size;
-    if (!sizes.empty() && !all.is_empty()) {
+double sized_volume_of(const Input& input, const SizeField& size, const RegionSizes& region_sizes) {
+    if (!region_sizes.empty() && !size.is_empty()) {
         double sum = 0;
         for (std::size_t r = 0; r < input.regions.size(); ++r)
-            sum += input.regions[r].volume * all.reference_volume() / sizes.of(RegionIndex(r), all).reference_volume();
+            sum += input.regions[r].volume * size.reference_volume() /
+                   region_sizes.of(RegionIndex(r), size).reference_volume();
         return sum;
     }
-    const SurfaceArrays surface = options.mesher.size.is_constant() ? SurfaceArrays() : input.complex.arrays();
-    return sized_volume(options.mesher.size, surface.vertices, surface.facets, input.volume);
+    const SurfaceArrays surface = size.is_constant() ? SurfaceArrays() : input.complex.arrays();
+    return sized_volume(size, surface.vertices, surface.facets, input.volume);
 }
 
 // Checks the budget of the surface that remeshing would make: a surface of many facets takes longer to be made than to
 // be found too large to be filled.
-void check_budget_before_remeshing(const Input& input, RunOptions options, int ranks) {
-    if (options.dry_run || surface_change(input, options) == SurfaceChange::none) return;
-    options = with_forecast_size(input, std::move(options));
-    options.sizes.growth = 0;  // from edges that are to change
-    options = sized_on(input, std::move(options));
-    const double volume = sized_volume_of(input, options), facets = forecast_changed_facets(input, options);
-    if (options.decompose.parts == 0)
-        options.decompose.parts =
-            choose_parts(options, facets, volume, ranks, std::numeric_limits<std::int32_t>::max());
-    check_budget(options, facets, volume, Facets::follow_size);
+void check_budget_before_remeshing(const Input& input, const RunChoices& choices, int ranks) {
+    RunRequest request = choices.request;
+    if (request.dry_run || surface_change(input, request) == SurfaceChange::none) return;
+    request.sizes = forecast_sizes(input, request);
+    request.sizes.growth = 0;  // from edges that are to change
+    const MesherOptions mesher(request.mesher, read_size_field(request.sizes, input));
+    const double volume = sized_volume_of(input, mesher.size, {}), facets = forecast_changed_facets(input, request);
+    constexpr std::int32_t no_limit = std::numeric_limits<std::int32_t>::max();
+    const std::int32_t parts =
+        request.parts > 0 ? request.parts : choose_parts(request.workers, mesher, facets, volume, ranks, no_limit);
+    check_budget(choices, mesher, parts, facets, volume, Facets::follow_size);
 }
 
 bool keeps_most_facets(const Input& input) { return !input.remeshed || 2 * input.remeshed->facets_kept > input.facets; }
@@ -135,42 +132,47 @@ class ProcessorsOfHost {
     int ranks_ = 0;  // number of ranks of the host
 };
 
-// The options as far as a rank resolves them by itself.
-RunOptions resolved_request(const RunOptions& request, int cores_of_rank, const std::optional<Input>& surface) {
-    RunOptions options = request;
-    if (surface) options.input = surface->path;
-    options = resolved(std::move(options), cores_of_rank);
-    const bool meshes = options.volume && !options.dry_run;
-    if (meshes && options.worker_program.empty()) options.worker_program = find_kerf_program("kerf-worker");
-    return options;
+// The choices as far as a rank makes them by itself.
+RunChoices own_choices(RunRequest request, int cores_of_rank, const std::optional<Input>& surface) {
+    if (surface) request.input = surface->path;
+    RunChoices choices = choices_of(std::move(request), cores_of_rank);
+    std::string& program = choices.request.workers.program;
+    if (choices.request.fills_parts() && program.empty()) program = find_kerf_program("kerf-worker");
+    return choices;
 }
 
-// Takes the surface, or reads the input that plan.options name, and completes these.
+// Takes the surface, or reads the input that the request names, and completes the plan.
 PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, StageListener* listener) {
-    RunOptions wanted = std::move(plan.options);
-    Input input = surface ? *std::move(surface) : read_input(wanted.input, wanted.input_options, listener);
-    refuse_changed_input(wanted, input.file_hash);
-    wanted.input_options.repairs.weld_tolerance = input.ladder.preparation(RepairKind::merge).amount;
-    wanted = with_lengths(std::move(wanted), input.diagonal);
-    check_budget_before_remeshing(input, wanted, ranks);
-    const SurfaceArrays behind = surface_behind(input, wanted);
-    SizedInput sized = remesh_and_size(std::move(input), wanted, listener);
+    RunRequest& request = plan.choices.request;
+    Input input = surface ? *std::move(surface) : read_input(request.input, plan.choices.input, listener);
+    refuse_changed_input(request, input.file_hash);
+    request.input_options.repairs.weld_tolerance = input.ladder.preparation(RepairKind::merge).amount;
+    request.deviation = request.deviation.of(input.diagonal);
+    request.sizes.resolve_lengths(input.diagonal);
+    request.sizes.check();
+    check_budget_before_remeshing(input, plan.choices, ranks);
+    const SurfaceArrays behind = surface_behind(input, request);
+    SizedInput sized = remesh_and_size(std::move(input), request, listener);
     input = std::move(sized.input);
-    plan.surface_nodes = make_surface_nodes(input, behind, sized.options);
+    request.sizes = std::move(sized.sizes);
     plan.found_size = sized.found;
-    if (keeps_most_facets(input)) sized.options = with_fineness_at_kept_facets(std::move(sized.options));
-    RunOptions options = sized_on(input, std::move(sized.options));
-    options.decompose.region_sizes = RegionSizes(max_volumes_of_regions(options.sizes, input));
-    require_patches(parse_patch_types(options.patch_types), input.patch_names);
-    if (options.split_regions) require_regions(input.complex.region_names().size());
-    const double volume = sized_volume_of(input, options);
-    options.decompose.parts = part_count(input, options, volume, ranks);
-    if (!options.dry_run) check_budget(options, static_cast<double>(input.facets), volume);
-    const std::int32_t wanted_parts = wanted.decompose.parts;
-    if (wanted_parts > 0 && options.decompose.parts > wanted_parts)
+    plan.surface_nodes = make_surface_nodes(input, behind, request);
+    if (keeps_most_facets(input)) {
+        double& radius_edge = request.mesher.radius_edge;
+        if (request.sizes.is_coarse() && radius_edge == MesherChoices().radius_edge) radius_edge = coarse_radius_edge;
+        request.sizes.growth = request.sizes.growth_beside_kept_facets();
+    }
+    plan.size = read_size_field(request.sizes, input);
+    plan.region_sizes = RegionSizes(max_volumes_of_regions(request.sizes, input));
+    require_patches(plan.choices.patch_types, input.patch_names);
+    if (request.outputs.split_regions) require_regions(input.complex.region_names().size());
+    const double volume = sized_volume_of(input, plan.size, plan.region_sizes);
+    const std::int32_t wanted_parts = std::exchange(request.parts, part_count(input, plan, volume, ranks));
+    if (!request.dry_run)
+        check_budget(plan.choices, plan.mesher(), request.parts, static_cast<double>(input.facets), volume);
+    if (wanted_parts > 0 && request.parts > wanted_parts)
         input.notes.push_back(fmt::format("The {} regions are a part each, though -n {} asks for fewer parts.",
                                           input.complex.region_count(), wanted_parts));
-    plan.options = std::move(options);
     return {std::move(plan), std::move(input)};
 }
 
@@ -181,11 +183,11 @@ class PlanArchive {
     explicit PlanArchive(Archive& archive) : archive_(archive) {}
 
     void plan(RunPlan& plan, std::vector<double>& largest_of_regions) {
-        RunOptions& options = plan.options;
-        archive_(options.input, options.decompose.parts, options.mesher, largest_of_regions);
-        length(options.input_options.repairs.weld_tolerance);
-        length(options.deviation);
-        sizes(options.sizes);
+        RunRequest& request = plan.choices.request;
+        archive_(request.input, request.parts, request.mesher.radius_edge, plan.size, largest_of_regions);
+        length(request.input_options.repairs.weld_tolerance);
+        length(request.deviation);
+        sizes(request.sizes);
         found(plan.found_size);
         archive_(plan.surface_nodes.edges, plan.surface_nodes.points, plan.surface_nodes.surface_edges);
     }
@@ -234,7 +236,7 @@ Bytes bytes_of_plan(const PlannedRun& run) {
     ByteWriter writer(bytes);
     PlanArchive<ByteWriter> archive(writer);
     // An archive that writes bytes does not change its fields.
-    std::vector<double> largest_of_regions = plan.options.decompose.region_sizes.max_volumes();
+    std::vector<double> largest_of_regions = plan.region_sizes.max_volumes();
     archive.plan(const_cast<RunPlan&>(plan), largest_of_regions);
     archive.input(const_cast<Input&>(input));
     const std::span<const std::string> names = input.complex.region_names();
@@ -244,7 +246,7 @@ Bytes bytes_of_plan(const PlannedRun& run) {
     return bytes;
 }
 
-// Returns the plan and its input from such bytes. `own`: with the options as far as a rank resolves them by itself.
+// Returns the plan and its input from such bytes. `own`: with the choices as far as a rank makes them by itself.
 // O(#F log #F) for several regions.
 PlannedRun plan_of_bytes(const Bytes& told, RunPlan own) {
     PlannedRun run{std::move(own), {}};
@@ -253,8 +255,7 @@ PlannedRun plan_of_bytes(const Bytes& told, RunPlan own) {
     PlanArchive<ByteReader> archive(reader);
     std::vector<double> largest_of_regions;
     archive.plan(plan, largest_of_regions);
-    plan.options = with_sizes(std::move(plan.options), SizeField(plan.options.mesher.size));
-    plan.options.decompose.region_sizes = RegionSizes(std::move(largest_of_regions));
+    plan.region_sizes = RegionSizes(std::move(largest_of_regions));
     archive.input(input);
     std::vector<std::string> names;
     reader(names);
@@ -268,7 +269,7 @@ PlannedRun plan_of_bytes(const Bytes& told, RunPlan own) {
 
 }  // namespace
 
-PlannedRun plan_run(const RunOptions& request, int cores_of_rank, Communicator& ranks, StageListener* listener,
+PlannedRun plan_run(const RunRequest& request, int cores_of_rank, Communicator& ranks, StageListener* listener,
                     std::optional<Input> surface) {
     // Hosts may differ, but the defaults of K and workers must not.
     for (const int cores : all_gather(ranks, cores_of_rank)) cores_of_rank = std::min(cores_of_rank, cores);
@@ -276,14 +277,14 @@ PlannedRun plan_run(const RunOptions& request, int cores_of_rank, Communicator& 
     PlannedRun run;
     RunPlan& plan = run.plan;
     in_agreement(ranks, [&] {
-        plan.options = resolved_request(request, cores_of_rank, surface);
+        plan.choices = own_choices(request, cores_of_rank, surface);
         if (ranks.rank() != 0) surface.reset();
-        const bool meshes = plan.options.volume && !plan.options.dry_run;
-        if (meshes && !plan.options.transient) plan.worker_hash = describe_file("", plan.options.worker_program).hash;
+        if (plan.request().fills_parts() && !plan.request().transient)
+            plan.worker_hash = describe_file("", plan.request().workers.program).hash;
         if (listener) listener->on_progress("read", 0, 1);
-        set_thread_limit(plan.options.workers);  // they have nothing to do yet
+        set_thread_limit(plan.request().workers.count);  // they have nothing to do yet
     });
-    const int threads = plan.options.workers;
+    const int threads = plan.request().workers.count;
     const auto of_root = [&] {
         host.lend(threads, [&] { run = plan_surface(std::move(plan), std::move(surface), ranks.size(), listener); });
         return ranks.size() > 1 ? bytes_of_plan(run) : Bytes();

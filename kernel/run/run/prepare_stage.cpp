@@ -30,10 +30,10 @@ namespace kerf {
 namespace {
 
 // The report of a part before it is meshed.
-PartReport describe_part(const PartJob& job, double volume, int rank, double half_thickness,
-                         const RunOptions& options) {
-    const CutOptions cut = options.decompose.cut_in(job.region);
-    const SizeField size = options.decompose.region_sizes.of(job.region, options.mesher.size);
+PartReport describe_part(const PartJob& job, double volume, int rank, double half_thickness, const RunPlan& plan) {
+    const CutOptions cut = plan.decompose_options().cut_in(job.region);
+    const SizeField size = plan.size_in(job.region);
+    const MesherOptions mesher = plan.mesher();
     PartReport part;
     part.id = job.part;
     part.rank = rank;
@@ -51,8 +51,8 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
         if (job.neighbour[f] >= 0) part.neighbours.push_back(job.neighbour[f]);
         if (is_of_input(job.surface.facet_key[f])) {
             part.walls_of_others += !is_listed_triangle(job.surface.patch[f], job.part, job.neighbour[f]);
-            part.tets_at_facets += tets_at_facet(shape_of_facet(p[t[0]], p[t[1]], p[t[2]]), size.at(centroid),
-                                                 half_thickness, options.mesher);
+            part.tets_at_facets +=
+                tets_at_facet(shape_of_facet(p[t[0]], p[t[1]], p[t[2]]), size.at(centroid), half_thickness, mesher);
             continue;
         }
         ++part.interface_facets;
@@ -61,11 +61,11 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
         part.interface_in_squared_edges += area / (edge * edge);
     }
     part.sized_volume = sized_volume(cut.size, job.surface.vertices, job.surface.facets, volume);
-    if (!size.is_empty() && !options.mesher.size.is_empty())
-        part.sized_volume *= options.mesher.size.reference_volume() / size.reference_volume();
-    const bool is_sized = cut.load.depends_on_place();
-    part.load = cut.load.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
-                              is_sized ? part.sized_volume : volume);
+    if (!size.is_empty() && !plan.size.is_empty())
+        part.sized_volume *= plan.size.reference_volume() / size.reference_volume();
+    const LoadModel load = cut.load();
+    part.load = load.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
+                          load.depends_on_place() ? part.sized_volume : volume);
     std::sort(part.neighbours.begin(), part.neighbours.end());
     part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
     return part;
@@ -139,7 +139,7 @@ SurfaceContacts contacts_of(const SurfaceArrays& surface, const Contacts& contac
 }  // namespace
 
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
-                            Decomposition own, const RunOptions& options) {
+                            Decomposition own, const RunPlan& plan) {
     PreparedParts prepared;
     const std::span<const FacetSides> sides = input.complex.all_sides();
     const InterfaceMatch match(ranks, own.leaves, sides);
@@ -167,7 +167,7 @@ PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::
         job.region = leaf.region;
         job.length_scale = input.diagonal;
         job.surface = std::exchange(leaf.surface, {});
-        PartReport report = describe_part(job, leaf.volume, ranks.rank(), input.volume / input.area, options);
+        PartReport report = describe_part(job, leaf.volume, ranks.rank(), input.volume / input.area, plan);
         prepared.own.push_back({std::move(report), std::move(job)});
     }
     find_shared_edges(ranks, leaves, prepared.own);

@@ -7,6 +7,7 @@
 #include "cut/decompose/decomposition.h"
 #include "run/prepare/input.h"
 #include "run/report/report.h"
+#include "run/run/plan.h"
 #include "run/work/part_job.h"
 
 namespace kerf {
@@ -29,7 +30,7 @@ struct PreparedParts {
 /// parts of this rank. Memory and messages of a rank follow what its own parts share with others, but for 16 bytes a
 /// part of the run. The jobs are the same for any number of ranks.
 PreparedParts prepare_parts(Communicator& ranks, const Input& input, const std::vector<TreeNode>& nodes,
-                            Decomposition own, const RunOptions& options);
+                            Decomposition own, const RunPlan& plan);
 
 /// Returns the reports of all parts, in the order of the tree. Collective.
 std::vector<PartReport> gather_reports(Communicator& ranks, const std::vector<OwnPart>& own);

@@ -148,7 +148,7 @@ Trace read_trace(const std::string& path) {
     return from_bytes<Trace>(record);
 }
 
-TraceRecorder::TraceRecorder(const RunOptions& options, const Input& input, CutListener* next) : next_(next) {
+TraceRecorder::TraceRecorder(const RunRequest& options, const Input& input, CutListener* next) : next_(next) {
     trace_.input = input.path;
     trace_.surface = input.complex.arrays();
     trace_.sides.assign(input.complex.all_sides().begin(), input.complex.all_sides().end());

@@ -9,7 +9,7 @@
 
 #include "base/parallel/communicator.h"
 #include "run/prepare/input.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 
@@ -59,7 +59,7 @@ Trace read_trace(const std::string& path);
 class TraceRecorder : public CutListener {
  public:
     /// `next`, unless null, is told of every cut, too.
-    TraceRecorder(const RunOptions& options, const Input& input, CutListener* next);
+    TraceRecorder(const RunRequest& options, const Input& input, CutListener* next);
     void on_cut(const Surface& parent, const Cut& cut) override;
     bool cancelled() const override { return next_ && next_->cancelled(); }
 

@@ -356,7 +356,7 @@ void FolderVerifier::check_input() {
     const auto& of_report = report_.at("input");
     Input input;
     try {
-        RunOptions options = options_of_report(report_.at("options"));
+        RunRequest options = options_of_report(report_.at("options"));
         options.input_options.cad.on_faces = options.has_curved_edges();
         options.input = options_.input.empty() ? path_of_text(of_report.at("path")) : options_.input;
         input = options_.surface ? *options_.surface : read_input(options.input, options.input_options);

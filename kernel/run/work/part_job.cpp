@@ -66,8 +66,8 @@ std::array<SurfaceArrays, 2> halves_of(const SurfaceArrays& arrays, const Mesher
     const Surface surface = separated_surface(renamed(arrays));
     const MassProperties mass = mass_properties(surface);
     CutOptions cut;
-    cut.size = cut.load.size = options.size;
-    cut.load.volume_weight = find_mesher(options.name).forecast.volume_weight;
+    cut.size = options.size;
+    cut.volume_weight = find_mesher(options.name).forecast.volume_weight;
     cut = cut.of(surface);
     const Bisection bisection = bisect(surface, mass, cut_node, choose_place(surface, mass, 2, cut), cut, false);
     if (!bisection.cut.made())

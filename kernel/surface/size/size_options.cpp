@@ -214,6 +214,20 @@ void SizeOptions::resolve_lengths(double diagonal) {
         if (numbers.behind.empty()) continue;
         text = halves.before + "=" + resolved(numbers.before) + ":" + resolved(numbers.behind);
     }
+    max_volume = constant_max_volume();
+}
+
+SizeOptions SizeOptions::with_edge(double edge) const {
+    SizeOptions options = *this;
+    options.cells = 0;
+    options.fineness = Fineness::medium;
+    options.size = edge;
+    options.max_volume = options.constant_max_volume();
+    return options;
+}
+
+double SizeOptions::growth_beside_kept_facets() const {
+    return follow_fineness() && fineness == Fineness::fine && growth == 0 ? usual_growth : growth;
 }
 
 double SizeOptions::constant_max_volume() const {

@@ -51,11 +51,16 @@ struct SizeOptions {
 
     /// Throws Error(usage) naming option, value and range or form.
     void check() const;
-    /// Replaces percentages by lengths. Throws Error(usage) for a chord error longer than the diagonal, which no chord
-    /// has.
+    /// Replaces percentages by lengths, and sets `max_volume` where it follows from `size`. Throws Error(usage) for a
+    /// chord error longer than the diagonal, which no chord has.
     void resolve_lengths(double diagonal);
     /// Returns `max_volume`, or the volume that follows from `size`, a resolved length; 0: none.
     double constant_max_volume() const;
+    /// Returns the options with this edge length everywhere in place of `size`, `cells` and `fineness`; 0: none.
+    SizeOptions with_edge(double edge) const;
+    /// Returns the growth for cells beside facets that are kept. Where nobody gives a size, and the fineness is fine,
+    /// they grow from the edges of the surface by usual_growth, if no growth is given.
+    double growth_beside_kept_facets() const;
     /// Returns the largest volume of a tetrahedron in each of these regions, from `in_region` with resolved lengths, 0
     /// for regions that it does not name; empty if `in_region` is. Throws Error(usage) for a name that is none of the
     /// regions', or that comes twice.
@@ -67,6 +72,7 @@ struct SizeOptions {
     }
     /// Whether no size is given that would hold everywhere, so that `fineness` decides.
     bool follow_fineness() const { return size.number() == 0 && max_volume == 0 && cells == 0; }
+    bool is_coarse() const { return follow_fineness() && fineness == Fineness::coarse; }
     double growth_or_usual() const { return growth > 0 ? growth : usual_growth; }
 };
 

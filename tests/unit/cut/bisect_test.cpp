@@ -64,7 +64,7 @@ TEST(Bisect, IsTheSameOnAnyNumberOfThreads) {
     CutOptions options;
     std::vector<FileHash> hashes;
     for (const double max_volume : {0.0, 0.001}) {  // loads without and with volume
-        options.size = options.load.size = SizeField(max_volume);
+        options.size = SizeField(max_volume);
         for (const int threads : {1, 2, 7}) {
             set_thread_limit(threads);
             const Bisection result = bisect(surface, mass_properties(surface), 1, {0.4}, options, false);

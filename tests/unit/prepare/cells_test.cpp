@@ -10,6 +10,7 @@
 #include "base/core/error.h"
 #include "fill/volume/mesher.h"
 #include "run/prepare/size_reader.h"
+#include "run/request/run_choices.h"
 #include "support/assets.h"
 #include "support/shapes.h"
 
@@ -18,8 +19,8 @@ namespace {
 
 Input input_from(const Soup& soup) { return make_input(soup.vertices, soup.facets, soup.patch, soup.patch_names); }
 
-RunOptions with_cells(std::int64_t cells, Remeshing remeshing = Remeshing::never) {
-    RunOptions options;
+RunRequest with_cells(std::int64_t cells, Remeshing remeshing = Remeshing::never) {
+    RunRequest options;
     options.sizes.cells = cells;
     options.remeshing = remeshing;
     return options;
@@ -27,20 +28,20 @@ RunOptions with_cells(std::int64_t cells, Remeshing remeshing = Remeshing::never
 
 double tets_of(const SizedInput& sized) {
     const SurfaceArrays surface = sized.input.complex.arrays();
-    MesherOptions mesher = with_sizes_on(sized.options, surface, sized.input.patch_names).mesher;
+    MesherOptions mesher({}, read_size_field(sized.sizes, surface, sized.input.patch_names));
     mesher.improve = false;  // which changes less than 3 % of the number
     return static_cast<double>(mesh_volume(surface, mesher).mesh.tets.size());
 }
 
 // Within what is promised, and the size is one that can be written down and asked for.
-void expect_cells(const Input& input, const RunOptions& options, double tolerance = 0.15) {
+void expect_cells(const Input& input, const RunRequest& options, double tolerance = 0.15) {
     SCOPED_TRACE(testing::Message() << options.sizes.cells << " cells of " << input.path << ", "
                                     << static_cast<int>(options.remeshing));
     const SizedInput sized = remesh_and_size(input, options);
     ASSERT_TRUE(sized.found);
     EXPECT_EQ(sized.found->cells, options.sizes.cells);
-    EXPECT_EQ(sized.options.sizes.cells, 0) << "what is in effect is the size";
-    EXPECT_EQ(sized.options.sizes.size, sized.found->size);
+    EXPECT_EQ(sized.sizes.cells, 0) << "what is in effect is the size";
+    EXPECT_EQ(sized.sizes.size, sized.found->size);
     EXPECT_EQ(std::stod(fmt::format("{:.4g}", sized.found->size)), sized.found->size);
     EXPECT_TRUE(sized.input.notes.size() == input.notes.size()) << sized.input.notes.back();
     const auto cells = static_cast<double>(options.sizes.cells);
@@ -69,7 +70,7 @@ TEST(Cells, AreAsManyAsAskedForWhereTheSurfaceIsRemeshed) {
 TEST(Cells, CountWhatIsFinerAtPlaces) {
     const Input ball = input_from(test::icosphere(4));
     for (const std::int64_t cells : {60'000, 150'000}) {
-        RunOptions options = with_cells(cells);
+        RunRequest options = with_cells(cells);
         options.sizes.inside = {"sphere:0.5,0,0,0.3=0.04"};
         expect_cells(ball, options, 0.2);
         options.remeshing = Remeshing::always;
@@ -83,7 +84,7 @@ TEST(Cells, FewerThanTheFacetsNeedAreNoted) {
     const SizedInput sized = remesh_and_size(ball, with_cells(1'000));
     ASSERT_TRUE(sized.found);
     EXPECT_EQ(sized.found->size, 0);
-    EXPECT_TRUE(sized.options.mesher.size.is_empty());
+    EXPECT_EQ(sized.sizes.constant_max_volume(), 0);
     EXPECT_NEAR(sized.found->tets / tets_of(sized), 1, 0.25);
     ASSERT_EQ(sized.input.notes.size(), ball.notes.size() + 1);
     for (const char* words : {"--cells asks for 1 k", "the facets need about", "--surface remesh", "--cells 1"})
@@ -92,20 +93,20 @@ TEST(Cells, FewerThanTheFacetsNeedAreNoted) {
 
 TEST(Cells, AreNoBusinessOfWhoAsksForNone) {
     const Input ball = input_from(test::icosphere(2));
-    RunOptions options;
+    RunRequest options;
     options.sizes.size = 0.3;
-    EXPECT_EQ(with_forecast_size(ball, options).sizes.size, 0.3);
-    const SizedInput sized = remesh_and_size(ball, resolved(options));
+    EXPECT_EQ(forecast_sizes(ball, options).size, 0.3);
+    const SizedInput sized = remesh_and_size(ball, choices_of(options).request);
     EXPECT_FALSE(sized.found);
-    EXPECT_EQ(sized.options.sizes.size, 0.3);
+    EXPECT_EQ(sized.sizes.size, 0.3);
 }
 
 TEST(Cells, ExcludeOtherSizesEverywhere) {
     for (const char* option : {"size", "max-volume"}) {
-        RunOptions options = with_cells(1000);
+        RunRequest options = with_cells(1000);
         set_options(options, {{option, "0.1"}}, "the test");
         try {
-            resolved(options);
+            choices_of(options).request;
             ADD_FAILURE() << "no error";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::usage);

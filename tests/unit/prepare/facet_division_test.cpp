@@ -117,7 +117,7 @@ TEST(FacetDivision, LeavesNoFacetWithoutTriangles) {
 
 TEST(FacetDivision, IsDoneByDefaultAndForbiddenByKeptFacets) {
     const Soup body = test::box(Vec3::Zero(), Vec3(2, 1, 0.5), {4, 2, 1});
-    RunOptions options;
+    RunRequest options;
     options.sizes.size = 0.1;
     for (const bool are_kept : {false, true}) {
         const Input before = make_input(body.vertices, body.facets);

@@ -102,9 +102,9 @@ TEST(Slivers, KeptFacetsStayWhateverTheyAre) {
 
 TEST(Slivers, WellShapedFacetsAndThoseThatShallStayDoStay) {
     const SurfaceArrays good = test::to_arrays(test::icosphere(4)), bad = ball_with_needles(5);
-    RunOptions split;
+    RunRequest split;
     split.remeshing = Remeshing::never;
-    for (const auto& [surface, options] : {std::pair(good, RunOptions()), std::pair(bad, split)}) {
+    for (const auto& [surface, options] : {std::pair(good, RunRequest()), std::pair(bad, split)}) {
         const Input result = remesh_where_asked(input_of(surface), options);
         EXPECT_FALSE(result.remeshed);
         EXPECT_EQ(corners_of(result.complex.arrays()), corners_of(surface));
@@ -133,7 +133,7 @@ TEST(ThinLayers, AreRemeshedWhereFacetsAreTooWideForThem) {
         EXPECT_EQ(result.complex.region_count(), 3);
         ASSERT_EQ(result.notes.size(), 1U);
         EXPECT_NE(result.notes[0].find("so wide beside a thin region"), std::string::npos) << result.notes[0];
-        RunOptions split;
+        RunRequest split;
         split.remeshing = Remeshing::never;
         EXPECT_FALSE(remesh_where_asked(input, split).remeshed);
     }
@@ -201,7 +201,7 @@ TEST(RemeshWhereAsked, KeepsSidesThatMatch) {
     EXPECT_NE(result.notes.back().find("Opposite sides match, 1, 1 and 1 apart"), std::string::npos);
     EXPECT_NE(result.notes.back().find("they still do"), std::string::npos);
 
-    RunOptions sized;
+    RunRequest sized;
     sized.sizes.max_volume = 1e-4;
     const Input finer = remesh_where_asked(input_of(surface), sized);
     EXPECT_NE(finer.notes.back().find("remeshed, they do not"), std::string::npos) << finer.notes.back();

@@ -11,8 +11,8 @@
 namespace kerf {
 namespace {
 
-RunOptions of_second_order() {
-    RunOptions options;
+RunRequest of_second_order() {
+    RunRequest options;
     options.order = 2;
     return options;
 }
@@ -87,9 +87,9 @@ TEST(SurfaceNodes, OfWhatIsFlatOrKeptAreInTheMiddle) {
 TEST(SurfaceNodes, AreOnlyMadeWhereTheyAreAskedForAndTheSurfaceIsNotTheFile) {
     const Input fine = read_soup(test::icosphere(3));
     Input coarse = read_soup(test::icosphere(2));
-    RunOptions straight = of_second_order(), first;
+    RunRequest straight = of_second_order(), first;
     straight.curving = Curving::straight;
-    for (const RunOptions& options : {straight, first}) {
+    for (const RunRequest& options : {straight, first}) {
         EXPECT_TRUE(surface_behind(fine, options).facets.empty());
         EXPECT_TRUE(make_surface_nodes(coarse, fine.complex.arrays(), options).edges.empty());
     }

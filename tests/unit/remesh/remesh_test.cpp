@@ -362,7 +362,7 @@ TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
     measure_input(input);
     input.diagonal = diagonal_of(input.complex.arrays());
     input.patch_names = {"below", "sides", "above"};
-    RunOptions options;
+    RunRequest options;
     options.remeshing = Remeshing::always;
     PatientListener all(1'000'000);
     const Input remeshed = remesh_where_asked(input, options, &all);

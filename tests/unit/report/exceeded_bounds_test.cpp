@@ -18,8 +18,8 @@ TetQuality quality_of(double volume, double radius_edge) {
 
 RunReport report_with(double max_volume, double radius_edge) {
     RunReport report;
-    report.options.sizes.max_volume = max_volume;
-    report.options.mesher.radius_edge = radius_edge;
+    report.request.sizes.max_volume = max_volume;
+    report.request.mesher.radius_edge = radius_edge;
     report.mesh.quality = PartQuality(10);
     return report;
 }

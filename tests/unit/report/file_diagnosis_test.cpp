@@ -42,8 +42,8 @@ TEST_F(FileDiagnosisTest, AClosedSurfaceCanBeMeshed) {
 }
 
 TEST_F(FileDiagnosisTest, TheCommandHasAllFilesAndOptions) {
-    const std::string one = write(test::box(), "one.stl"),
-                      other = write(test::box(Vec3(1 - 1e-4, 0, 0), Vec3(2, 1, 1)), "other.stl");
+    const std::string one = write(test::box(), "one.outputs.stl"),
+                      other = write(test::box(Vec3(1 - 1e-4, 0, 0), Vec3(2, 1, 1)), "other.outputs.stl");
     InputOptions options;
     options.more_files = {other};
     options.scale = 0.001;
@@ -110,7 +110,7 @@ TEST_F(FileDiagnosisTest, AFileThatIsNoSurfaceIsRefused) {
 }
 
 TEST_F(FileDiagnosisTest, ARemeshedFileHasTheFacetsThatAreTold) {
-    RunOptions options;
+    RunRequest options;
     options.input = write(test::box(), "box.stl");
     options.sizes.size = Length(0.25);
     const RemeshedFile written = remesh_file(options, folder_.file("fine.obj"));
@@ -123,7 +123,7 @@ TEST_F(FileDiagnosisTest, ARemeshedFileHasTheFacetsThatAreTold) {
 }
 
 TEST_F(FileDiagnosisTest, RemeshedRegionsAreReadAgainAsBodiesThatTouch) {
-    RunOptions options;
+    RunRequest options;
     options.input = folder_.file("two.mesh");
     test::write_tets(options.input, {2, 1, 1}, [](const auto& cube) { return cube[0]; });
     options.sizes.size = Length(0.3);

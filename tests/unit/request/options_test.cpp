@@ -1,4 +1,4 @@
-#include "run/request/options.h"
+#include "run/request/run_choices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,10 @@ namespace {
 template <class Change>
 void expect_refused(const std::string& name, Change change) {
     SCOPED_TRACE(name);
-    RunOptions options;
+    RunRequest options;
     change(options);
     try {
-        resolved(options);
+        choices_of(options);
         ADD_FAILURE() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -34,51 +34,63 @@ void expect_refused(const std::string& name, Change change) {
     }
 }
 
-TEST(RunOptions, WorkersDefaultToTheCores) {
-    RunOptions options;
-    EXPECT_EQ(resolved(options, 4).workers, 4);
-    EXPECT_EQ(resolved(options, 0).workers, 1);
-    options.workers = 2;
-    EXPECT_EQ(resolved(options, 4).workers, 2);
+TEST(RunRequest, WorkersDefaultToTheCores) {
+    RunRequest options;
+    EXPECT_EQ(choices_of(options, 4).request.workers.count, 4);
+    EXPECT_EQ(choices_of(options, 0).request.workers.count, 1);
+    options.workers.count = 2;
+    EXPECT_EQ(choices_of(options, 4).request.workers.count, 2);
 }
 
-TEST(RunOptions, SizeIsTheVolumeOfARegularTetrahedron) {
-    RunOptions options;
-    options.sizes.size = 0.5;
-    const RunOptions by_size = resolved(options);
-    const double bound = by_size.mesher.size.reference_volume();
-    EXPECT_NEAR(bound, 0.125 / (6 * std::sqrt(2.0)), 1e-15);
-    EXPECT_EQ(by_size.decompose.cut.size.reference_volume(), bound);
-    EXPECT_EQ(by_size.decompose.cut.load.size.reference_volume(), bound);
-    options.sizes.max_volume = 0.3;
-    EXPECT_EQ(resolved(options).mesher.size.reference_volume(), 0.3) << "the volume wins over the size";
+TEST(RunChoices, HaveTheMeaningOfTexts) {
+    RunRequest request;
+    request.outputs.formats = "msh,openfoam";
+    request.outputs.fields = "all";
+    request.outputs.patch_types = {"in=wall"};
+    request.input_options.regions = {"a=1,2,3"};
+    request.input_options.repairs.fill_hole_edges = 7;
+    request.workers.memory_mb = 500;
+    request.parts = 3;
+    const RunChoices choices = choices_of(request);
+    EXPECT_EQ(choices.formats, parse_formats("msh,openfoam"));
+    EXPECT_TRUE(choices.has_format("openfoam") && !choices.has_format("vtu"));
+    EXPECT_TRUE(choices.fields.all());
+    EXPECT_EQ(choices.patch_types.at(0).type, "wall");
+    EXPECT_EQ(choices.input.seeds.at(0).point, Vec3(1, 2, 3));
+    ASSERT_NE(choices.input.repairs.find(RepairKind::span), nullptr);
+    const DecomposeOptions cuts = choices.decompose_options(SizeField(0.25));
+    EXPECT_EQ(cuts.parts, 3);
+    EXPECT_EQ(cuts.cut.size.reference_volume(), 0.25);
+    EXPECT_EQ(cuts.cut.load().size.reference_volume(), 0.25);
+    EXPECT_LT(cuts.cut.max_interface_points, CutOptions().max_interface_points);
+    EXPECT_TRUE(choices_of({}).has_format("vtu"));
 }
 
-TEST(RunOptions, ValuesOutOfRangeAreNamed) {
+TEST(RunRequest, ValuesOutOfRangeAreNamed) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    expect_refused("workers", [](RunOptions& o) { o.workers = -1; });
-    expect_refused("parts", [](RunOptions& o) { o.decompose.parts = -1; });
+    expect_refused("workers", [](RunRequest& o) { o.workers.count = -1; });
+    expect_refused("parts", [](RunRequest& o) { o.parts = -1; });
     for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
-        expect_refused("size", [&](RunOptions& o) { o.sizes.size = bad; });
-        expect_refused("max-volume", [&](RunOptions& o) { o.sizes.max_volume = bad; });
-        expect_refused("radius-edge", [&](RunOptions& o) { o.mesher.radius_edge = bad; });
+        expect_refused("size", [&](RunRequest& o) { o.sizes.size = bad; });
+        expect_refused("max-volume", [&](RunRequest& o) { o.sizes.max_volume = bad; });
+        expect_refused("radius-edge", [&](RunRequest& o) { o.mesher.radius_edge = bad; });
     }
-    expect_refused("radius-edge", [](RunOptions& o) { o.mesher.radius_edge = 1; });
-    expect_refused("timeout", [&](RunOptions& o) { o.timeout_seconds = nan; });
-    expect_refused("memory", [](RunOptions& o) { o.memory_mb = -1; });
-    expect_refused("attempts", [](RunOptions& o) { o.attempts = 0; });
+    expect_refused("radius-edge", [](RunRequest& o) { o.mesher.radius_edge = 1; });
+    expect_refused("timeout", [&](RunRequest& o) { o.workers.timeout_seconds = nan; });
+    expect_refused("memory", [](RunRequest& o) { o.workers.memory_mb = -1; });
+    expect_refused("attempts", [](RunRequest& o) { o.workers.attempts = 0; });
     for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
-        expect_refused("scale", [&](RunOptions& o) { o.input_options.scale = bad; });
-        expect_refused("weld", [&](RunOptions& o) { o.input_options.repairs.weld_tolerance = bad; });
-        expect_refused("feature-angle", [&](RunOptions& o) { o.input_options.feature_angle_deg = bad; });
+        expect_refused("scale", [&](RunRequest& o) { o.input_options.scale = bad; });
+        expect_refused("weld", [&](RunRequest& o) { o.input_options.repairs.weld_tolerance = bad; });
+        expect_refused("feature-angle", [&](RunRequest& o) { o.input_options.feature_angle_deg = bad; });
     }
-    expect_refused("feature-angle", [](RunOptions& o) { o.input_options.feature_angle_deg = 180; });
-    expect_refused("fill-holes", [](RunOptions& o) { o.input_options.repairs.fill_hole_edges = -1; });
-    expect_refused("optimise-surface", [](RunOptions& o) { o.input_options.optimisation_sweeps = -1; });
+    expect_refused("feature-angle", [](RunRequest& o) { o.input_options.feature_angle_deg = 180; });
+    expect_refused("fill-holes", [](RunRequest& o) { o.input_options.repairs.fill_hole_edges = -1; });
+    expect_refused("optimise-surface", [](RunRequest& o) { o.input_options.optimisation_sweeps = -1; });
 }
 
 TEST(OptionFields, HaveDistinctNamesAndAHelp) {
-    RunOptions options;
+    RunRequest options;
     std::set<std::string> names;
     for (const OptionField& field : option_fields(options)) {
         EXPECT_TRUE(names.insert(field.name).second) << field.name;
@@ -87,7 +99,7 @@ TEST(OptionFields, HaveDistinctNamesAndAHelp) {
 }
 
 TEST(OptionFields, ChoicesReachTheirValues) {
-    RunOptions options;
+    RunRequest options;
     int choices = 0;
     for (const OptionField& field : option_fields(options)) {
         const auto* choice = std::get_if<OptionField::Choice>(&field.value);
@@ -100,10 +112,10 @@ TEST(OptionFields, ChoicesReachTheirValues) {
         }
     }
     EXPECT_GE(choices, 4);
-    EXPECT_EQ(options.decompose.cut.axis, 2);
-    EXPECT_EQ(options.decompose.cut.criterion, Criterion::equidistant);
-    EXPECT_EQ(options.decompose.cut.load.balance, Balance::work);
-    EXPECT_EQ(options.decompose.cut.contour, ContourMethod::straight);
+    EXPECT_EQ(options.cut.axis, 2);
+    EXPECT_EQ(options.cut.criterion, Criterion::equidistant);
+    EXPECT_EQ(options.cut.balance, Balance::work);
+    EXPECT_EQ(options.cut.contour, ContourMethod::straight);
     EXPECT_EQ(options.input_options.voids, Voids::parity);
 }
 
@@ -144,30 +156,30 @@ TEST(RepairPlanOf, PutsTheStepOfEachSpellingInItsPlace) {
 }
 
 TEST(OptionFields, TextGivesTheValueBack) {
-    RunOptions options;
-    options.decompose.parts = 7;
+    RunRequest options;
+    options.parts = 7;
     options.sizes.size = 0.1;
     options.sizes.on = {"inlet=1", "out;let=2"};
     options.mesher.tetgen.switches = "q1.2 a";
-    options.stl = true;
-    options.decompose.cut.axis = 1;
-    RunOptions copy;
+    options.outputs.stl = true;
+    options.cut.axis = 1;
+    RunRequest copy;
     const std::vector<OptionField> fields = option_fields(options), copied = option_fields(copy);
     for (std::size_t i = 0; i < fields.size(); ++i) {
         SCOPED_TRACE(fields[i].name);
         copied[i].set_text(fields[i].text());
         EXPECT_EQ(copied[i].text(), fields[i].text());
     }
-    EXPECT_EQ(copy.decompose.parts, 7);
+    EXPECT_EQ(copy.parts, 7);
     EXPECT_EQ(copy.sizes.size, 0.1);
     EXPECT_EQ(copy.sizes.on, options.sizes.on);
     EXPECT_EQ(copy.mesher.tetgen.switches, "q1.2 a");
     EXPECT_TRUE(copy.stl);
-    EXPECT_EQ(copy.decompose.cut.axis, 1);
+    EXPECT_EQ(copy.cut.axis, 1);
 }
 
 TEST(OptionFields, TextThatIsNoValueIsRefused) {
-    RunOptions options;
+    RunRequest options;
     const auto is_refused = [](const OptionField& field, const std::string& text) {
         try {
             field.set_text(text);
@@ -193,7 +205,7 @@ TEST(OptionFields, TextThatIsNoValueIsRefused) {
 }
 
 TEST(OptionFields, CountsMayHaveAUnit) {
-    RunOptions options;
+    RunRequest options;
     const auto set = [&](const std::string& text) {
         set_options(options, {{"cells", text}}, "the test");
         return options.sizes.cells;
@@ -207,35 +219,35 @@ TEST(OptionFields, CountsMayHaveAUnit) {
     for (const char* text : {"k", "1.5", "5kB", "50 k", "-1k", "nank", "1e10M", "1e13"}) EXPECT_THROW(set(text), Error);
 }
 
-TEST(RunOptions, PercentagesAreOfTheDiagonal) {
-    RunOptions options;
+TEST(RunRequest, PercentagesAreOfTheDiagonal) {
+    RunRequest options;
     options.sizes.size = Length::percent(2);
     options.sizes.chord_error = Length::percent(0.5);
     options.deviation = Length::percent(0.002);
     options.sizes.inside = {"sphere:1,2,3,4=1%", "box:0,0,0,1,1,1=7"};
     options.sizes.on = {"in=let 5%=3%"};
     options.sizes.near = {"a=2%:10%", "b=1:10%", "c=1e-3:2"};
-    options = resolved(options);
-    EXPECT_TRUE(options.mesher.size.is_empty()) << "nobody knows yet";
-    options = with_lengths(options, 50);
+    options = choices_of(options).request;
+    EXPECT_TRUE(options.sizes.size.is_percent()) << "nobody knows yet";
+    EXPECT_EQ(options.deviation.of(50), 0.001);
+    options.sizes.resolve_lengths(50);
     EXPECT_EQ(options.sizes.size, 1.0);
     EXPECT_EQ(options.sizes.chord_error, 0.25);
-    EXPECT_EQ(options.deviation, 0.001);
     EXPECT_EQ(options.sizes.inside, (std::vector<std::string>{"sphere:1,2,3,4=0.5", "box:0,0,0,1,1,1=7"}));
     EXPECT_EQ(options.sizes.on, (std::vector<std::string>{"in=let 5%=1.5"}));
     EXPECT_EQ(options.sizes.near, (std::vector<std::string>{"a=1:5", "b=1:5", "c=1e-3:2"}));
-    RunOptions absolute;
+    RunRequest absolute;
     absolute.sizes.size = 1;
-    EXPECT_EQ(options.mesher.size.reference_volume(), resolved(absolute).mesher.size.reference_volume());
+    EXPECT_EQ(options.sizes.max_volume, absolute.sizes.constant_max_volume());
 }
 
-TEST(RunOptions, TraceMustLieOutsideOfTheOutputFolder) {
+TEST(RunRequest, TraceMustLieOutsideOfTheOutputFolder) {
     const auto is_refused = [](const std::string& trace, const std::string& output) {
-        RunOptions options;
-        options.trace_file = trace;
+        RunRequest options;
+        options.outputs.trace_file = trace;
         options.output = output;
         try {
-            resolved(options);
+            choices_of(options);
             return false;
         } catch (const Error& error) {
             return error.code() == ErrorCode::usage;
@@ -275,7 +287,7 @@ TEST(ConfigFile, GivesEveryOptionBack) {
     const test::TemporaryFolder folder;
     std::mt19937 random(1);
     for (int seed = 0; seed < 200; ++seed) {
-        RunOptions options, copy;
+        RunRequest options, copy;
         const std::vector<OptionField> fields = option_fields(options), copied = option_fields(copy);
         for (const OptionField& field : fields) field.set_text(some_text(field, random));
         const std::string text = to_config(fields);
@@ -304,7 +316,7 @@ TEST(ConfigFile, TakesListsAsArraysAndAsText) {
     const test::TemporaryFolder folder;
     std::ofstream(folder.file("config"))
         << "size-in = ['sphere:0,0,0,1=0.5', 'box:0,0,0,1,1,1=1']\nsize-on = 'a=1;b=2'\n";
-    RunOptions options;
+    RunRequest options;
     const std::vector<OptionField> fields = option_fields(options);
     for (const ConfigEntry& entry : read_config(folder.file("config"))) set_option(fields, entry);
     EXPECT_EQ(options.sizes.inside, (std::vector<std::string>{"sphere:0,0,0,1=0.5", "box:0,0,0,1,1,1=1"}));

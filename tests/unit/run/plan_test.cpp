@@ -11,7 +11,7 @@
 namespace kerf {
 namespace {
 
-std::vector<PlannedRun> plans_of_ranks(int size, const RunOptions& request) {
+std::vector<PlannedRun> plans_of_ranks(int size, const RunRequest& request) {
     std::vector<PlannedRun> plans(static_cast<std::size_t>(size));
     test::run_ranks(size, [&](Communicator& ranks) {
         plans[static_cast<std::size_t>(ranks.rank())] = plan_run(request, 2 + ranks.rank(), ranks, nullptr);
@@ -29,16 +29,15 @@ bool have_same_sizes(const SizeField& a, const SizeField& b, const Vec3& low, do
 }
 
 void expect_same(const PlannedRun& a, const PlannedRun& b) {
-    EXPECT_TRUE(to_bytes(option_texts(a.plan.options, false)) == to_bytes(option_texts(b.plan.options, false)));
-    const DecomposeOptions &cuts = a.plan.options.decompose, &others = b.plan.options.decompose;
+    EXPECT_TRUE(to_bytes(option_texts(a.plan.request(), false)) == to_bytes(option_texts(b.plan.request(), false)));
+    const DecomposeOptions cuts = a.plan.decompose_options(), others = b.plan.decompose_options();
     EXPECT_EQ(cuts.parts, others.parts);
     EXPECT_EQ(cuts.region_sizes.max_volumes(), others.region_sizes.max_volumes());
-    EXPECT_EQ(cuts.cut.load.volume_weight, others.cut.load.volume_weight);
+    EXPECT_EQ(cuts.cut.volume_weight, others.cut.volume_weight);
     const Vec3 low = Vec3::Constant(-a.input.largest_coordinate);
     const double length = 2 * a.input.largest_coordinate;
     EXPECT_TRUE(have_same_sizes(cuts.cut.size, others.cut.size, low, length));
-    EXPECT_TRUE(have_same_sizes(cuts.cut.load.size, others.cut.load.size, low, length));
-    EXPECT_TRUE(to_bytes(a.plan.options.mesher) == to_bytes(b.plan.options.mesher));
+    EXPECT_TRUE(to_bytes(a.plan.mesher()) == to_bytes(b.plan.mesher()));
     EXPECT_EQ(a.plan.found_size.has_value(), b.plan.found_size.has_value());
     EXPECT_EQ(a.plan.surface_nodes.edges, b.plan.surface_nodes.edges);
     EXPECT_EQ(a.plan.surface_nodes.points, b.plan.surface_nodes.points);
@@ -56,14 +55,14 @@ void expect_same(const PlannedRun& a, const PlannedRun& b) {
 
 class PlanOnRanks : public testing::Test {
  protected:
-    RunOptions request(const std::string& input) const {
-        RunOptions options;
+    RunRequest request(const std::string& input) const {
+        RunRequest options;
         options.input = input;
         options.output = folder_.file("out");
         options.dry_run = true;
         return options;
     }
-    static void expect_same_on_all(const RunOptions& request) {
+    static void expect_same_on_all(const RunRequest& request) {
         const std::vector<PlannedRun> plans = plans_of_ranks(3, request);
         EXPECT_GT(plans[0].input.facets, 0);
         for (const PlannedRun& other : {plans[1], plans[2]}) expect_same(plans[0], other);
@@ -72,7 +71,7 @@ class PlanOnRanks : public testing::Test {
 };
 
 TEST_F(PlanOnRanks, IsTheSameForAllWaysToAskForSizes) {
-    RunOptions options = request(test::asset_path("hollow_box"));
+    RunRequest options = request(test::asset_path("hollow_box"));
     expect_same_on_all(options);
     options.sizes.size = Length::percent(5);
     options.deviation = Length::percent(1);
@@ -88,7 +87,7 @@ TEST_F(PlanOnRanks, IsTheSameForAllWaysToAskForSizes) {
 }
 
 TEST_F(PlanOnRanks, IsTheSameForARemeshedSurfaceWithNodesOnEdges) {
-    RunOptions options = request(test::asset_path("cylinder"));
+    RunRequest options = request(test::asset_path("cylinder"));
     options.remeshing = Remeshing::always;
     options.sizes.fineness = Fineness::coarse;
     options.order = 2;
@@ -98,8 +97,8 @@ TEST_F(PlanOnRanks, IsTheSameForARemeshedSurfaceWithNodesOnEdges) {
 TEST_F(PlanOnRanks, HasTheSurfaceOfRegionsEverywhere) {
     const std::array<std::int32_t, 3> cubes = {4, 4, 4};
     test::write_tets(folder_.file("grains.mesh"), cubes, test::grains(cubes, 3, 2));
-    RunOptions options = request(folder_.file("grains.mesh"));
-    options.decompose.parts = 1;  // a note says that there are more
+    RunRequest options = request(folder_.file("grains.mesh"));
+    options.parts = 1;  // a note says that there are more
     options.sizes.size = 0.5;
     const Input input = plans_of_ranks(1, options)[0].input;
     options.sizes.in_region = {input.complex.region_names()[0] + "=0.25"};

@@ -37,30 +37,34 @@ struct Preparation {
     }
 };
 
-Preparation prepare_on(int size, const std::function<Input()>& read, const RunOptions& options) {
+Preparation prepare_on(int size, const std::function<Input()>& read, const RunRequest& request) {
+    RunPlan plan;
+    plan.choices = choices_of(request);
     std::vector<PreparedParts> of_ranks(size);
     Preparation all;
     all.traffic.resize(size);
     test::run_ranks(size, [&](Communicator& ranks) {
         Input input = read();
-        Decomposition own = cut_surface(ranks, input, options, nullptr);
+        Decomposition own = cut_surface(ranks, input, plan, nullptr);
         const std::vector<TreeNode> nodes = gather_nodes(ranks, own.nodes, "host");
         test::CountingRanks counting(ranks);
-        of_ranks[ranks.rank()] = prepare_parts(counting, input, nodes, std::move(own), options);
+        of_ranks[ranks.rank()] = prepare_parts(counting, input, nodes, std::move(own), plan);
         all.traffic[ranks.rank()] = counting.traffic();
     });
     for (PreparedParts& prepared : of_ranks) all.add(std::move(prepared));
     return all;
 }
 
-RunOptions in_parts(std::int32_t parts, ContourMethod contour = ContourMethod::min_cut) {
-    RunOptions options;
-    options.decompose.parts = parts;
-    options.decompose.cut.contour = contour;
+RunRequest in_parts(std::int32_t parts, ContourMethod contour = ContourMethod::min_cut) {
+    RunRequest options;
+    options.parts = parts;
+    options.cut.contour = contour;
     return options;
 }
 
-void expect_the_same_for_any_ranks(const char* what, const std::function<Input()>& read, const RunOptions& options) {
+void expect_the_same_for_any_ranks(const char* what, const std::function<Input()>& read, const RunRequest& request) {
+    RunPlan plan;
+    plan.choices = choices_of(request);
     const Preparation alone = prepare_on(1, read, options);
     EXPECT_GT(alone.shared_edges, 0) << what;
     for (const int size : {2, 4, 8}) {
@@ -86,7 +90,7 @@ TEST(PrepareParts, TellsPartsOfRegionsTheSameForAnyNumberOfRanks) {
         const auto read = [&] {
             return make_input(body.facets.vertices, body.facets.facets, body.sides, body.names, body.facets.patch);
         };
-        const RunOptions options = in_parts(static_cast<std::int32_t>(body.names.size()) + 3);
+        const RunRequest options = in_parts(static_cast<std::int32_t>(body.names.size()) + 3);
         expect_the_same_for_any_ranks(bodies.name, read, options);
         contacts += prepare_on(1, read, options).contacts;
     }

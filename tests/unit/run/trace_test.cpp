@@ -33,14 +33,14 @@ class Witness : public RunListener {
 class TracedRun : public testing::TestWithParam<std::string> {
  protected:
     void SetUp() override {
-        RunOptions options;
+        RunRequest options;
         options.input = test::asset_path(GetParam());
         options.output = folder_.file("out");
-        options.trace_file = path_;
+        options.outputs.trace_file = path_;
         options.volume = false;
         options.sizes.size = 2;
-        options.decompose.parts = parts;
-        options.workers = 2;  // threads that write parts
+        options.parts = parts;
+        options.workers.count = 2;  // threads that write parts
         SingleRank rank;
         ASSERT_EQ(run(options, 2, rank, &witness_).exit_code, 0);
         trace_ = read_trace(path_);
@@ -79,10 +79,10 @@ TEST_P(TracedRun, EveryCutSurfaceIsReplayed) {
 
 // Both that the options are those of the run and that leaves are replayed.
 TEST_P(TracedRun, TheSamePartsCanBeMadeAgain) {
-    const RunOptions options = test::options_of(trace_);
-    EXPECT_EQ(options.decompose.parts, parts);
-    EXPECT_FALSE(options.decompose.cut.size.is_empty());
-    const Decomposition again = decompose(Surface(trace_.surface), options.decompose, {0, parts});
+    const DecomposeOptions options = test::options_of(trace_);
+    EXPECT_EQ(options.parts, parts);
+    EXPECT_FALSE(options.cut.size.is_empty());
+    const Decomposition again = decompose(Surface(trace_.surface), options, {0, parts});
     EXPECT_EQ(again.leaves.size(), static_cast<std::size_t>(parts));
     for (const Leaf& leaf : again.leaves)
         EXPECT_TRUE(to_bytes(replay(trace_, leaf.id).arrays()) == to_bytes(leaf.surface)) << leaf.id;
@@ -200,7 +200,7 @@ TEST_F(TraceFile, EveryChangedByteIsNoticed) {
 
 TEST_F(TraceFile, UnknownOptionsAreNamed) {
     Trace trace = read_trace(path_);
-    EXPECT_EQ(test::options_of(trace).decompose.parts, 2);
+    EXPECT_EQ(test::options_of(trace).parts, 2);
     trace.options.push_back({"frobnicate", "1"});
     EXPECT_THROW(test::options_of(trace), Error);
     trace.options.back() = {"balance", "luck"};

@@ -100,12 +100,12 @@ TEST(MesherOfSizes, ObeysTheField) {
 
 RunReport run_sized(const TemporaryFolder& folder, const Soup& soup, const SizeOptions& sizes, std::int32_t parts) {
     write_off(folder.file("input.off"), soup.vertices, soup.facets);
-    RunOptions options;
+    RunRequest options;
     options.input = folder.file("input.off");
     options.output = folder.file("out");
-    options.worker_program = test::worker_program();
-    options.workers = 2;
-    options.decompose.parts = parts;
+    options.workers.program = test::worker_program();
+    options.workers.count = 2;
+    options.parts = parts;
     options.sizes = sizes;
     SingleRank rank;
     return run(options, 2, rank);

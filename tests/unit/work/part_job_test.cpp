@@ -311,7 +311,7 @@ TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
     RunReport report;
     report.input.path = "box.stl";
     report.input.volume = 1;
-    report.options.workers = 1;
+    report.request.workers.count = 1;
     report.mesh.quality = run_part_job(job_of(test::box()), {}, folder.file("part")).quality;
     report.parts.resize(6);
     const auto set = [&](std::size_t i, const char* mesher, const std::string& strategy,
@@ -348,7 +348,7 @@ TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
     EXPECT_NE(
         to_text(report).find("9 facets that were not Delaunay: 6 by flips, 3 split for a while; 2 vertices added"),
         std::string::npos);
-    report.options.mesher.name = "tetgen";
+    report.request.mesher.name = "tetgen";
     EXPECT_EQ(to_text(report, ReportDetail::brief).find("TetGen"), std::string::npos);
 }
 
@@ -365,7 +365,7 @@ TEST(ReportOfParts, SaysWhichMesherFilledEachAndWhichWayItWent) {
     report.parts[2].result.strategy = "by a detour";
     report.parts[2].result.core_tets = 5;
     const nlohmann::json parts = nlohmann::json::parse(to_json(report)).at("parts");
-    EXPECT_EQ(parts[0].at("mesher"), report.options.mesher.name);
+    EXPECT_EQ(parts[0].at("mesher"), report.request.mesher.name);
     EXPECT_EQ(parts[1].at("mesher"), "tetgen");
     for (const int i : {0, 1}) {
         EXPECT_FALSE(parts[i].contains("way"));

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "run/prepare/slivers.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "viewer/model/inside/node_surface.h"
 
 namespace kerf::view {

@@ -31,7 +31,7 @@ std::string title_of(const std::string& path, const std::vector<std::string>& mo
 
 }  // namespace
 
-void DocumentLoader::open(const std::string& path, const RunOptions& options) {
+void DocumentLoader::open(const std::string& path, const RunRequest& options) {
     Document& document = shown_.document;
     document.path = path;
     document.options = options;
@@ -98,7 +98,7 @@ void DocumentLoader::show_files(const std::shared_ptr<const InputFiles>& files,
     repairs_.begin(files);
 }
 
-void DocumentLoader::show_trace(std::shared_ptr<const Trace> trace, const RunOptions& options) {
+void DocumentLoader::show_trace(std::shared_ptr<const Trace> trace, const RunRequest& options) {
     Document& document = shown_.document;
     document.kind = Document::Kind::trace;
     document.options = options;

@@ -17,13 +17,13 @@ class DocumentLoader {
         : background_(background), shown_(shown), fetched_(fetched), repairs_(repairs), follower_(follower) {}
 
     /// Opens a path as Session::open() does, where nothing is open.
-    void open(const std::string& path, const RunOptions& options);
+    void open(const std::string& path, const RunRequest& options);
 
  private:
     Loader::Completion read(const std::string& path, const InputOptions& input);  // on the loader's thread
     void show_error(ErrorCode code, const std::string& message);
     void show_files(const std::shared_ptr<const InputFiles>& files, const std::shared_ptr<const NodeSurface>& surface);
-    void show_trace(std::shared_ptr<const Trace> trace, const RunOptions& options);
+    void show_trace(std::shared_ptr<const Trace> trace, const RunRequest& options);
     void show_run(OpenedRun run);
     void show_partial_run(const OpenedPartialRun& run);
     void find_trace_of_run(const std::string& path);

@@ -55,7 +55,6 @@ std::string folder_of_edge_nodes(const Document& document) {
 
 SizeField field_of(SizeOptions sizes, const NodeSurface& whole, const std::vector<std::string>& patch_names) {
     sizes.resolve_lengths(box_around(whole.vertices).diagonal().norm());
-    if (!sizes.depends_on_place()) return SizeField(sizes.constant_max_volume());
     SurfaceArrays arrays;
     arrays.vertices = whole.vertices;
     arrays.facets = whole.facets;

@@ -38,10 +38,11 @@ std::string existing_path(const std::string& path, const std::string& beside) {
 }
 
 // A run that is made from the options of another one shall not write over its files. Returns the path of its trace.
-std::string take_files(RunOptions& options, const std::string& folder) {
-    std::string trace = options.trace_file.empty() ? "" : existing_path(options.trace_file, folder);
+std::string take_files(RunRequest& options, const std::string& folder) {
+    std::string trace = options.outputs.trace_file.empty() ? "" : existing_path(options.outputs.trace_file, folder);
     if (!trace.empty() && !exists(trace)) trace = folder + ".trace";  // of a run that the viewer has saved
-    for (std::string* file : {&options.report_file, &options.events_file, &options.trace_file}) file->clear();
+    for (std::string* file : {&options.outputs.report_file, &options.outputs.events_file, &options.outputs.trace_file})
+        file->clear();
     return trace;
 }
 
@@ -87,8 +88,8 @@ std::shared_ptr<const Soup> read_soup_if_there(const std::string& path, const In
 
 }  // namespace
 
-RunOptions options_of(const Trace& trace, const std::string& path) {
-    RunOptions options;
+RunRequest options_of(const Trace& trace, const std::string& path) {
+    RunRequest options;
     for (const OptionText& option : trace.options) {
         try {
             set_options(options, {option}, "The trace");

@@ -40,7 +40,7 @@ struct PartialRun {
 
 /// A run that is under way, or was interrupted.
 struct OpenedPartialRun {
-    RunOptions options;
+    RunRequest options;
     std::string folder, partial, trace;
     PartialRun state;
     std::vector<std::string> patch_names;
@@ -62,7 +62,7 @@ std::set<NodeId> parts_taken(const std::string& partial);
 
 /// Returns the options of the trace, which lies at `path`. Options that this version does not know are left out, so
 /// that the trace of another version is shown, too.
-RunOptions options_of(const Trace& trace, const std::string& path);
+RunRequest options_of(const Trace& trace, const std::string& path);
 
 /// Fills a document with the tree, the numbers and the files of a finished run. Its trace stays: the caller drops one
 /// whose cuts are not those of the run (is_trace_of()).

@@ -15,20 +15,21 @@ namespace kerf::view {
 namespace {
 
 // Files that nobody has named lie in the scratch folder.
-void name_files(RunOptions& options, Followed& run) {
+void name_files(RunRequest& options, Followed& run) {
     const ScratchFolder& scratch = *run.scratch;
     options.output = options.output.empty() ? scratch.file("run") : absolute_path(options.output);
-    options.trace_file = options.trace_file.empty() ? scratch.file("run.trace") : absolute_path(options.trace_file);
-    options.events_file = scratch.file("events");
+    options.outputs.trace_file =
+        options.outputs.trace_file.empty() ? scratch.file("run.trace") : absolute_path(options.outputs.trace_file);
+    options.outputs.events_file = scratch.file("events");
     run.input = options.input;
     run.output = options.output;
-    run.trace = options.trace_file;
-    run.tail.emplace(options.events_file);
+    run.trace = options.outputs.trace_file;
+    run.tail.emplace(options.outputs.events_file);
 }
 
 }  // namespace
 
-void OwnRuns::start(RunOptions options, bool volume) {
+void OwnRuns::start(RunRequest options, bool volume) {
     leave();
     Followed run;
     run.before = follower_.take_before();
@@ -66,7 +67,7 @@ void OwnRuns::start(RunOptions options, bool volume) {
         launch_on_surface_of_trace(options, scratch);
 }
 
-void OwnRuns::launch(const RunOptions& options, const std::shared_ptr<ScratchFolder>& scratch) {
+void OwnRuns::launch(const RunRequest& options, const std::shared_ptr<ScratchFolder>& scratch) {
     try {
         process_ = std::make_unique<RunProcess>(kerf_, command_line_of(options, options.volume), scratch);
     } catch (const std::exception& error) {
@@ -74,7 +75,7 @@ void OwnRuns::launch(const RunOptions& options, const std::shared_ptr<ScratchFol
     }
 }
 
-void OwnRuns::launch_on_surface_of_trace(const RunOptions& options, const std::shared_ptr<ScratchFolder>& scratch) {
+void OwnRuns::launch_on_surface_of_trace(const RunRequest& options, const std::shared_ptr<ScratchFolder>& scratch) {
     if (document_.patch_names.size() > 1) document_.notes.push_back("The run does not know the names of the patches");
     const auto write = [this, trace = document_.trace, options, scratch]() -> Loader::Completion {
         write_surface_of(*trace, options.input);

@@ -24,7 +24,7 @@ class OwnRuns {
           follower_(follower) {}
 
     /// Do as Session::start_run() and Session::cancel_run() say.
-    void start(RunOptions options, bool volume);
+    void start(RunRequest options, bool volume);
     void cancel();
 
     /// Interrupts our run, whose end nobody waits for.
@@ -38,8 +38,8 @@ class OwnRuns {
     void end();
 
  private:
-    void launch(const RunOptions& options, const std::shared_ptr<ScratchFolder>& scratch);
-    void launch_on_surface_of_trace(const RunOptions& options, const std::shared_ptr<ScratchFolder>& scratch);
+    void launch(const RunRequest& options, const std::shared_ptr<ScratchFolder>& scratch);
+    void launch_on_surface_of_trace(const RunRequest& options, const std::shared_ptr<ScratchFolder>& scratch);
 
     std::string kerf_;
     Background& background_;

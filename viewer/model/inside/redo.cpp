@@ -18,6 +18,7 @@
 #include "cut/decompose/cap_quality.h"
 #include "cut/decompose/cap_triangulation.h"
 #include "run/prepare/size_reader.h"
+#include "run/request/run_choices.h"
 #include "surface/complex/touching.h"
 #include "viewer/model/inside/tree_source.h"
 
@@ -127,22 +128,23 @@ MadeCut make_cut(const Surface& surface, NodeId node, const CutPlace& place, con
 
 }  // namespace
 
-RedoneCut redo_cut(Replayer& replayer, NodeId node, RunOptions options, const std::optional<Plane>& plane) {
-    options = resolved(std::move(options));
+RedoneCut redo_cut(Replayer& replayer, NodeId node, RunRequest options, const std::optional<Plane>& plane) {
+    RunChoices choices = choices_of(std::move(options));
     const Trace& old = *replayer.trace();
     Eigen::AlignedBox3d box;
     for (const Vec3& p : old.surface.vertices) box.extend(p);
-    options = with_sizes_on(with_lengths(std::move(options), box.diagonal().norm()), old.surface, old.patch_names);
+    SizeOptions& sizes = choices.request.sizes;
+    sizes.resolve_lengths(box.diagonal().norm());
+    DecomposeOptions cuts = choices.decompose_options(read_size_field(sizes, old.surface, old.patch_names));
     const Cut* before = old.find(node);
     RedoneCut redone;
     const std::shared_ptr<const Surface> surface = replayer.uncut_surface(node);
-    options.decompose.cut = options.decompose.cut.of(*surface);
-    const CutOptions& cut_options = options.decompose.cut;
+    cuts.cut = cuts.cut.of(*surface);
     const MassProperties mass = mass_properties(*surface);
-    const CutPlace place = plane    ? place_of(*plane, *surface, mass, cut_options)
+    const CutPlace place = plane    ? place_of(*plane, *surface, mass, cuts.cut)
                            : before ? before->place
-                                    : choose_place(*surface, mass, 2, cut_options);
-    MadeCut made = make_cut(*surface, node, place, options.decompose);
+                                    : choose_place(*surface, mass, 2, cuts.cut);
+    MadeCut made = make_cut(*surface, node, place, cuts);
     redone.rows.push_back(row_of(node, *surface));
     describe_cut(made.cut, redone.rows.front());
     redone.rows.front().leaves = made.cut.made() ? 2 : 1;

@@ -32,7 +32,7 @@ struct Followed {
     // The members below are for a run of ours.
     std::shared_ptr<ScratchFolder> scratch;
     bool has_scratch_output = false;
-    RunOptions options;              ///< the options as they were asked for
+    RunRequest options;              ///< the options as they were asked for
     std::optional<Document> before;  ///< the document that was shown; empty: there was none, or it was set aside
 
     std::string partial() const { return output + ".kerf-partial"; }

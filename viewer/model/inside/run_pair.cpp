@@ -101,7 +101,7 @@ void RunPair::save(const std::string& path) {
     background_.post(background_.open, copy);
 }
 
-void RunPair::redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane) {
+void RunPair::redo_cut(NodeId node, const RunRequest& options, const std::optional<Plane>& plane) {
     background_.forget_failures();
     if (!now_.replayer || !now_.document.tree.find(node)) {
         background_.note_failure("A cut can be made again where a trace of the run is open.");

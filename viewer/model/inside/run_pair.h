@@ -22,7 +22,7 @@ class RunPair {
     /// Makes the cut of one node again with other options, in the background; needs a trace. The result takes the
     /// place of that cut in Document::trace; the cuts and parts below it are gone, and so are measures of the whole
     /// run. The cut is made at `plane` if there is one, else where it was (view::redo_cut()).
-    void redo_cut(NodeId node, const RunOptions& options, const std::optional<Plane>& plane = {});
+    void redo_cut(NodeId node, const RunRequest& options, const std::optional<Plane>& plane = {});
 
     /// Returns whether a finished run is open that is removed with this session and was not saved yet.
     bool can_save() const;

@@ -53,10 +53,10 @@ ScratchFolder::~ScratchFolder() {
     }
 }
 
-std::vector<std::string> command_line_of(RunOptions options, bool volume) {
+std::vector<std::string> command_line_of(RunRequest options, bool volume) {
     std::vector<std::string> arguments = {volume ? "mesh" : "decompose", options.input, "--output=" + options.output,
                                           "--quiet"};
-    RunOptions defaults;
+    RunRequest defaults;
     const std::vector<OptionField> fields = option_fields(options), default_fields = option_fields(defaults);
     for (std::size_t i = 0; i < fields.size(); ++i) {
         const std::string text = fields[i].text();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fill/volume/child_process.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 #include "run/run/trace.h"
 
 namespace kerf::view {
@@ -28,7 +28,7 @@ class ScratchFolder {
 
 /// Returns the command line of a run without the program: the options that differ from the defaults of kerf. `options`
 /// has the paths of input, output, trace and events, too.
-std::vector<std::string> command_line_of(RunOptions options, bool volume);
+std::vector<std::string> command_line_of(RunRequest options, bool volume);
 
 /// Writes the surface of a trace so that its coordinates are read back bit for bit; patches keep their numbers, but not
 /// their names. Throws Error(io).

@@ -13,7 +13,7 @@ namespace kerf::view {
 /// The contents of a report that the viewer shows.
 struct RunReportFile {
     Tree tree;
-    RunOptions options;  ///< options of the run, with the input's path
+    RunRequest options;  ///< options of the run, with the input's path
     std::int64_t input_facets = 0, input_vertices = 0;
     std::vector<std::string> region_names;  ///< names of the regions, where there are several
     std::vector<std::string> patch_names;   ///< empty in a report of an older version

@@ -16,7 +16,7 @@ namespace kerf::view {
 /// A cut that is to be made again.
 struct CutAgain {
     NodeId node = 1;
-    RunOptions options;
+    RunRequest options;
     std::optional<Plane> plane;
 };
 

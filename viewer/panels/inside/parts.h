@@ -108,7 +108,7 @@ void draw_repairs_of(UiContext& context, DefectKind kind);
 /// when the value changes, as options are held against files.
 struct AdvisedRun {
     std::string value, made_for;        ///< value as typed; value that `options` were made for
-    std::optional<RunOptions> options;  ///< none: there is no value, or no valid one
+    std::optional<RunRequest> options;  ///< none: there is no value, or no valid one
 };
 struct ProblemsMemory {
     std::map<std::string, AdvisedRun> advised;  ///< advised options, by name and by the value if the text names one
@@ -175,7 +175,7 @@ void draw_comparison(UiContext& context, ComparisonMemory& memory);
 
 struct ParametersMemory {
     Section section;
-    RunOptions options;      ///< the options as edited
+    RunRequest options;      ///< the options as edited
     std::string options_of;  ///< key_of() the document that they were taken from
     std::string wrong;       ///< the error in these options; empty: none
     ComparisonMemory comparison;

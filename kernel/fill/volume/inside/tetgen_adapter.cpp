@@ -245,7 +245,9 @@ TetMesh to_mesh(tetgenio& out, const SurfaceArrays& surface, const std::vector<s
 void check_tetgen_switches(const std::string& switches) {
     if (switches.find_first_not_of(std::string(expert_letters) + "0123456789./") != switches.npos)
         refuse_switches(switches);
-    parse_switches({.tetgen = {.switches = switches}});
+    MesherOptions options;
+    options.tetgen.switches = switches;
+    parse_switches(options);
 }
 
 TetMesh mesh_with_tetgen(const SurfaceArrays& surface, const std::vector<Vec3>& holes, const MesherOptions& options) {

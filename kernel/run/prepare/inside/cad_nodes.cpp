@@ -161,7 +161,7 @@ void set_points(Input& input, const std::vector<Vec3>& points) {
 
 }  // namespace
 
-std::vector<Vec3> move_onto_cad(Input& input, const RunOptions& options) {
+std::vector<Vec3> move_onto_cad(Input& input, const RunRequest& options) {
     const FileHash hash = digest_of(read_file(input.path));
     if (hash_text(hash) != input.file_hash) {
         input.notes.emplace_back("The edges of second order are straight: faces of one CAD file alone are known.");

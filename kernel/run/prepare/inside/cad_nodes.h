@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "run/prepare/input.h"
-#include "run/request/options.h"
+#include "run/request/run_request.h"
 
 namespace kerf {
 
@@ -12,6 +12,6 @@ namespace kerf {
 /// the faces that are nearest to the middles of all edges, in the order of PlacedSurface::edges; NaN for edges that end
 /// beside the faces, since their vertices had to stay. Returns nothing, with a note, for an input of several files.
 /// Throws as project_on_cad_file().
-std::vector<Vec3> move_onto_cad(Input& input, const RunOptions& options);
+std::vector<Vec3> move_onto_cad(Input& input, const RunRequest& options);
 
 }  // namespace kerf

@@ -28,8 +28,8 @@ std::vector<ExceededBound> exceeded_bounds(const RunReport& report) {
         if (const std::int64_t cells = count_beyond(values, bound); cells > 0)
             exceeded.push_back({option, bound, cells, values.max()});
     };
-    add("max-volume", report.options.sizes.max_volume, report.mesh.quality.all.measures[volume]);
-    add("radius-edge", report.options.mesher.radius_edge, report.mesh.quality.all.measures[radius_edge]);
+    add("max-volume", report.request.sizes.max_volume, report.mesh.quality.all.measures[volume]);
+    add("radius-edge", report.request.mesher.radius_edge, report.mesh.quality.all.measures[radius_edge]);
     return exceeded;
 }
 

@@ -52,11 +52,11 @@ double expected_facets(const PartReport& part) {
     return static_cast<double>(part.surface_facets - part.interface_facets) + expected_interface_facets(part);
 }
 
-Forecast forecast_of(const PartReport& part, const RunOptions& options) {
+Forecast forecast_of(const PartReport& part, const MesherOptions& mesher) {
     return forecast(
         {expected_facets(part), part.tets_at_facets + tets_at_interface_facet * expected_interface_facets(part),
          part.sized_volume},
-        options.mesher);
+        mesher);
 }
 
 // The number of tetrahedra for which there must be room.
@@ -86,16 +86,17 @@ double pace_of_reading(double seconds, double facets) {
     return std::clamp(seconds / (seconds_to_begin + seconds_per_facet * facets), fastest, slowest);
 }
 
-std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most) {
-    KERF_CHECK(ranks >= 1 && options.workers >= 1 && most >= 1);
-    const double tets = most_tets(facets, volume, options.mesher);
-    double parts = std::min<double>(parts_per_worker * ranks * options.workers, tets / least_tets_per_part);
-    if (options.memory_mb > 0) {
-        const double available = static_cast<double>(options.memory_mb) * (1 << 20) - reserved_bytes;
+std::int32_t choose_parts(const WorkerOptions& workers, const MesherOptions& mesher, double facets, double volume,
+                          int ranks, std::int32_t most) {
+    KERF_CHECK(ranks >= 1 && workers.count >= 1 && most >= 1);
+    const double tets = most_tets(facets, volume, mesher);
+    double parts = std::min<double>(parts_per_worker * ranks * workers.count, tets / least_tets_per_part);
+    if (workers.memory_mb > 0) {
+        const double available = static_cast<double>(workers.memory_mb) * (1 << 20) - reserved_bytes;
         if (available <= 0)
             throw Error(ErrorCode::usage, fmt::format("--memory is {}, but a worker needs {:.0f} MB before it begins.",
-                                                      options.memory_mb, reserved_bytes / (1 << 20)));
-        parts = std::max(parts, std::ceil(safety * known_of(options.mesher).bytes_per_tet * tets / available));
+                                                      workers.memory_mb, reserved_bytes / (1 << 20)));
+        parts = std::max(parts, std::ceil(safety * known_of(mesher).bytes_per_tet * tets / available));
     }
     return static_cast<std::int32_t>(std::clamp<double>(parts, 1, most));
 }
@@ -116,11 +117,11 @@ double bytes_waiting(const std::string& output) {
 
 // Bytes of all files that lie there at once, for a tetrahedron. Stores of parts that no format asks for again make room
 // while these are written.
-double disk_bytes_per_tet(const RunOptions& options) {
+double disk_bytes_per_tet(const RunChoices& choices) {
+    const auto fields = static_cast<double>(choices.fields.count());
     double bytes = 0, stored = 0;
-    for (const Format* format : parse_formats(options.formats)) {
+    for (const Format* format : choices.formats) {
         const bool is_vtu = format == &find_format("vtu");
-        const auto fields = static_cast<double>(parse_cell_fields(options.fields).count());
         bytes += is_vtu ? vtu_bytes_per_tet + field_bytes_per_tet * fields : file_bytes_per_tet;
         if (!format->asks_for_one_part) stored = stored_bytes_per_tet;
     }
@@ -148,16 +149,16 @@ double least_size(const MesherOptions& mesher, double facets, double volume, Fac
 
 }  // namespace
 
-void check_budget(const RunOptions& options, double facets, double volume, Facets of_surface) {
-    KERF_CHECK(options.decompose.parts >= 1);
-    const double parts = options.decompose.parts;
-    const double tets = most_tets(facets, volume, options.mesher);
-    const MesherForecast& known = known_of(options.mesher);
+void check_budget(const RunChoices& choices, const MesherOptions& mesher, std::int32_t parts, double facets,
+                  double volume, Facets of_surface) {
+    KERF_CHECK(parts >= 1);
+    const double tets = most_tets(facets, volume, mesher);
+    const MesherForecast& known = known_of(mesher);
     const auto way_out = [&](double affordable) {
-        const double size = least_size(options.mesher, facets, volume, of_surface, affordable);
-        return size == 0                           ? std::string("Use a coarser surface")
-               : options.mesher.size.is_constant() ? fmt::format("Use --size {:.2g} or larger", size)
-                                                   : std::string("Use larger sizes");
+        const double size = least_size(mesher, facets, volume, of_surface, affordable);
+        return size == 0                   ? std::string("Use a coarser surface")
+               : mesher.size.is_constant() ? fmt::format("Use --size {:.2g} or larger", size)
+                                           : std::string("Use larger sizes");
     };
     const double enough = std::ceil(tets / known.most_tets);
     if (tets > known.most_tets * parts)
@@ -169,14 +170,15 @@ void check_budget(const RunOptions& options, double facets, double volume, Facet
                                 of_surface == Facets::are_given && enough <= facets / 4
                                     ? fmt::format(", or -n {:.0f} or more", enough)
                                     : ""));
-    if (!options.volume) return;
+    const RunRequest& request = choices.request;
+    if (!request.volume) return;
     std::error_code error;
-    std::filesystem::path folder = std::filesystem::path(RunFolder::folders_of(options.output).front()).parent_path();
+    std::filesystem::path folder = std::filesystem::path(RunFolder::folders_of(request.output).front()).parent_path();
     while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
     const std::filesystem::space_info space = std::filesystem::space(folder, error);
-    const double available = static_cast<double>(space.available) + bytes_waiting(options.output);
+    const double available = static_cast<double>(space.available) + bytes_waiting(request.output);
     const bool is_known = !error && space.capacity > 0;
-    const double bytes = disk_bytes_per_tet(options);
+    const double bytes = disk_bytes_per_tet(choices);
     if (!is_known || certain * tets * bytes <= available) return;
     throw Error(
         ErrorCode::memory,
@@ -186,14 +188,14 @@ void check_budget(const RunOptions& options, double facets, double volume, Facet
                     way_out(available / bytes)));
 }
 
-std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part,
+std::string plan_text(const std::vector<PartReport>& parts, const MesherOptions& mesher, int workers, bool every_part,
                       double pace) {
-    KERF_CHECK(ranks >= 1 && options.workers >= 1 && pace > 0);
+    KERF_CHECK(workers >= 1 && pace > 0);
     Forecast all, largest;
     std::string table;
     if (every_part) table = fmt::format("{:>10} {:>10} {:>12} {:>10} {:>9}\n", "part", "facets", "tets", "MB", "s");
     for (const PartReport& part : parts) {
-        Forecast f = forecast_of(part, options);
+        Forecast f = forecast_of(part, mesher);
         f.seconds *= pace;
         all.tets += f.tets;
         all.seconds += f.seconds;
@@ -202,7 +204,6 @@ std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& op
             table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id,
                                  std::llround(expected_facets(part)), f.tets, f.memory_bytes / (1 << 20), f.seconds);
     }
-    const int workers = ranks * options.workers;
     return fmt::format("{:<11} {} parts for {} worker{}, about {} tetrahedra in {}; the largest part {}, {:.0f} MB\n",
                        "plan", parts.size(), workers, workers == 1 ? "" : "s", short_number(all.tets),
                        seconds_text(std::max(largest.seconds, all.seconds / workers)), short_number(largest.tets),
@@ -217,17 +218,17 @@ std::string plan_text(double seconds, std::int64_t peak_rss_bytes) {
 
 std::string plan_text(const FoundSize& found) { return fmt::format("{:<11} {}\n", "cells", found_size_text(found)); }
 
-RunningForecast::RunningForecast(const std::vector<PartReport>& parts, const RunOptions& options, int ranks)
-    : options_(options), workers_(ranks * options.workers) {
+RunningForecast::RunningForecast(const std::vector<PartReport>& parts, MesherOptions mesher, int workers)
+    : mesher_(std::move(mesher)), workers_(workers) {
     for (const PartReport& part : parts) {
-        const Forecast f = forecast_of(part, options_);
+        const Forecast f = forecast_of(part, mesher_);
         tets_ahead_ += f.tets;
         if (!part.resumed) seconds_ahead_ += f.seconds;
     }
 }
 
 void RunningForecast::add(const PartReport& part) {
-    const Forecast f = forecast_of(part, options_);
+    const Forecast f = forecast_of(part, mesher_);
     tets_ahead_ -= f.tets;
     if (part.result.tets > 0) {
         tets_forecast_ += f.tets;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "run/report/report.h"
+#include "run/request/run_choices.h"
 
 namespace kerf {
 
@@ -32,22 +33,24 @@ Forecast forecast(const BodyToFill& body, const MesherOptions& mesher);
 double pace_of_reading(double seconds, double facets);
 
 /// Chooses K, the number of parts, where the user gives none: four for each worker of all ranks, fewer if they would be
-/// tiny, more where a worker with options.memory_mb would otherwise have too little for its part; never more than
-/// `most` >= 1. The options must be resolved. Throws Error(usage) if no number of parts would do.
-std::int32_t choose_parts(const RunOptions& options, double facets, double volume, int ranks, std::int32_t most);
+/// tiny, more where a worker would otherwise have too little memory for its part; never more than `most` >= 1. The
+/// number of workers must be known. Throws Error(usage) if no number of parts would do.
+std::int32_t choose_parts(const WorkerOptions& workers, const MesherOptions& mesher, double facets, double volume,
+                          int ranks, std::int32_t most);
 
 /// The facets of a body when sizes change: they stay, or follow the size of the tetrahedra that are wanted, as those of
 /// a remeshed surface do.
 enum class Facets { are_given, follow_size };
 
 /// Refuses a run that cannot end well, before anything is cut. Throws Error(memory), with the number of tetrahedra and
-/// the way out, if, with the most tetrahedra that the mesher is known to make, one of options.decompose.parts parts
-/// would hold more than their numbers can count, or the files would not fit on the disk of options.output.
-void check_budget(const RunOptions& options, double facets, double volume, Facets of_surface = Facets::are_given);
+/// the way out, if, with the most tetrahedra that the mesher is known to make, one of so many `parts` would hold more
+/// than their numbers can count, or the files would not fit on the disk of RunRequest::output.
+void check_budget(const RunChoices& choices, const MesherOptions& mesher, std::int32_t parts, double facets,
+                  double volume, Facets of_surface = Facets::are_given);
 
-/// Returns one line on parts, tetrahedra, memory and time; with `every_part` a table below it. Seconds are multiplied
-/// by `pace`.
-std::string plan_text(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, bool every_part,
+/// Returns one line on parts, tetrahedra, memory and time with the `workers` of all ranks; with `every_part` a table
+/// below it. Seconds are multiplied by `pace`.
+std::string plan_text(const std::vector<PartReport>& parts, const MesherOptions& mesher, int workers, bool every_part,
                       double pace = 1);
 
 /// Returns one line on the cost of reading and cutting the surface on the first rank: wall clock, and the most memory
@@ -61,9 +64,9 @@ std::string plan_text(const FoundSize& found);
 /// those of the parts that have ended were off.
 class RunningForecast {
  public:
-    /// Takes all parts of the run. Those that an interrupted run has finished count as parts that have ended, but their
-    /// seconds do not count.
-    RunningForecast(const std::vector<PartReport>& parts, const RunOptions& options, int ranks);
+    /// Takes all parts of the run, and the workers of all ranks. Parts that an interrupted run has finished count as
+    /// parts that have ended, but their seconds do not count.
+    RunningForecast(const std::vector<PartReport>& parts, MesherOptions mesher, int workers);
     /// Counts a part that has ended, well or not; each is to be counted once, resumed ones too.
     void add(const PartReport& part);
 
@@ -74,7 +77,7 @@ class RunningForecast {
     double seconds_left(double elapsed) const;
 
  private:
-    const RunOptions& options_;
+    MesherOptions mesher_;
     int workers_;
     double tets_ahead_ = 0, seconds_ahead_ = 0;        // forecast of parts that have not ended
     double tets_forecast_ = 0, tets_found_ = 0;        // forecast and result of parts that have ended well

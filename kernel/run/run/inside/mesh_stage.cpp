@@ -60,7 +60,7 @@ StoredParts number_parts(const RunFolder& folder, const RunReport& report, std::
 // that it writes into the folder are gone when this returns. That there is no mesh is said by the outcome.
 PartOutcome mesh_in_one_piece(const RunContext& run, const RunFolder& folder, const Surface& surface,
                               double length_scale) {
-    const RunOptions& options = run.plan.options;
+    const WorkerOptions& workers = run.plan.request().workers;
     constexpr int no_leaf = 0;
     PartJob job;
     job.part = no_leaf;
@@ -70,8 +70,8 @@ PartOutcome mesh_in_one_piece(const RunContext& run, const RunFolder& folder, co
     job.length_scale = length_scale;
     const std::string job_file = folder.job_file(no_leaf), part_file = folder.stored_part_file(no_leaf);
     write_job(job_file, job);
-    PartQueue queue({{job_file, part_file, options.mesher.size, box_around(job.surface.vertices)}},
-                    {options.worker_program, options.mesher, 1, options.timeout_seconds, 0, options.attempts});
+    PartQueue queue({{job_file, part_file, run.plan.size, box_around(job.surface.vertices)}},
+                    {workers.program, run.plan.mesher(), 1, workers.timeout_seconds, 0, workers.attempts});
     queue.add(0);
     std::optional<PartQueue::Finished> finished;
     while (!finished) {
@@ -116,9 +116,9 @@ struct NodesOnEdges {
 };
 
 NodesOnEdges with_second_order(const RunContext& run, const StoredParts& parts) {
-    if (run.plan.options.order != 2) return {};
+    if (run.plan.request().order != 2) return {};
     EdgeNumbers numbers = number_edges_together(run.ranks, parts, run.listener);
-    if (!run.plan.options.has_curved_edges())
+    if (!run.plan.request().has_curved_edges())
         return {std::make_unique<const SecondOrderParts>(parts, std::move(numbers), CurvedNodes())};
     CurvedMesh curved = curve_parts(run.ranks, parts, numbers, run.plan.surface_nodes, run.listener);
     return {std::make_unique<const SecondOrderParts>(parts, std::move(numbers), std::move(curved.nodes)),
@@ -141,23 +141,23 @@ RunReport with_node_counts(RunReport report, const SecondOrderParts& parts) {
 // Writes all formats; only vtu where parts have failed.
 std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folder, const StoredParts& stored,
                                    const SecondOrderParts* of_order_2, const std::vector<PartReport>& reports) {
-    const RunOptions& wanted = run.plan.options;
-    std::vector<const Format*> formats = parse_formats(wanted.formats);
+    const RunChoices& choices = run.plan.choices;
+    std::vector<const Format*> formats = choices.formats;
     if (failure_code(reports) != 0) formats = {&find_format("vtu")};
     const bool stores_go =
         stored.outline().is_whole &&
         std::all_of(formats.begin(), formats.end(), [](const Format* f) { return f->asks_for_one_part; });
-    const FormatOptions options{.fields = parse_cell_fields(wanted.fields),
-                                .patch_types = parse_patch_types(wanted.patch_types),
-                                .split_regions = wanted.split_regions};
+    const FormatOptions options{.fields = choices.fields,
+                                .patch_types = choices.patch_types,
+                                .split_regions = choices.request.outputs.split_regions};
     const WriteTarget target{.folder = folder.partial_path(), .options = options};
     in_agreement(run.ranks, [&] {
         if (run.is_root() && of_order_2 && !has_vtu(formats))  // vtu has all nodes
             write_curved_nodes(curved_nodes_file(folder.partial_path()), of_order_2->curved());
     });
     const PartSource& parts = of_order_2 ? static_cast<const PartSource&>(*of_order_2) : stored;
-    return write_parts(run.ranks, parts, places_in_run_folder(formats), target, wanted.workers, run.listener,
-                       [&](PartIndex part) {
+    return write_parts(run.ranks, parts, places_in_run_folder(formats), target, choices.request.workers.count,
+                       run.listener, [&](PartIndex part) {
                            if (stores_go) stored.remove(part);
                        });
 }
@@ -165,7 +165,7 @@ std::vector<RunFile> write_formats(const RunContext& run, const RunFolder& folde
 // Writes the parts as files, or gives them to the listener of a transient run.
 std::vector<RunFile> pass_on_meshes(const RunContext& run, const RunFolder& folder, const StoredParts& parts,
                                     const SecondOrderParts* of_order_2, const std::vector<PartReport>& reports) {
-    if (!run.plan.options.transient) return write_formats(run, folder, parts, of_order_2, reports);
+    if (!run.plan.request().transient) return write_formats(run, folder, parts, of_order_2, reports);
     in_agreement(run.ranks, [&] {
         if (run.listener && parts.outline().is_whole) run.listener->on_meshes(parts, of_order_2);
     });
@@ -175,7 +175,7 @@ std::vector<RunFile> pass_on_meshes(const RunContext& run, const RunFolder& fold
 }  // namespace
 
 std::optional<Surface> surface_for_reference(const RunContext& run, const Input& input) {
-    if (!run.plan.options.reference || !run.is_root()) return std::nullopt;
+    if (!run.plan.request().outputs.reference || !run.is_root()) return std::nullopt;
     if (input.complex.region_count() > 1)
         throw Error(ErrorCode::usage, fmt::format("--reference meshes the whole in one piece, but {} has {} regions. "
                                                   "Leave it out.",

@@ -20,8 +20,8 @@ std::string text_of_option(const nlohmann::json& value) {
 
 }  // namespace
 
-RunOptions options_of_report(const nlohmann::json& options) {
-    RunOptions result;
+RunRequest options_of_report(const nlohmann::json& options) {
+    RunRequest result;
     for (const OptionField& field : option_fields(result))
         if (const auto value = options.find(field.name); value != options.end()) field.set_text(text_of_option(*value));
     return result;

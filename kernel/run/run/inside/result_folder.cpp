@@ -29,17 +29,17 @@ namespace kerf {
 namespace {
 
 // Saves the options: a run that is continued by the name of its folder has nothing else to go by.
-void save(const RunOptions& options, const Input& input, const RunFolder& folder) {
+void save(const RunRequest& request, const Input& input, const RunFolder& folder) {
     std::error_code ignored;
-    if (options.sizes.background)
+    if (request.sizes.background)
         std::filesystem::remove(folder.saved_run_file(), ignored);
     else
-        save_run(folder.saved_run_file(), options, input.file_hash);
+        save_run(folder.saved_run_file(), request, input.file_hash);
 }
 
 // Files of vtu hold all that those of the store do; a run with failed parts is continued from the latter.
-void remove_stored_parts(const RunOptions& options, const RunFolder& folder, int exit_code) {
-    if (!has_vtu(parse_formats(options.formats)) || exit_code != 0) return;
+void remove_stored_parts(const RunChoices& choices, const RunFolder& folder, int exit_code) {
+    if (!has_vtu(choices.formats) || exit_code != 0) return;
     remove_run_files(folder.partial_path(), [](const std::string& file) { return is_stored_part(file); });
 }
 
@@ -48,7 +48,7 @@ std::int64_t peak_memory(const RunContext& run, const std::vector<PartReport>& p
     std::int64_t largest_worker = 0, sum = 0;
     for (const PartReport& part : parts) largest_worker = std::max(largest_worker, part.result.peak_rss_bytes);
     for (const std::int64_t bytes : all_gather(run.ranks, own_peak_rss_bytes()))
-        sum += bytes + run.plan.options.workers * largest_worker;
+        sum += bytes + run.plan.request().workers.count * largest_worker;
     return sum;
 }
 
@@ -106,52 +106,53 @@ std::vector<RunFile> list_run_files(const RunContext& run, const RunFolder& fold
 }  // namespace
 
 RunFolder open_folder(const RunContext& run, const Input& input) {
-    const RunOptions& options = run.plan.options;
+    const RunRequest& request = run.plan.request();
     return open_together(run.ranks, [&] {
-        if (options.transient) return RunFolder::create_transient(options.output);
-        return RunFolder::create(options.output, [&](const std::string& saved) {
-            return options.volume && is_same_run(saved, options, input.file_hash);
+        if (request.transient) return RunFolder::create_transient(request.output);
+        return RunFolder::create(request.output, [&](const std::string& saved) {
+            return request.volume && is_same_run(saved, request, input.file_hash);
         });
     });
 }
 
 void keep_folder(const RunContext& run, const Input& input, RunFolder& folder) {
-    const RunOptions& options = run.plan.options;
+    const RunRequest& request = run.plan.request();
     in_agreement(run.ranks, [&] {
-        if (!run.is_root() || !options.volume || options.transient) return;
-        if (folder.finished_parts() == 0) save(options, input, folder);  // else the options are those of the finished
+        if (!run.is_root() || !request.volume || request.transient) return;
+        if (folder.finished_parts() == 0) save(request, input, folder);  // else the options are those of the finished
         folder.keep();                                                   // parts, until this run knows its own
     });
 }
 
 std::size_t clear_folder(const RunContext& run, const Input& input, RunFolder& folder,
                          const std::vector<PartReport>& parts) {
-    const RunOptions& options = run.plan.options;
+    const RunRequest& request = run.plan.request();
     return in_agreement(run.ranks, [&] {
-        if (!run.is_root() || options.transient) return std::size_t{0};
+        if (!run.is_root() || request.transient) return std::size_t{0};
         const std::size_t finished = folder.finished_parts();
         std::vector<int> leaves;
-        if (options.volume)
+        if (request.volume)
             for (const PartReport& part : parts) leaves.push_back(part.id);
         folder.keep_only(leaves);
-        if (options.volume) save(options, input, folder);
+        if (request.volume) save(request, input, folder);
         return finished;
     });
 }
 
 RunReport finish_run(const RunContext& run, std::optional<RunFolder>& folder, RunReport report) {
-    const RunOptions& options = run.plan.options;
+    const RunRequest& request = run.plan.request();
     report.peak_rss_bytes = peak_memory(run, report.parts);
-    if (options.transient) {
+    if (request.transient) {
         report.seconds.wall = run.longest(run.whole);
         in_agreement(run.ranks, [&] {
-            if (run.is_root() && !options.report_file.empty()) write_output_file(options.report_file, to_json(report));
+            if (run.is_root() && !request.outputs.report_file.empty())
+                write_output_file(request.outputs.report_file, to_json(report));
         });
         return report;
     }
     report.folder.files = run.timed(report.seconds.hash, [&] {
         in_agreement(run.ranks, [&] {
-            if (run.is_root() && options.volume) remove_stored_parts(options, *folder, report.exit_code);
+            if (run.is_root() && request.volume) remove_stored_parts(run.plan.choices, *folder, report.exit_code);
         });
         return list_run_files(run, *folder, report.parts, std::move(report.folder.files));
     });
@@ -163,13 +164,13 @@ RunReport finish_run(const RunContext& run, std::optional<RunFolder>& folder, Ru
         write_text_file(folder->file("report.json"), json);
         report.folder.path = folder->commit(report.exit_code == 0);
         report.folder.kept_valid_run = report.folder.path != folder->final_path();
-        if (!options.report_file.empty()) write_output_file(options.report_file, json);
+        if (!request.outputs.report_file.empty()) write_output_file(request.outputs.report_file, json);
     });
     return report;
 }
 
-Error with_way_to_go_on(const RunOptions& options, std::optional<RunFolder>& folder, const Error& error) {
-    if (!folder || !options.volume || options.transient) return error;
+Error with_way_to_go_on(const RunRequest& request, std::optional<RunFolder>& folder, const Error& error) {
+    if (!folder || !request.volume || request.transient) return error;
     std::size_t finished = 0;
     try {
         finished = folder->finished_parts();
@@ -180,11 +181,11 @@ Error with_way_to_go_on(const RunOptions& options, std::optional<RunFolder>& fol
         folder->discard();
         return error;
     }
-    const bool are_all = finished >= static_cast<std::size_t>(options.decompose.parts);
-    const std::string again = options.sizes.background ? "the same call into " : "kerf mesh --resume ";
+    const bool are_all = finished >= static_cast<std::size_t>(request.parts);
+    const std::string again = request.sizes.background ? "the same call into " : "kerf mesh --resume ";
     return {error.code(),
             fmt::format("{} {}{} parts are finished; {}{} {}.", error.what(), are_all ? "All " : "", finished, again,
-                        options.output, are_all ? "writes the files that are missing" : "does the others"),
+                        request.output, are_all ? "writes the files that are missing" : "does the others"),
             error.elements()};
 }
 

@@ -24,13 +24,12 @@
 namespace kerf {
 
 CutParts cut_into_parts(const RunContext& run, RunReport report) {
-    const RunOptions& options = run.plan.options;
     Decomposition own = run.timed(report.seconds.decompose,
-                                  [&] { return cut_surface(run.ranks, report.input, options, run.listener); });
+                                  [&] { return cut_surface(run.ranks, report.input, run.plan, run.listener); });
     report.cut.split_facets = static_cast<std::int64_t>(own.divided_facets.size());
     PreparedParts prepared = run.timed(report.seconds.prepare, [&] {
         report.cut.nodes = gather_nodes(run.ranks, own.nodes, host_name());
-        return prepare_parts(run.ranks, report.input, report.cut.nodes, std::move(own), options);
+        return prepare_parts(run.ranks, report.input, report.cut.nodes, std::move(own), run.plan);
     });
     report.verification.unmatched_interface_faces = prepared.unmatched_interface_facets;
     report.verification.input_faces_missing = prepared.missing_input_facets;
@@ -40,7 +39,7 @@ CutParts cut_into_parts(const RunContext& run, RunReport report) {
 
 RunReport hand_over_parts(const RunContext& run, RunFolder& folder, RunReport report, std::vector<OwnPart> own,
                           VolumeStage* volume) {
-    const RunOptions& options = run.plan.options;
+    const RunRequest& request = run.plan.request();
     const Stopwatch stopwatch;
     const std::size_t finished_before = clear_folder(run, report.input, folder, report.parts);
     in_agreement(run.ranks, [&] {
@@ -49,9 +48,10 @@ RunReport hand_over_parts(const RunContext& run, RunFolder& folder, RunReport re
             PartReport& part = own[i].report;
             const PartJob job = std::exchange(own[i].job, {});
             folder.make_room({job.part});
-            if (!options.transient)
+            if (!request.transient)
                 part.surface_hash = write_part_surface(folder.part_surface_file(job.part), part_of_job(job));
-            if (options.stl) write_stl(folder.part_stl_file(job.part), job.surface.vertices, job.surface.facets);
+            if (request.outputs.stl)
+                write_stl(folder.part_stl_file(job.part), job.surface.vertices, job.surface.facets);
             if (volume) volume->hand_over(job, part);
         }
     });
@@ -66,17 +66,18 @@ RunReport hand_over_parts(const RunContext& run, RunFolder& folder, RunReport re
 }
 
 void announce_parts(const RunContext& run, const RunReport& report) {
-    const RunOptions& options = run.plan.options;
+    const RunRequest& request = run.plan.request();
     const Input& input = report.input;
     // The seconds of reading tell how fast the machine is, unless CAD was imported or the surface remeshed in them.
     const bool shows_pace = !input.is_cad && !input.remeshed;
     const double pace = shows_pace ? pace_of_reading(report.seconds.read, static_cast<double>(input.facets)) : 1;
     in_agreement(run.ranks, [&] {
-        if (run.listener && run.is_root() && options.volume)
-            run.listener->on_parts(report.parts,
-                                   (report.found_size ? plan_text(*report.found_size) : "") +
-                                       (options.dry_run ? plan_text(run.whole.seconds(), own_peak_rss_bytes()) : "") +
-                                       plan_text(report.parts, options, run.ranks.size(), options.dry_run, pace));
+        if (run.listener && run.is_root() && request.volume)
+            run.listener->on_parts(
+                report.parts, (report.found_size ? plan_text(*report.found_size) : "") +
+                                  (request.dry_run ? plan_text(run.whole.seconds(), own_peak_rss_bytes()) : "") +
+                                  plan_text(report.parts, run.plan.mesher(), run.ranks.size() * request.workers.count,
+                                            request.dry_run, pace));
     });
 }
 

@@ -76,8 +76,10 @@ PartReport without_quality(PartReport part) {
 // Counts the parts that have ended, on the root rank, and tells the listener.
 class VolumeStage::Tally {
  public:
-    Tally(const std::vector<PartReport>& parts, const RunOptions& options, int ranks, RunListener* listener)
-        : listener_(listener), forecast_(parts, options, ranks), total_(parts.size()) {
+    Tally(const std::vector<PartReport>& parts, const RunPlan& plan, int ranks, RunListener* listener)
+        : listener_(listener),
+          forecast_(parts, plan.mesher(), ranks * plan.request().workers.count),
+          total_(parts.size()) {
         for (const PartReport& part : parts) load_ += part.load;
         if (listener_) listener_->on_progress("volume", 0, total_);
         for (const PartReport& part : parts)
@@ -104,22 +106,18 @@ class VolumeStage::Tally {
     std::int64_t tets_ = 0;
 };
 
-SizeField VolumeStage::size_in(RegionIndex region) const {
-    return plan_.options.decompose.region_sizes.of(region, plan_.options.mesher.size);
-}
-
 void VolumeStage::hand_over(const PartJob& job, PartReport& part) {
     const std::string journal = folder_.journal_file(part.id), file = folder_.stored_part_file(part.id);
-    if (plan_.options.transient) return write_job(folder_.job_file(part.id), job);
+    if (plan_.request().transient) return write_job(folder_.job_file(part.id), job);
     const std::string vtu_file = folder_.part_file(part.id);
-    MesherOptions mesher = plan_.options.mesher;
-    mesher.size = size_in(part.region).within(part.box);
-    part.job_hash = hash_of_job(job, mesher, plan_.options.attempts, plan_.worker_hash);
+    const MesherOptions mesher(plan_.request().mesher, plan_.size_in(part.region).within(part.box));
+    part.job_hash = hash_of_job(job, mesher, plan_.request().workers.attempts, plan_.worker_hash);
     std::error_code ignored;
     if (std::filesystem::exists(journal, ignored) && !std::filesystem::exists(file, ignored))
         restore_stored_part(file, vtu_file, job);
     remove_file(vtu_file);
-    if (const auto outcome = find_finished_part(journal, file, part.job_hash, plan_.options.timeout_seconds)) {
+    if (const auto outcome =
+            find_finished_part(journal, file, part.job_hash, plan_.request().workers.timeout_seconds)) {
         static_cast<PartOutcome&>(part) = *outcome;
         part.resumed = true;
         add_quality(part.result);
@@ -148,13 +146,13 @@ void VolumeStage::keep_outcome(const PartReport& part) const {
     const auto code = static_cast<ErrorCode>(part.result.code);
     if (code == ErrorCode::io) throw Error(code, part.result.message);
     const std::string job_file = folder_.job_file(part.id);
-    if (plan_.options.transient) return remove_file(job_file);
+    if (plan_.request().transient) return remove_file(job_file);
     if (part.result.code)
-        write_failed_part(folder_.file("failed"), part.id, read_job(job_file).surface, plan_.options.mesher,
+        write_failed_part(folder_.file("failed"), part.id, read_job(job_file).surface, plan_.mesher(),
                           part.result.message);
     else
         write_journal_entry(folder_.journal_file(part.id),
-                            {part.job_hash, part.timed_out ? plan_.options.timeout_seconds : 0, part});
+                            {part.job_hash, part.timed_out ? plan_.request().workers.timeout_seconds : 0, part});
     remove_file(job_file);
 }
 
@@ -168,10 +166,11 @@ PartQueue VolumeStage::queue_of(const std::vector<PartReport>& parts, const std:
     std::vector<QueuedPart> queued;
     for (const std::size_t i : order)
         queued.push_back({folder_.job_file(parts[i].id), folder_.stored_part_file(parts[i].id),
-                          size_in(parts[i].region), parts[i].box});
+                          plan_.size_in(parts[i].region), parts[i].box});
+    const WorkerOptions& workers = plan_.request().workers;
     return {std::move(queued),
-            {plan_.options.worker_program, plan_.options.mesher, plan_.options.workers, plan_.options.timeout_seconds,
-             plan_.options.memory_mb, plan_.options.attempts, !plan_.options.transient}};
+            {workers.program, plan_.mesher(), workers.count, workers.timeout_seconds, workers.memory_mb,
+             workers.attempts, !plan_.request().transient}};
 }
 
 PartHandOut VolumeStage::hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
@@ -181,7 +180,7 @@ PartHandOut VolumeStage::hand_out_to(PartQueue& queue, const std::vector<PartRep
     for (const std::size_t i : order)
         waiting.push_back({parts[i].load, host_of_rank[static_cast<std::size_t>(parts[i].rank)]});
     return {ranks_, std::move(waiting), host_of_rank, [&](std::size_t place) {
-                if (!plan_.options.transient) CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close();
+                if (!plan_.request().transient) CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close();
                 queue.add(place);
             }};
 }
@@ -227,7 +226,7 @@ MeshedParts VolumeStage::mesh(const std::vector<PartReport>& parts) {
     const std::vector<std::int32_t> host_of_rank = number_hosts(ranks_);
     const auto mesh_share = [&] {
         std::optional<Tally> tally;  // on the root rank
-        if (ranks_.rank() == root) tally.emplace(parts, plan_.options, ranks_.size(), listener_);
+        if (ranks_.rank() == root) tally.emplace(parts, plan_, ranks_.size(), listener_);
         const std::vector<std::size_t> order = waiting_parts(parts);
         PartQueue queue = queue_of(parts, order);
         PartHandOut hand_out = hand_out_to(queue, parts, order, host_of_rank);

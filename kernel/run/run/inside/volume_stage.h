@@ -41,7 +41,6 @@ class VolumeStage {
 
  private:
     class Tally;
-    SizeField size_in(RegionIndex region) const;
     std::vector<std::size_t> waiting_parts(const std::vector<PartReport>& parts) const;
     PartQueue queue_of(const std::vector<PartReport>& parts, const std::vector<std::size_t>& order) const;
     PartHandOut hand_out_to(PartQueue& queue, const std::vector<PartReport>& parts,
