@@ -30,9 +30,7 @@ void Playing::toggle_motion() {
 
 void Playing::move_step(int direction) {
     const auto here = static_cast<int>(nearest_step(view_.steps, view_.state.step));
-    view_.state.step =
-        view_
-            .steps[static_cast<std::size_t>(std::clamp(here + direction, 0, static_cast<int>(view_.steps.size()) - 1))];
+    view_.state.step = view_.steps[std::clamp(here + direction, 0, static_cast<int>(view_.steps.size()) - 1)];
 }
 
 void Playing::move_node(int direction) {

@@ -38,8 +38,8 @@ struct Frame {
     Vec3 to_draw(const Vec3& p) const { return (p - center) * scale; }
     Vec3 to_file(const Vec3& p) const { return p / scale + center; }
     std::array<float, 3> draw(const Vec3& p) const {
-        const Vec3 q = to_draw(p);
-        return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z())};
+        const Eigen::Vector3f q = to_draw(p).cast<float>();
+        return {q.x(), q.y(), q.z()};
     }
 };
 

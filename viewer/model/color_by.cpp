@@ -48,7 +48,7 @@ const char* title(ColorBy color) { return color_texts[static_cast<std::size_t>(c
 ColorBy color_by_from_name(const std::string& text) {
     std::array<const char*, color_by_count> names = {};
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = color_texts[i].name;
-    return static_cast<ColorBy>(index_of(names, text, "colouring"));
+    return value_named<ColorBy>(names, text, "colouring");
 }
 
 }  // namespace kerf::view

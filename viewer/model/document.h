@@ -40,9 +40,7 @@ struct NodeSurface {
     EdgePoints edges = {};                    ///< nodes on the edges of a part of second order
     std::vector<std::array<std::int32_t, 3>> edges_of_facet = {};  ///< #F or empty; indices in `edges`, of 01, 12, 02
 
-    bool is_interface(std::int32_t facet) const {
-        return !interface_of.empty() && interface_of[static_cast<std::size_t>(facet)] != 0;
-    }
+    bool is_interface(std::size_t facet) const { return !interface_of.empty() && interface_of[facet] != 0; }
 };
 
 /// Values of the facets or of the vertices of a surface.

@@ -22,8 +22,8 @@ bool begins_with_event(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (file.peek() != '{') return false;
     std::string line(limit, '\0');
-    file.read(line.data(), static_cast<std::streamsize>(limit));
-    line.resize(static_cast<std::size_t>(file.gcount()));
+    file.read(line.data(), limit);
+    line.resize(file.gcount());
     const nlohmann::json json = parse_json_or_null(line.substr(0, line.find('\n')));
     return json.is_object() && json.contains("event");
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/geometry/angles.h"
 
 namespace kerf::view {
@@ -18,8 +19,7 @@ InterfacePlace place_of(double angle_deg, const std::array<Vec3, 3>& p) {
 }
 
 std::array<Vec3, 3> corners_of(const std::vector<Vec3>& points, const Triangle& t) {
-    return {points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
-            points[static_cast<std::size_t>(t[2])]};
+    return {points[t[0]], points[t[1]], points[t[2]]};
 }
 
 }  // namespace
@@ -39,13 +39,12 @@ std::optional<InterfacePlace> smallest_angle(const Interface& interface) {
 std::optional<InterfacePlace> smallest_dihedral(const Interface& interface, const NodeSurface& parent) {
     // Edges between contour vertices, of which those of the surface are found again.
     std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::array<Vec3, 3>>> at_edge;
-    const auto count = static_cast<std::int32_t>(interface.contour.size());
+    const std::int32_t count = count_of(interface.contour);
     for (const Triangle& t : interface.triangles)
         for (std::size_t i = 0; i < 3; ++i) {
             const std::int32_t a = t[i], b = t[(i + 1) % 3];
             if (a >= count || b >= count) continue;
-            const auto [low, high] = std::minmax(interface.contour[static_cast<std::size_t>(a)],
-                                                 interface.contour[static_cast<std::size_t>(b)]);
+            const auto [low, high] = std::minmax(interface.contour[a], interface.contour[b]);
             at_edge[{low, high}].push_back(corners_of(interface.points, {a, b, t[(i + 2) % 3]}));
         }
     std::optional<InterfacePlace> worst;
@@ -54,7 +53,7 @@ std::optional<InterfacePlace> smallest_dihedral(const Interface& interface, cons
             const auto [low, high] = std::minmax(facet[i], facet[(i + 1) % 3]);
             const auto found = at_edge.find({low, high});
             if (found == at_edge.end()) continue;
-            const Vec3& apex = parent.vertices[static_cast<std::size_t>(facet[(i + 2) % 3])];
+            const Vec3& apex = parent.vertices[facet[(i + 2) % 3]];
             for (const std::array<Vec3, 3>& p : found->second) {
                 const double angle = dihedral_degrees(p[0], p[1], p[2], apex);
                 if (!worst || angle < worst->angle_deg) worst = place_of(angle, p);

@@ -34,9 +34,7 @@ class Place {
 
     bool is_seen_from(const Vec3& direction) const {
         return std::none_of(facets_.begin(), facets_.end(), [&](const Triangle& t) {
-            const double distance =
-                distance_along(at_, direction, vertices_[static_cast<std::size_t>(t[0])],
-                               vertices_[static_cast<std::size_t>(t[1])], vertices_[static_cast<std::size_t>(t[2])]);
+            const double distance = distance_along(at_, direction, vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]);
             return distance > near_ && std::isfinite(distance);
         });
     }
@@ -68,10 +66,9 @@ Vec3 mean_normal(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
     Vec3 sum = Vec3::Zero();
     double area = 0;
     for (const std::int32_t f : chosen) {
-        const Triangle& t = facets[static_cast<std::size_t>(f)];
-        const Vec3& a = vertices[static_cast<std::size_t>(t[0])];
-        const Vec3 normal =
-            (vertices[static_cast<std::size_t>(t[1])] - a).cross(vertices[static_cast<std::size_t>(t[2])] - a);
+        const Triangle& t = facets[f];
+        const Vec3& a = vertices[t[0]];
+        const Vec3 normal = (vertices[t[1]] - a).cross(vertices[t[2]] - a);
         if (!normal.allFinite()) continue;
         sum += normal;
         area += normal.norm();

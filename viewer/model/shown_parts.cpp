@@ -21,7 +21,7 @@ bool Visibility::is_hidden(NodeId wanted) const {
 const std::string* region_of(const Document& document, NodeId node) {
     const TreeRow* row = document.tree.find(node);
     if (!row || row->region < 0 || row->region >= std::ssize(document.region_names)) return nullptr;
-    return &document.region_names[static_cast<std::size_t>(row->region)];
+    return &document.region_names[row->region];
 }
 
 bool is_hidden(const ViewState& state, const std::string& region) {

@@ -40,8 +40,10 @@ std::string title(const Step& step) {
 std::string names_of_stages() { return fmt::format("{}", fmt::join(stage_names, ", ")); }
 
 Step step_from_name(const std::string& text) {
-    for (int i = 0; i < stage_count; ++i)
-        if (text == name(static_cast<Stage>(i))) return {static_cast<Stage>(i), -1};
+    for (int i = 0; i < stage_count; ++i) {
+        const auto stage = static_cast<Stage>(i);
+        if (text == name(stage)) return {stage, -1};
+    }
     if (text.starts_with(try_prefix)) {
         Step step{Stage::plane, -1};
         const char* end = text.data() + text.size();

@@ -34,14 +34,12 @@ double farthest_sample(const std::array<Vec3, 3>& corners, const TriangleTree& t
 
 std::array<Vec3, 3> corners_of(const NodeSurface& surface, std::size_t facet) {
     const Triangle& t = surface.facets[facet];
-    return {surface.vertices[static_cast<std::size_t>(t[0])], surface.vertices[static_cast<std::size_t>(t[1])],
-            surface.vertices[static_cast<std::size_t>(t[2])]};
+    return {surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]};
 }
 
 // Files may have coordinates that are no numbers.
 bool is_finite(const NodeSurface& surface, const Triangle& t) {
-    return std::all_of(t.begin(), t.end(),
-                       [&](std::int32_t v) { return surface.vertices[static_cast<std::size_t>(v)].allFinite(); });
+    return std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return surface.vertices[v].allFinite(); });
 }
 
 // An edge of one facet of the input.
@@ -55,7 +53,7 @@ struct Side {
 std::vector<Side> sides_of_input(const NodeSurface& surface) {
     std::vector<Side> sides;
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-        if (surface.is_interface(static_cast<std::int32_t>(f))) continue;
+        if (surface.is_interface(f)) continue;
         const Triangle& t = surface.facets[f];
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
@@ -100,7 +98,7 @@ std::vector<float> distances_of_facets(const NodeSurface& surface, const NodeSur
     if (facets.empty()) return distances;
     const TriangleTree tree(other.vertices, facets);
     for (std::size_t f = 0; f < distances.size(); ++f)
-        if (!surface.is_interface(static_cast<std::int32_t>(f)) && is_finite(surface, surface.facets[f]))
+        if (!surface.is_interface(f) && is_finite(surface, surface.facets[f]))
             distances[f] = static_cast<float>(farthest_sample(corners_of(surface, f), tree));
     return distances;
 }
@@ -120,8 +118,7 @@ std::vector<std::array<Vec3, 2>> feature_edges(const NodeSurface& surface) {
     std::vector<std::array<Vec3, 2>> edges;
     for (std::size_t i = 0; i + 1 < sides.size(); ++i)
         if (sides[i].is_beside(sides[i + 1]) && is_feature(surface, sides[i].facet, sides[i + 1].facet))
-            edges.push_back({surface.vertices[static_cast<std::size_t>(sides[i].low)],
-                             surface.vertices[static_cast<std::size_t>(sides[i].high)]});
+            edges.push_back({surface.vertices[sides[i].low], surface.vertices[sides[i].high]});
     return edges;
 }
 

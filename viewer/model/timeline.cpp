@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/core/words.h"
 
@@ -41,11 +42,13 @@ bool is_used(const Cut& cut, const CutTry& attempt) {
 }
 
 void add_cut(const Cut& cut, std::vector<Step>& steps) {
-    for (std::size_t i = 0; i < cut.tries.size(); ++i)
-        if (!is_used(cut, cut.tries[i])) steps.push_back({Stage::plane, static_cast<std::int32_t>(i)});
+    for (std::int32_t i = 0; i < count_of(cut.tries); ++i)
+        if (!is_used(cut, cut.tries[i])) steps.push_back({Stage::plane, i});
     if (!cut.made()) return;
-    for (int i = static_cast<int>(Stage::plane); i <= static_cast<int>(Stage::split); ++i)
-        if (has_edges(cut, static_cast<Stage>(i))) steps.push_back({static_cast<Stage>(i), -1});
+    for (int i = static_cast<int>(Stage::plane); i <= static_cast<int>(Stage::split); ++i) {
+        const auto stage = static_cast<Stage>(i);
+        if (has_edges(cut, stage)) steps.push_back({stage, -1});
+    }
 }
 
 std::string counted(std::int64_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
@@ -56,14 +59,14 @@ std::string describe_plane_of(const CutTry& attempt, NodeId node) {
         return fmt::format("straight across {}, choice {} of the planes", "xyz"[std::clamp(attempt.axis, 0, 2)],
                            attempt.step + 1);
     constexpr std::array<const char*, 3> ordinals = {"first", "second", "third"};
-    std::string text = fmt::format("{} axis, ", ordinals[static_cast<std::size_t>(std::clamp(attempt.axis, 0, 2))]);
+    std::string text = fmt::format("{} axis, ", ordinals[std::clamp(attempt.axis, 0, 2)]);
     text += attempt.step == 0 ? "the plane in its first place"
                               : fmt::format("the plane moved {} into the half of node {}",
                                             counted(std::abs(attempt.step), "step"), 2 * node + (attempt.step > 0));
     return text + (attempt.repair == 0 ? ", no repairs yet" : ", after " + counted(attempt.repair, "repair"));
 }
 
-std::string describe_try(const CutTry& attempt, std::size_t number, std::size_t count, NodeId node) {
+std::string describe_try(const CutTry& attempt, std::int32_t number, std::int32_t count, NodeId node) {
     std::string text = fmt::format("Refused: {}", in_words(name(attempt.refusal)));
     if (!attempt.places.empty()) text += " at " + counted(std::ssize(attempt.places), "place");
     if (!attempt.collisions.empty())
@@ -199,9 +202,9 @@ std::string describe_step(const Document& document, NodeId node, const Step& ste
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
     const TreeRow* row = document.tree.find(node);
     if (step.refused_try >= 0) {
-        const auto number = static_cast<std::size_t>(step.refused_try);
-        if (!cut || number >= cut->tries.size()) return "";
-        return describe_try(cut->tries[number], number, cut->tries.size(), node);
+        const std::int32_t number = step.refused_try;
+        if (!cut || number >= count_of(cut->tries)) return "";
+        return describe_try(cut->tries[number], number, count_of(cut->tries), node);
     }
     switch (step.stage) {
         case Stage::before_repair:
@@ -234,10 +237,9 @@ bool has_no_stages(const Document& document, NodeId node) {
 
 std::vector<FailurePlace> failure_places(const Document& document, NodeId node, const Step& step) {
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
-    const auto number = static_cast<std::size_t>(step.refused_try);
     std::vector<FailurePlace> places;
-    if (!cut || step.refused_try < 0 || number >= cut->tries.size()) return places;
-    const CutTry& attempt = cut->tries[number];
+    if (!cut || step.refused_try < 0 || step.refused_try >= count_of(cut->tries)) return places;
+    const CutTry& attempt = cut->tries[step.refused_try];
     for (const Collision& pair : attempt.collisions) {
         FailurePlace& place = places.emplace_back();
         for (const Vec3& p : pair.first) place.where += p / 6;

@@ -151,8 +151,7 @@ Selection selection_from(const OrderedJson& json, const std::string& source) {
     read_fields(json,
                 {{"kind",
                   [&](const OrderedJson& j) {
-                      s.kind = static_cast<Selection::Kind>(
-                          index_of(selection_names, j.get<std::string>(), "kind of selection"));
+                      s.kind = value_named<Selection::Kind>(selection_names, j.get<std::string>(), "kind of selection");
                   }},
                  {"owner", [&](const OrderedJson& j) { s.owner = j.get<NodeId>(); }},
                  {"index", [&](const OrderedJson& j) { s.index = j.get<std::int32_t>(); }},
@@ -243,10 +242,10 @@ OrderedJson parse(const std::string& text, const std::string& source) {
 }  // namespace
 
 const char* name(Motion motion) { return motion_names[static_cast<std::size_t>(motion)]; }
-Motion motion_from_name(const std::string& text) { return static_cast<Motion>(index_of(motion_names, text, "motion")); }
+Motion motion_from_name(const std::string& text) { return value_named<Motion>(motion_names, text, "motion"); }
 const char* name(ClipStyle style) { return clip_names[static_cast<std::size_t>(style)]; }
 ClipStyle clip_style_from_name(const std::string& text) {
-    return static_cast<ClipStyle>(index_of(clip_names, text, "clip style"));
+    return value_named<ClipStyle>(clip_names, text, "clip style");
 }
 
 std::string to_json(const Camera& camera) { return json_text(write(camera), 2) + "\n"; }
@@ -309,7 +308,7 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
         {"camera", [&](const OrderedJson& j) { s.camera = camera_from(j, source); }},
         {"shading",
          [&](const OrderedJson& j) {
-             s.look.shading = static_cast<Shading>(index_of(shading_names, j.get<std::string>(), "shading"));
+             s.look.shading = value_named<Shading>(shading_names, j.get<std::string>(), "shading");
          }},
         {"explode", [&](const OrderedJson& j) { s.explosion.amount = std::max(0.0, j.get<double>()); }},
         {"shrink", [&](const OrderedJson& j) { s.explosion.shrink = unit("shrink", j); }},
@@ -328,7 +327,7 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
         {"deform", [&](const OrderedJson& j) { s.deformation.factor = j.get<double>(); }},
         {"motion",
          [&](const OrderedJson& j) {
-             s.deformation.motion = static_cast<Motion>(index_of(motion_names, j.get<std::string>(), "motion"));
+             s.deformation.motion = value_named<Motion>(motion_names, j.get<std::string>(), "motion");
          }},
         {"phase", [&](const OrderedJson& j) { s.deformation.phase = unit("phase", j); }},
         {"speed", [&](const OrderedJson& j) { s.deformation.speed = std::max(0.0, j.get<double>()); }},
@@ -342,14 +341,10 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
         {"isolated_region",
          [&](const OrderedJson& j) { s.visibility.isolated_region = path_of_text(j.get<std::string>()); }},
         {"pick",
-         [&](const OrderedJson& j) {
-             s.pick = static_cast<PickMode>(index_of(pick_names, j.get<std::string>(), "pick mode"));
-         }},
+         [&](const OrderedJson& j) { s.pick = value_named<PickMode>(pick_names, j.get<std::string>(), "pick mode"); }},
         {"selection", [&](const OrderedJson& j) { s.selection = selection_from(j, source); }},
         {"theme",
-         [&](const OrderedJson& j) {
-             s.theme = static_cast<Theme>(index_of(theme_names, j.get<std::string>(), "theme"));
-         }},
+         [&](const OrderedJson& j) { s.theme = value_named<Theme>(theme_names, j.get<std::string>(), "theme"); }},
         {"panels",
          [&](const OrderedJson& j) {
              Fields of_panels;

@@ -95,7 +95,7 @@ void step_through_worst(UiContext& context, WorstCellsMemory& memory, ListKeys& 
     if (steps == 0) return;
     const int last = static_cast<int>(cells.size()) - 1;
     memory.chosen = std::clamp(memory.chosen + steps, 0, last);
-    fly_to_cell(context, cells[static_cast<std::size_t>(memory.chosen)]);
+    fly_to_cell(context, cells[memory.chosen]);
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     scroll_to_row(static_cast<float>(memory.chosen) * height, 2 * height);
 }
@@ -144,7 +144,7 @@ void draw_worst_table(UiContext& context, WorstCellsMemory& memory, ListKeys& ke
     clipper.Begin(static_cast<int>(cells.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            draw_worst_row(context, memory, keys, cells[static_cast<std::size_t>(i)], i);
+            draw_worst_row(context, memory, keys, cells[i], i);
     ImGui::EndTable();
 }
 
@@ -153,7 +153,7 @@ void draw_worst_table(UiContext& context, WorstCellsMemory& memory, ListKeys& ke
 ValueRange values_of_run(const UiContext& context) {
     const int measure = histogram_number(context.state.coloring.by);
     if (measure >= 0)
-        if (const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)])
+        if (const auto& histogram = context.session.document().histograms[measure])
             return {histogram->min, histogram->max};
     return context.facts.legend.values.value_or(ValueRange{0, 1});
 }

@@ -120,12 +120,12 @@ class Dialog {
         int activated = -1;  // opening replaces the list
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-                if (draw_entry(listed_[static_cast<std::size_t>(i)])) activated = listed_[static_cast<std::size_t>(i)];
+                if (draw_entry(listed_[i])) activated = listed_[i];
         if (activated >= 0) activate(activated);
     }
 
     bool draw_entry(int index) {
-        const FileBrowser::Entry& entry = browser_.entries[static_cast<std::size_t>(index)];
+        const FileBrowser::Entry& entry = browser_.entries[index];
         const float left = ImGui::GetCursorPosX();
         if (ImGui::Selectable(("##" + entry.name).c_str(), browser_.chosen == index,
                               ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups))
@@ -203,11 +203,11 @@ class Dialog {
         const auto at = std::find(listed_.begin(), listed_.end(), browser_.chosen);
         const auto last = static_cast<int>(listed_.size()) - 1;
         const int next = at == listed_.end() ? 0 : static_cast<int>(at - listed_.begin()) + direction;
-        browser_.chosen = listed_[static_cast<std::size_t>(std::clamp(next, 0, last))];
+        browser_.chosen = listed_[std::clamp(next, 0, last)];
     }
 
     void activate(int index) {
-        const FileBrowser::Entry entry = browser_.entries[static_cast<std::size_t>(index)];
+        const FileBrowser::Entry entry = browser_.entries[index];
         const fs::path path = fs::path(browser_.folder) / entry.name;
         entry.kind == Kind::folder ? browser_.go_to(path) : open(path.string());
     }

@@ -45,7 +45,7 @@ std::array<PlacedEnd, 6> place_ends(const Camera& camera, const ImVec2& center, 
 }
 
 void draw_end(ImDrawList& list, const PlacedEnd& placed, const ImVec2& center, float radius, bool hovered) {
-    Color color = axis_colors[static_cast<std::size_t>(placed.end->axis)];
+    Color color = axis_colors[placed.end->axis];
     const auto front = static_cast<float>(0.5 + 0.5 * placed.depth);
     color.a = 0.55f + 0.45f * front;
     const bool positive = placed.end->sign > 0;

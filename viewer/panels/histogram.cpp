@@ -177,7 +177,7 @@ int histogram_number(ColorBy color) {
 void draw_histogram(UiContext& context, HistogramMemory& memory) {
     const int measure = histogram_number(context.state.coloring.by);
     if (measure < 0) return;
-    const auto& histogram = context.session.document().histograms[static_cast<std::size_t>(measure)];
+    const auto& histogram = context.session.document().histograms[measure];
     const Palette& colors = palette(context.state.theme);
     if (!histogram || histogram->all.empty() || histogram->edges.size() != histogram->all.size() + 1)
         return show_wrapped("No distribution: the report of a finished run has it.", colors.dim);

@@ -171,8 +171,7 @@ class ProblemList {
         ImGuiListClipper clipper;
         clipper.Begin(static_cast<int>(listed_.size()), entry_height() + ImGui::GetStyle().ItemSpacing.y);
         while (clipper.Step())
-            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-                draw_entry(listed_[static_cast<std::size_t>(i)]);
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_entry(listed_[i]);
         ImGui::EndChild();
     }
 
@@ -183,7 +182,7 @@ class ProblemList {
         const int last = static_cast<int>(listed_.size()) - 1;
         const auto at = std::find(listed_.begin(), listed_.end(), memory_.chosen);
         const int next = at == listed_.end() ? 0 : std::clamp(static_cast<int>(at - listed_.begin()) + steps, 0, last);
-        fly_to(listed_[static_cast<std::size_t>(next)]);
+        fly_to(listed_[next]);
         const float height = entry_height() + ImGui::GetStyle().ItemSpacing.y;
         scroll_to_row(static_cast<float>(next) * height, 2 * height);
     }
@@ -191,7 +190,7 @@ class ProblemList {
     static float entry_height() { return 2 * ImGui::GetTextLineHeight() + 0.2f * em(); }
 
     void draw_entry(int index) {
-        const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(index)];
+        const Defect& defect = checked_.diagnosis.defects[index];
         ImGui::PushID(index);
         const ImVec2 start = ImGui::GetCursorPos();
         if (ImGui::Selectable("##defect", memory_.chosen == index, 0, {0, entry_height()})) fly_to(index);
@@ -212,7 +211,7 @@ class ProblemList {
     }
 
     void fly_to(int index) {
-        const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(index)];
+        const Defect& defect = checked_.diagnosis.defects[index];
         memory_.chosen = index;
         if (!defect.where.allFinite()) return;
         const Soup& soup = checked_.soup;
@@ -228,7 +227,7 @@ class ProblemList {
     std::string text() const {
         std::string all;
         for (const int i : listed_) {
-            const Defect& defect = checked_.diagnosis.defects[static_cast<std::size_t>(i)];
+            const Defect& defect = checked_.diagnosis.defects[i];
             const std::string measure = measure_of(defect);
             all += fmt::format("{} {}: {}{}{}; {}.\n", name(defect.severity), name(defect.kind),
                                place(defect, checked_.soup), measure.empty() ? "" : ", ", measure, advice(defect));

@@ -25,7 +25,7 @@ class RegionList {
           tets_(document_.region_names.size(), 0) {
         for (const TreeRow& row : document_.tree.rows)
             if (row.leaf() && row.tets > 0 && row.region >= 0 && row.region < std::ssize(tets_))
-                tets_[static_cast<std::size_t>(row.region)] += row.tets;
+                tets_[row.region] += row.tets;
     }
 
     void draw() {

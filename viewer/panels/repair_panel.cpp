@@ -177,7 +177,7 @@ class ActionList {
         clipper.Begin(count, row);
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-                const RepairPlace& place = action.places[static_cast<std::size_t>(i)];
+                const RepairPlace& place = action.places[i];
                 std::string text = fmt::format("{}: ({:.5g}, {:.5g}, {:.5g})", i + 1, place.where.x(), place.where.y(),
                                                place.where.z());
                 if (*action.measure != '\0') text += fmt::format(", {:.4g} {}", place.measure, action.measure);
@@ -191,7 +191,7 @@ class ActionList {
         memory_.action = number;
         memory_.place = place_number;
         if (action.places.empty()) return;
-        const RepairPlace& place = action.places[static_cast<std::size_t>(place_number)];
+        const RepairPlace& place = action.places[place_number];
         if (!place.where.allFinite()) return;
         const Document& document = context_.session.document();
         const Soup& soup = document.unrepaired ? document.unrepaired->soup : document.checked->soup;

@@ -81,7 +81,7 @@ void draw_search(UiContext& context, Dialogs& dialogs) {
     const std::vector<const Command*> found = find_commands(search.typed);
     search.chosen = std::clamp(search.chosen, 0, std::max(0, static_cast<int>(found.size()) - 1));
     const Command* command = draw_list(context, search, found);
-    if (entered && !found.empty()) command = found[static_cast<std::size_t>(search.chosen)];
+    if (entered && !found.empty()) command = found[search.chosen];
     if (command && is_enabled(*command, context)) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     if (command && is_enabled(*command, context)) command->run(context, dialogs);

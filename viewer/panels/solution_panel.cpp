@@ -21,7 +21,7 @@ void draw_cases(UiContext& context, const Solution& solution) {
     for (const Solution::Case& one : solution.cases) names.push_back(one.title());
     deformation.load_case = std::min(deformation.load_case, static_cast<int>(names.size()) - 1);
     context.widgets.combo(solution.has_modes() ? "Case or mode" : "Case", &deformation.load_case, names);
-    if (solution.cases[static_cast<std::size_t>(deformation.load_case)].is_mode() && needs_load_case(color))
+    if (solution.cases[deformation.load_case].is_mode() && needs_load_case(color))
         color = ColorBy::displacement;  // a mode has nothing else
 }
 

@@ -108,7 +108,7 @@ class TimelineBar {
 
     void fly_to(const std::vector<FailurePlace>& places, int index) {
         memory_.chosen = index;
-        const FailurePlace& place = places[static_cast<std::size_t>(index)];
+        const FailurePlace& place = places[index];
         const double diagonal = diagonal_of(context_.session.document());
         context_.actions.camera.fly_to(place.where, place.radius > 0 ? 1.5 * place.radius : 0.02 * diagonal,
                                        Vec3::Zero());

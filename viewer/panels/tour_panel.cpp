@@ -76,8 +76,7 @@ void end_tour(UiContext& context, Dialogs& dialogs) {
 void go_on_tour(UiContext& context, Dialogs& dialogs, int count) {
     const std::vector<Step> stops = stops_of_tour(context.session.document(), dialogs.tour.node);
     const int wanted = static_cast<int>(current_stop(context, stops)) + count;
-    if (wanted >= 0 && wanted < static_cast<int>(stops.size()))
-        dialogs.tour.go_to = stops[static_cast<std::size_t>(wanted)].stage;
+    if (wanted >= 0 && wanted < static_cast<int>(stops.size())) dialogs.tour.go_to = stops[wanted].stage;
 }
 
 void follow_tour(UiContext& context, Dialogs& dialogs, const Rectangle& scene) {

@@ -64,8 +64,7 @@ class TreeTable {
         ImGuiListClipper clipper;
         clipper.Begin(static_cast<int>(rows_.size()), row_height());
         while (clipper.Step())
-            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-                draw_row(*rows_[static_cast<std::size_t>(i)]);
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(*rows_[i]);
         ImGui::EndTable();
     }
 

@@ -60,7 +60,7 @@ class WorstInterfaces {
     }
 
     void draw_row(int i) {
-        const TreeRow& row = *rows_[static_cast<std::size_t>(i)];
+        const TreeRow& row = *rows_[i];
         ImGui::TableNextRow();
         ImGui::TableSetColumnIndex(0);
         const std::string label = fmt::format("worst interface {}", i + 1);

@@ -85,8 +85,7 @@ void CellLayers::number_cells(Layer& layer, const PartCells& cells, const NodeSu
     std::shared_ptr<const Geometry> numbered = layer.geometry;
     if (!context_.palette_of_patch.empty()) {
         std::vector<float> numbers;
-        for (const std::int32_t patch : surface.patch)
-            numbers.push_back(patch < 0 ? std::nanf("") : static_cast<float>(patch));
+        for (const std::int32_t patch : surface.patch) numbers.push_back(patch < 0 ? std::nanf("") : patch);
         numbered = colored_faces(cells, surface, numbers, colors);
     }
     auto patches = std::make_shared<std::vector<std::int32_t>>();
@@ -114,8 +113,7 @@ bool CellLayers::add(NodeId part, const NodeSurface& surface) {
             is_shared.push_back(std::find(ring->begin(), ring->end(), number) != ring->end());
         choice.wanted = [&](std::size_t t) {
             const Tetrahedron& tet = cells->tets[t];
-            return std::any_of(tet.begin(), tet.end(),
-                               [&](std::int32_t v) { return is_shared[static_cast<std::size_t>(v)] != 0; });
+            return std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) { return is_shared[v] != 0; });
         };
     }
     if (state.explosion.shrink > 0)  // through the gaps the far side of the body is seen, and not the ground behind it
@@ -153,13 +151,13 @@ void CellLayers::add_selected(const NodeSurface* shown) {
     if (s.kind != Selection::Kind::cell || !lies_below(s.owner, state.node) || !context_.is_shown(s.owner)) return;
     const auto cells = sink_.awaited(context_.session.fetched().cells(s.owner));
     const auto surface = sink_.awaited(context_.session.fetched().part_surface(s.owner));
-    const auto index = static_cast<std::size_t>(s.index);
+    const std::size_t index = s.index;
     if (!cells || !surface || s.index < 0 || index >= cells->tets.size()) return;
     if (is_seen(*cells, *surface, shown, s.index)) return;
     CellColors colors;
     if (!sink_.awaited(find_colors(cells, *surface, colors))) return;
     Vec3 center = Vec3::Zero();
-    for (const std::int32_t v : cells->tets[index]) center += cells->vertices[static_cast<std::size_t>(v)] / 4;
+    for (const std::int32_t v : cells->tets[index]) center += cells->vertices[v] / 4;
     if (context_.has_filter() && colors.values) {
         const double value = (*colors.values)[index];
         if (value < state.coloring.filter->low || value > state.coloring.filter->high) return;

@@ -94,9 +94,9 @@ ValueRange ScaleMaker::range_of_most_values(const ValueRange& all) {
     std::vector<double> values;
     for_drawn_values([&](double value, const Layer&, std::size_t) { values.push_back(value); });
     const auto quantile = [&](double share) {
-        const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+        const auto at = static_cast<std::ptrdiff_t>(share * (values.size() - 1));
         std::nth_element(values.begin(), values.begin() + at, values.end());
-        return values[static_cast<std::size_t>(at)];
+        return values[at];
     };
     const double share = context_.state.coloring.percentile / 100;
     const ValueRange most{context_.state.coloring.by == ColorBy::von_mises ? all.low : quantile(1 - share),

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/geometry/angles.h"
 #include "fill/mesh/quality.h"
@@ -30,8 +31,7 @@ std::string number_text(std::int64_t number) { return number < 0 ? "new" : fmt::
 template <class Indices>
 std::int32_t nearest_vertex(const std::vector<Vec3>& vertices, const Indices& corners, const Vec3& point) {
     return *std::min_element(corners.begin(), corners.end(), [&](std::int32_t a, std::int32_t b) {
-        return (vertices[static_cast<std::size_t>(a)] - point).squaredNorm() <
-               (vertices[static_cast<std::size_t>(b)] - point).squaredNorm();
+        return (vertices[a] - point).squaredNorm() < (vertices[b] - point).squaredNorm();
     });
 }
 
@@ -39,11 +39,11 @@ std::int32_t nearest_vertex(const std::vector<Vec3>& vertices, const Indices& co
 std::vector<std::int32_t> neighbours_of(const NodeSurface& surface, std::size_t facet) {
     std::vector<std::int32_t> found;
     const Triangle& own = surface.facets[facet];
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(surface.facets); ++f) {
         const Triangle& t = surface.facets[f];
         const auto shared = std::count_if(
             t.begin(), t.end(), [&](std::int32_t v) { return std::find(own.begin(), own.end(), v) != own.end(); });
-        if (shared == 2) found.push_back(static_cast<std::int32_t>(f));
+        if (shared == 2) found.push_back(f);
     }
     return found;
 }
@@ -86,30 +86,27 @@ std::string describe_facet(Session& session, const NodeSurface& surface, NodeId 
         text += fmt::format("part {} behind it{}\n", surface.neighbour[facet],
                             in_region(document, surface.neighbour[facet]));
     const std::int32_t patch = surface.patch.empty() ? -1 : surface.patch[facet];
-    if (patch >= 0 && static_cast<std::size_t>(patch) < document.patch_names.size())
-        text += fmt::format("patch '{}'\n", document.patch_names[static_cast<std::size_t>(patch)]);
+    if (patch >= 0 && patch < count_of(document.patch_names))
+        text += fmt::format("patch '{}'\n", document.patch_names[patch]);
     std::array<Vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto v = static_cast<std::size_t>(surface.facets[facet][k]);
+        const std::int32_t v = surface.facets[facet][k];
         p[k] = surface.vertices[v];
-        text +=
-            vertex_line("vertex", static_cast<std::int32_t>(v),
-                        surface.vertex_number.empty() ? static_cast<std::int64_t>(v) : surface.vertex_number[v], p[k]);
+        text += vertex_line("vertex", v, surface.vertex_number.empty() ? v : surface.vertex_number[v], p[k]);
     }
     text += fmt::format("area {:.6g}, smallest angle {:.2f} deg\n", (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2,
                         smallest_angle_degrees(p));
     return text + fmt::format("neighbours {}\n", fmt::join(neighbours_of(surface, facet), ", "));
 }
 
-std::string describe_vertex(const NodeSurface& surface, const std::string& owner, std::size_t vertex) {
+std::string describe_vertex(const NodeSurface& surface, const std::string& owner, std::int32_t vertex) {
     std::string text = fmt::format("vertex {} of {}\n", vertex, owner);
     if (!surface.vertex_number.empty())
         text += fmt::format("global number {}\n", number_text(surface.vertex_number[vertex]));
     text += place_text(surface.vertices[vertex]) + "\n";
     std::vector<std::size_t> facets;
     for (std::size_t f = 0; f < surface.facets.size(); ++f)
-        if (std::find(surface.facets[f].begin(), surface.facets[f].end(), static_cast<std::int32_t>(vertex)) !=
-            surface.facets[f].end())
+        if (std::find(surface.facets[f].begin(), surface.facets[f].end(), vertex) != surface.facets[f].end())
             facets.push_back(f);
     return text + fmt::format("{} facets around it: {}\n", facets.size(), fmt::join(facets, ", "));
 }
@@ -118,17 +115,16 @@ std::string describe_cell(const Document& document, const PartCells& cells, std:
     std::string text = fmt::format("cell {} of {}\n", cell, owner_text(document, cells.part));
     std::array<Vec3, 4> p;
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto v = static_cast<std::size_t>(cells.tets[cell][k]);
+        const std::int32_t v = cells.tets[cell][k];
         p[k] = cells.vertices[v];
-        text += vertex_line("vertex", static_cast<std::int32_t>(v), cells.vertex_number[v], p[k]);
+        text += vertex_line("vertex", v, cells.vertex_number[v], p[k]);
     }
     std::vector<std::string> neighbours;
     for (const std::int32_t n : cells.neighbours[cell]) neighbours.push_back(n < 0 ? "boundary" : std::to_string(n));
     text += fmt::format("neighbours {}\n", fmt::join(neighbours, ", "));
     text += cells.at_interface[cell] ? "at an interface\n" : "inside of the part\n";
     if (cells.core_tets > 0)
-        text += origin_of(static_cast<std::int64_t>(cell), cells.core_tets) == CellOrigin::core ? "of the core\n"
-                                                                                                : "of the shell\n";
+        text += origin_of(cell, cells.core_tets) == CellOrigin::core ? "of the core\n" : "of the shell\n";
     const TetQuality q = tet_quality(p[0], p[1], p[2], p[3]);
     return text + fmt::format(
                       "dihedral angles {:.2f} to {:.2f} deg\nradius-edge {:.4g}, aspect {:.4g}, shape "
@@ -141,15 +137,15 @@ std::string describe_cell(const Document& document, const PartCells& cells, std:
 // yet.
 std::string describe_solution(Session& session, NodeId part, int load_case, std::span<const std::int32_t> vertices) {
     if (!session.document().solution) return "";
-    const auto found = session.fetched().solution(part, static_cast<std::size_t>(load_case));
+    const auto found = session.fetched().solution(part, load_case);
     if (!found) return "";
     Vec3 displacement = Vec3::Zero();
     std::array<double, 6> stress = {};
     double von_mises = 0;
     const bool is_mode = found->stress.empty();
-    const auto share = 1.0 / static_cast<double>(vertices.size());
+    const double share = 1.0 / vertices.size();
     for (const std::int32_t vertex : vertices) {
-        const auto v = static_cast<std::size_t>(vertex);
+        const std::size_t v = vertex;
         if (v >= found->displacement.size()) return "";
         displacement += share * found->displacement[v];
         if (is_mode) continue;
@@ -183,21 +179,20 @@ std::optional<Selection> select(Session& session, const Hit& hit, PickMode mode)
     if (!hit.is_cell && mode == PickMode::cell && has_cells) {
         const auto cells = session.fetched().cells(hit.owner);
         if (!cells) return std::nullopt;
-        if (static_cast<std::size_t>(hit.element) < cells->tet_at_facet.size()) {
+        if (hit.element >= 0 && hit.element < count_of(cells->tet_at_facet)) {
             s.kind = Selection::Kind::cell;
-            s.index = cells->tet_at_facet[static_cast<std::size_t>(hit.element)];
+            s.index = cells->tet_at_facet[hit.element];
         }
     }
     if (mode == PickMode::vertex) {
         if (hit.is_cell) {
             const auto cells = session.fetched().cells(hit.owner);
             if (!cells) return std::nullopt;
-            s.index = nearest_vertex(cells->vertices, cells->tets[static_cast<std::size_t>(hit.element)], hit.point);
+            s.index = nearest_vertex(cells->vertices, cells->tets[hit.element], hit.point);
         } else {
             const auto surface = surface_of(session, hit.owner);
             if (!surface) return std::nullopt;
-            s.index =
-                nearest_vertex(surface->vertices, surface->facets[static_cast<std::size_t>(hit.element)], hit.point);
+            s.index = nearest_vertex(surface->vertices, surface->facets[hit.element], hit.point);
         }
         s.kind = Selection::Kind::vertex;
     }
@@ -210,7 +205,7 @@ namespace {
 const Defect* defect_of(const Document& document, const Selection& s) {
     if (s.kind != Selection::Kind::defect || !document.checked) return nullptr;
     const auto& defects = document.checked->diagnosis.defects;
-    const auto index = static_cast<std::size_t>(s.index);
+    const std::size_t index = s.index;
     return index < defects.size() ? &defects[index] : nullptr;
 }
 
@@ -225,7 +220,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
     if (s.kind == Selection::Kind::none) return "";
     if (s.kind == Selection::Kind::place) return place_text(s.place) + "\n";
     if (s.kind == Selection::Kind::defect) return describe_defect(session.document(), s);
-    const auto index = static_cast<std::size_t>(s.index);
+    const std::size_t index = s.index;
     if (s.kind == Selection::Kind::cell) {
         const auto cells = session.fetched().cells(s.owner);
         return cells && index < cells->tets.size() ? describe_cell(session.document(), *cells, index) : "";
@@ -235,7 +230,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
     if (s.kind == Selection::Kind::facet)
         return index < surface->facets.size() ? describe_facet(session, *surface, s.owner, index) : "";
     if (index < surface->vertices.size())
-        return describe_vertex(*surface, owner_text(session.document(), s.owner), index);
+        return describe_vertex(*surface, owner_text(session.document(), s.owner), s.index);
     // Vertices inside of a part come after those of its surface.
     const auto cells = session.fetched().cells(s.owner);
     if (!cells || index >= cells->vertices.size()) return "";
@@ -244,7 +239,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
 }
 
 std::vector<std::int32_t> vertices_of(Session& session, const Selection& s) {
-    const auto index = static_cast<std::size_t>(s.index);
+    const std::size_t index = s.index;
     if (s.kind == Selection::Kind::vertex) return {s.index};
     if (s.kind == Selection::Kind::cell)
         if (const auto cells = session.fetched().cells(s.owner); cells && index < cells->tets.size())
@@ -277,7 +272,7 @@ std::vector<Vec3> selected_points(Session& session, const Selection& s) {
     const bool is_cell = s.kind == Selection::Kind::cell;
     const auto surface = is_cell || vertices.empty() ? nullptr : surface_of(session, s.owner);
     for (const std::int32_t vertex : vertices) {
-        const auto v = static_cast<std::size_t>(vertex);
+        const std::size_t v = vertex;
         if (surface && v < surface->vertices.size())
             points.push_back(surface->vertices[v]);
         else if (const auto cells = is_cell || surface ? session.fetched().cells(s.owner) : nullptr;
@@ -300,12 +295,12 @@ std::vector<std::array<Vec3, 2>> selected_edges(Session& session, const Selectio
     const Soup& soup = session.document().checked->soup;
     std::set<UndirectedEdge> numbers;
     for (const std::int32_t f : defect->facets) {
-        const Triangle& t = soup.facets[static_cast<std::size_t>(f)];
+        const Triangle& t = soup.facets[f];
         for (std::size_t k = 0; k < 3; ++k) numbers.insert(undirected(t[k], t[(k + 1) % 3]));
     }
     for (const UndirectedEdge& edge : numbers) {
-        const Vec3& a = soup.vertices[static_cast<std::size_t>(edge[0])];
-        const Vec3& b = soup.vertices[static_cast<std::size_t>(edge[1])];
+        const Vec3& a = soup.vertices[edge[0]];
+        const Vec3& b = soup.vertices[edge[1]];
         if (a.allFinite() && b.allFinite()) edges.push_back({a, b});
     }
     return edges;
@@ -314,15 +309,13 @@ std::vector<std::array<Vec3, 2>> selected_edges(Session& session, const Selectio
 std::optional<Vec3> direction_to_cell(const PartCells& cells, const NodeSurface& part, const NodeSurface& shown,
                                       std::int32_t cell, const Vec3& present) {
     for (std::int32_t f = 0; f < std::ssize(part.facets); ++f) {
-        if (cells.tet_at_facet[static_cast<std::size_t>(f)] != cell || part.is_interface(f)) continue;
+        if (cells.tet_at_facet[f] != cell || part.is_interface(f)) continue;
         Vec3 middle = Vec3::Zero();
         double size = 0;
-        for (const std::int32_t v : part.facets[static_cast<std::size_t>(f)]) {
-            const Vec3& corner = part.vertices[static_cast<std::size_t>(v)];
+        for (const std::int32_t v : part.facets[f]) {
+            const Vec3& corner = part.vertices[v];
             middle += corner / 3;
-            size = std::max(
-                size,
-                (corner - part.vertices[static_cast<std::size_t>(part.facets[static_cast<std::size_t>(f)][0])]).norm());
+            size = std::max(size, (corner - part.vertices[part.facets[f][0]]).norm());
         }
         const Vec3 outward = mean_normal(part.vertices, part.facets, {f});
         if (const auto found = direction_to_eye(shown.vertices, shown.facets, middle, 1e-3 * size, outward, present))
@@ -334,11 +327,10 @@ std::optional<Vec3> direction_to_cell(const PartCells& cells, const NodeSurface&
 std::optional<std::array<std::int64_t, 4>> selected_cell(Session& session, const Selection& s) {
     if (s.kind != Selection::Kind::cell) return std::nullopt;
     const auto cells = session.fetched().cells(s.owner);
-    const auto index = static_cast<std::size_t>(s.index);
+    const std::size_t index = s.index;
     if (!cells || index >= cells->tets.size()) return std::nullopt;
     std::array<std::int64_t, 4> numbers = {};
-    for (std::size_t k = 0; k < 4; ++k)
-        numbers[k] = cells->vertex_number[static_cast<std::size_t>(cells->tets[index][k])];
+    for (std::size_t k = 0; k < 4; ++k) numbers[k] = cells->vertex_number[cells->tets[index][k]];
     return numbers;
 }
 

@@ -74,7 +74,7 @@ void RepairHistory::begin(CheckedSurface unrepaired) {
 }
 
 void RepairHistory::add(CheckedSurface state) {
-    states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(std::min(shown_ + 1, states_.size())), states_.end());
+    states_.erase(states_.begin() + std::min(shown_ + 1, states_.size()), states_.end());
     states_.push_back(std::move(state));
     shown_ = states_.size() - 1;
 }

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "run/prepare/size_reader.h"
 #include "surface/complex/mass_properties.h"
@@ -187,7 +188,7 @@ std::shared_ptr<const SurfaceValues> Fetched::values_on(const std::shared_ptr<co
                                                         ColorBy color) {
     const Document& document = shown_.document;
     if (!surface || !is_of_surface(color) || why_without_values(document, color)) return nullptr;
-    const Store::Key key{.kind = Store::Kind::on_surface, .color = static_cast<int>(color), .of = surface.get()};
+    const Store::Key key{.kind = Store::Kind::on_surface, .color = color, .of = surface.get()};
     if (auto found = kept<SurfaceValues>(key)) return found;
     const auto whole = this->surface(1);
     if (!whole) return nullptr;
@@ -224,7 +225,7 @@ std::shared_ptr<const PartCells> Fetched::cells(NodeId part) {
 // Fetches values of a part, which are computed from the cells where these are at hand.
 template <class Read>
 std::shared_ptr<const std::vector<float>> Fetched::values(Store::Kind kind, NodeId part, ColorBy color, Read read) {
-    const Store::Key key{kind, part, static_cast<int>(color)};
+    const Store::Key key{kind, part, color};
     if (!is_meshed(part) || !can_be_fetched(color)) return nullptr;
     if (auto found = kept<std::vector<float>>(key)) return found;
     const auto at_hand = shown_.store.find<PartCells>({Store::Kind::cells, part});
@@ -247,9 +248,9 @@ std::shared_ptr<const std::vector<WorstCell>> Fetched::worst_cells(ColorBy color
     std::vector<NodeId> parts;
     for (const NodeId part : shown_.document.tree.parts_below(1))
         if (is_meshed(part)) parts.push_back(part);
-    const auto all = static_cast<NodeId>(parts.size());
+    const NodeId all = count_of(parts);
     const auto key_of = [&](NodeId parts_read) {
-        return Store::Key{Store::Kind::worst_cells, parts_read, static_cast<int>(color), count};
+        return Store::Key{Store::Kind::worst_cells, parts_read, color, count};
     };
     NodeId known = all;
     while (known > 0 && !shown_.store.holds(key_of(known))) --known;
@@ -266,7 +267,7 @@ std::shared_ptr<const std::vector<WorstCell>> Fetched::worst_cells(ColorBy color
 std::shared_ptr<const PartSolution> Fetched::solution(NodeId part, std::size_t number) {
     const std::optional<Solution>& solution = shown_.document.solution;
     if (!solution || number >= solution->cases.size() || !is_meshed(part)) return nullptr;
-    const Store::Key key{Store::Kind::solution, part, 0, number};
+    const Store::Key key{.kind = Store::Kind::solution, .node = part, .count = number};
     if (auto found = kept<PartSolution>(key)) return found;
     return fetch<PartSolution>(key, [of = *solution, number, part] { return read_part_solution(of, number, part); });
 }

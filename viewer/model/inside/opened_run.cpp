@@ -193,7 +193,7 @@ void complete_from_report(OpenedRun run, Shown& shown) {
     const std::vector<NodeId> parts = document.tree.parts_below(1);
     shown.folder_parts = {parts.begin(), parts.end()};
     Progress& progress = document.progress;
-    progress.parts = static_cast<std::int64_t>(parts.size());
+    progress.parts = std::ssize(parts);
     progress.parts_done = std::count_if(
         parts.begin(), parts.end(), [&](NodeId part) { return document.tree.find(part)->state == NodeState::done; });
     progress.load_done = 1;
@@ -202,8 +202,8 @@ void complete_from_report(OpenedRun run, Shown& shown) {
 
 void set_input(const Soup& soup, Document& document) {
     document.patch_names = soup.patch_names;
-    document.input_vertices = static_cast<std::int64_t>(soup.vertices.size());
-    document.input_facets = static_cast<std::int64_t>(soup.facets.size());
+    document.input_vertices = std::ssize(soup.vertices);
+    document.input_facets = std::ssize(soup.facets);
 }
 
 void set_input(const Trace& trace, Document& document) {
@@ -211,8 +211,8 @@ void set_input(const Trace& trace, Document& document) {
     document.patch_names = trace.patch_names;
     document.region_names = trace.region_names;
     document.region_places = region_places(trace);
-    document.input_vertices = static_cast<std::int64_t>(trace.surface.vertices.size());
-    document.input_facets = static_cast<std::int64_t>(trace.surface.facets.size());
+    document.input_vertices = std::ssize(trace.surface.vertices);
+    document.input_facets = std::ssize(trace.surface.facets);
     document.volume = enclosed_volume(trace.surface.vertices, trace.surface.facets);
 }
 

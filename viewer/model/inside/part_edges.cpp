@@ -1,5 +1,7 @@
 #include "viewer/model/inside/part_edges.h"
 
+#include "base/core/ids.h"
+
 namespace kerf::view {
 
 namespace {
@@ -11,9 +13,9 @@ class EdgesInUse {
         : part_(part), edges_(edges), number_(part.edge_nodes.points.size(), -1) {}
 
     std::int32_t number_of(std::int32_t node, const UndirectedEdge& ends) {
-        const auto e = static_cast<std::size_t>(node - part_.vertex_count());
+        const std::int64_t e = node - part_.vertex_count();
         if (number_[e] >= 0) return number_[e];
-        number_[e] = static_cast<std::int32_t>(edges_.places.size());
+        number_[e] = count_of(edges_.places);
         edges_.places.push_back(part_.edge_nodes.points[e]);
         edges_.ends.push_back({ends[0], ends[1]});
         edges_.node.push_back(node);
@@ -35,8 +37,7 @@ void add_edges(const Part& part, PartCells& cells) {
         const std::array<std::int32_t, 10> nodes = part.nodes_of_tet(t);
         auto& edges = cells.edges_of_tet.emplace_back();
         for (std::size_t k = 0; k < edges.size(); ++k)
-            edges[k] = in_use.number_of(nodes[4 + k], undirected(nodes[static_cast<std::size_t>(tet_edges[k][0])],
-                                                                 nodes[static_cast<std::size_t>(tet_edges[k][1])]));
+            edges[k] = in_use.number_of(nodes[4 + k], undirected(nodes[tet_edges[k][0]], nodes[tet_edges[k][1]]));
     }
 }
 
@@ -48,8 +49,7 @@ void add_edges(const Part& part, NodeSurface& surface) {
         auto& edges = surface.edges_of_facet.emplace_back();
         for (std::size_t k = 0; k < edges.size(); ++k)
             edges[k] =
-                in_use.number_of(nodes[3 + k], undirected(nodes[static_cast<std::size_t>(triangle_edges[k][0])],
-                                                          nodes[static_cast<std::size_t>(triangle_edges[k][1])]));
+                in_use.number_of(nodes[3 + k], undirected(nodes[triangle_edges[k][0]], nodes[triangle_edges[k][1]]));
     }
 }
 

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "files/io/run_folder.h"
 #include "files/part/part_ranges.h"
 #include "files/part/run_parts.h"
@@ -34,12 +35,12 @@ std::vector<char> tets_at_interfaces(const Part& file) {
     std::vector<char> is_on_interface(file.mesh.vertices.size(), 0);
     for (std::size_t f = 0; f < file.facets.size(); ++f)
         if (file.neighbour[f] >= 0)
-            for (const std::int32_t v : file.facets[f]) is_on_interface[static_cast<std::size_t>(v)] = 1;
+            for (const std::int32_t v : file.facets[f]) is_on_interface[v] = 1;
     std::vector<char> at_interface;
     at_interface.reserve(file.mesh.tets.size());
     for (const Tetrahedron& tet : file.mesh.tets)
-        at_interface.push_back(std::any_of(
-            tet.begin(), tet.end(), [&](std::int32_t v) { return is_on_interface[static_cast<std::size_t>(v)] != 0; }));
+        at_interface.push_back(
+            std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) { return is_on_interface[v] != 0; }));
     return at_interface;
 }
 
@@ -63,9 +64,7 @@ double measure(const TetQuality& quality, ColorBy color) {
 }
 
 float value_of_tet(const std::vector<Vec3>& p, const Tetrahedron& t, ColorBy color) {
-    return static_cast<float>(measure(tet_quality(p[static_cast<std::size_t>(t[0])], p[static_cast<std::size_t>(t[1])],
-                                                  p[static_cast<std::size_t>(t[2])], p[static_cast<std::size_t>(t[3])]),
-                                      color));
+    return static_cast<float>(measure(tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]), color));
 }
 
 std::vector<float> values_of_tets(const TetMesh& mesh, ColorBy color) {
@@ -75,11 +74,10 @@ std::vector<float> values_of_tets(const TetMesh& mesh, ColorBy color) {
     return values;
 }
 
-std::vector<float> origins_of_tets(std::size_t count, std::int64_t core_tets) {
+std::vector<float> origins_of_tets(std::int64_t count, std::int64_t core_tets) {
     std::vector<float> origins;
     origins.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-        origins.push_back(static_cast<float>(origin_of(static_cast<std::int64_t>(i), core_tets)));
+    for (std::int64_t i = 0; i < count; ++i) origins.push_back(static_cast<float>(origin_of(i, core_tets)));
     return origins;
 }
 
@@ -143,12 +141,10 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
     NodeSurface whole;
     std::unordered_map<std::int64_t, std::int32_t> vertex_of_number;
     const auto vertex = [&](const NodeSurface& part, std::int32_t v) {
-        const auto i = static_cast<std::size_t>(v);
-        const auto [place, is_new] =
-            vertex_of_number.try_emplace(part.vertex_number[i], static_cast<std::int32_t>(whole.vertices.size()));
+        const auto [place, is_new] = vertex_of_number.try_emplace(part.vertex_number[v], count_of(whole.vertices));
         if (is_new) {
-            whole.vertices.push_back(part.vertices[i]);
-            whole.vertex_number.push_back(part.vertex_number[i]);
+            whole.vertices.push_back(part.vertices[v]);
+            whole.vertex_number.push_back(part.vertex_number[v]);
         }
         return place->second;
     };
@@ -234,7 +230,7 @@ std::vector<float> read_values_at_facets(const PartSource& source, ColorBy color
     std::vector<float> values;
     values.reserve(cells->tet_at_facet.size());
     for (const std::int32_t tet : cells->tet_at_facet)
-        values.push_back(tet < 0 ? std::numeric_limits<float>::quiet_NaN() : all[static_cast<std::size_t>(tet)]);
+        values.push_back(tet < 0 ? std::numeric_limits<float>::quiet_NaN() : all[tet]);
     return values;
 }
 
@@ -249,9 +245,9 @@ std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::ve
     for (const NodeId part : parts) {
         if (is_stale()) return {};
         const std::vector<float> values = read_values_of_cells({folder, part}, color, nullptr);
-        for (std::size_t i = 0; i < values.size(); ++i) {
+        for (std::int32_t i = 0; i < count_of(values); ++i) {
             if (std::isnan(values[i])) continue;
-            const WorstCell cell{part, static_cast<std::int32_t>(i), values[i], Vec3::Zero()};
+            const WorstCell cell{part, i, values[i], Vec3::Zero()};
             if (worst.size() == count && (count == 0 || !is_worse(cell, worst.front()))) continue;
             if (worst.size() == count) {
                 std::pop_heap(worst.begin(), worst.end(), is_worse);
@@ -269,8 +265,7 @@ std::vector<WorstCell> find_worst_cells(const std::string& folder, const std::ve
         const Part file = read_checked_part(folder, part);
         for (WorstCell& cell : worst) {
             if (!is_in_part(cell)) continue;
-            for (const std::int32_t v : file.mesh.tets.at(static_cast<std::size_t>(cell.cell)))
-                cell.center += file.mesh.vertices[static_cast<std::size_t>(v)] / 4;
+            for (const std::int32_t v : file.mesh.tets.at(cell.cell)) cell.center += file.mesh.vertices[v] / 4;
         }
     }
     return worst;

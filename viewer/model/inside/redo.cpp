@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "cut/cut/bisect.h"
 #include "cut/cut/place.h"
 #include "cut/decompose/cap_quality.h"
@@ -53,16 +54,13 @@ Leaf with_own_keys(const Surface& surface, NodeId node) {
 Interface interface_of(const FaceComplex& complex, const Cut& cut, const std::vector<std::int32_t>& parent_vertex) {
     Interface interface;
     interface.contour = cut.interface.contour;
-    const std::size_t corners = interface.contour.size();
-    interface.points.assign(cut.interface.points.begin(),
-                            cut.interface.points.begin() + static_cast<std::ptrdiff_t>(corners));
+    const std::int32_t corners = count_of(interface.contour);
+    interface.points.assign(cut.interface.points.begin(), cut.interface.points.begin() + corners);
     std::map<std::int32_t, std::int32_t> number_of_parent, number_of_new;
-    for (std::size_t i = 0; i < corners; ++i) number_of_parent[interface.contour[i]] = static_cast<std::int32_t>(i);
+    for (std::int32_t i = 0; i < corners; ++i) number_of_parent[interface.contour[i]] = i;
     const auto number = [&](std::int32_t vertex) {
-        if (static_cast<std::size_t>(vertex) < parent_vertex.size())
-            return number_of_parent.at(parent_vertex[static_cast<std::size_t>(vertex)]);
-        const auto [place, is_new] =
-            number_of_new.try_emplace(vertex, static_cast<std::int32_t>(interface.points.size()));
+        if (vertex < count_of(parent_vertex)) return number_of_parent.at(parent_vertex[vertex]);
+        const auto [place, is_new] = number_of_new.try_emplace(vertex, count_of(interface.points));
         if (is_new) interface.points.push_back(complex.point(vertex));
         return place->second;
     };
@@ -84,13 +82,12 @@ bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, co
     if (!straight) return false;
     complex.divide(node, part, *straight);
     std::vector<std::int32_t> parent_vertex(part.vertex.size());  // of a vertex of the surface, and then of the complex
-    for (std::size_t i = 0; i < part.vertex.size(); ++i)
-        parent_vertex[static_cast<std::size_t>(part.vertex[i])] = static_cast<std::int32_t>(i);
+    for (std::int32_t i = 0; i < count_of(part.vertex); ++i) parent_vertex[part.vertex[i]] = i;
     for (CutTry& one : tries)
         for (SurfaceEdge& edge : one.contour)
-            for (std::int32_t& v : edge) v = parent_vertex[static_cast<std::size_t>(v)];
-    for (std::size_t i = parent_vertex.size(); i < straight->split.arrays.vertices.size(); ++i)
-        parent_vertex.push_back(static_cast<std::int32_t>(i));
+            for (std::int32_t& v : edge) v = parent_vertex[v];
+    for (std::int32_t i = count_of(parent_vertex); i < count_of(straight->split.arrays.vertices); ++i)
+        parent_vertex.push_back(i);
     triangulate_caps(complex, [&](NodeId, const Vec3& point) { return options.max_interface_edge(point); });
     straight->cut.tries = std::move(tries);
     made.cut = std::move(straight->cut);
@@ -100,11 +97,11 @@ bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, co
     made.cut.side = straight->split.side;
     SurfaceArrays& arrays = made.cut.split_parent = std::move(straight->split.arrays);
     // Interior points of the interface have the first keys of the node (split()).
-    const std::size_t interior = made.cut.interface.points.size() - made.cut.interface.contour.size();
-    for (std::size_t i = 0; i < arrays.vertices.size(); ++i)
-        arrays.vertex_key[i] = i < part.vertex.size()
-                                   ? surface.vertex_key(part.vertex[i])
-                                   : make_key(node, static_cast<std::int32_t>(interior + i - part.vertex.size()));
+    const std::int32_t interior = count_of(made.cut.interface.points) - count_of(made.cut.interface.contour);
+    const std::int32_t old_vertices = count_of(part.vertex);
+    for (std::int32_t i = 0; i < count_of(arrays.vertices); ++i)
+        arrays.vertex_key[i] =
+            i < old_vertices ? surface.vertex_key(part.vertex[i]) : make_key(node, interior + i - old_vertices);
     for (std::size_t f = 0; f < arrays.facets.size(); ++f)
         arrays.facet_key[f] = surface.facet_key(straight->split.parent[f]);
     return true;

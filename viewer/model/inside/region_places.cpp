@@ -23,10 +23,9 @@ class RegionSurvey {
 
     // A facet of a region, and the region beyond it or -1.
     void add(std::int32_t region, std::int32_t beyond, const std::vector<Vec3>& vertices, const Triangle& facet) {
-        const auto r = static_cast<std::size_t>(region);
-        if (region < 0 || r >= boxes_.size()) return;
-        for (const std::int32_t v : facet) boxes_[r].extend(vertices[static_cast<std::size_t>(v)]);
-        ++facets_[r];
+        if (region < 0 || region >= std::ssize(boxes_)) return;
+        for (const std::int32_t v : facet) boxes_[region].extend(vertices[v]);
+        ++facets_[region];
         if (beyond >= 0) ++walls_[{region, beyond}];
     }
 
@@ -34,10 +33,10 @@ class RegionSurvey {
         std::vector<RegionPlace> places(boxes_.size());
         for (std::size_t r = 0; r < places.size(); ++r) places[r].box = boxes_[r];
         for (const auto& [pair, walls] : walls_) {
-            const auto region = static_cast<std::size_t>(pair.first), beyond = static_cast<std::size_t>(pair.second);
-            if (beyond >= boxes_.size() || 2 * walls <= facets_[region]) continue;
+            const auto [region, beyond] = pair;
+            if (beyond >= std::ssize(boxes_) || 2 * walls <= facets_[region]) continue;
             const bool is_smaller = boxes_[region].volume() < boxes_[beyond].volume();
-            if (is_smaller && boxes_[beyond].contains(boxes_[region])) places[region].holder = pair.second;
+            if (is_smaller && boxes_[beyond].contains(boxes_[region])) places[region].holder = beyond;
         }
         return places;
     }
@@ -97,8 +96,8 @@ std::vector<Vec3> moves_apart(const std::vector<RegionPlace>& places) {
     for (std::size_t r = 0; r < places.size(); ++r) {
         if (places[r].box.isEmpty()) continue;
         std::size_t outermost = r;  // holders are larger than the regions inside of them
-        for (; places[outermost].holder >= 0; outermost = static_cast<std::size_t>(places[outermost].holder))
-            moves[r] += way_out(places[outermost].box, places[static_cast<std::size_t>(places[outermost].holder)].box);
+        for (; places[outermost].holder >= 0; outermost = places[outermost].holder)
+            moves[r] += way_out(places[outermost].box, places[places[outermost].holder].box);
         moves[r] += places[outermost].box.center() - all.center();
     }
     return moves;

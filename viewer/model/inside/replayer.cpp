@@ -19,7 +19,7 @@ namespace {
 // Half-edges, points and keys of a closed surface with half as many vertices as facets.
 std::size_t estimated_bytes(const Surface& surface) {
     constexpr std::size_t per_facet = 90;
-    return per_facet * static_cast<std::size_t>(surface.facet_count());
+    return per_facet * surface.facet_count();
 }
 
 bool splits_facets(const Cut* cut) { return cut && !cut->split_parent.facets.empty(); }
@@ -82,8 +82,8 @@ std::shared_ptr<const Surface> Replayer::uncut_surface(NodeId node) {
     std::array<Half, 2> halves = split(*parent, parent_cut->side, parent_cut->interface, node / 2);
     const NodeId sibling = node ^ 1;
     if (!splits_facets(trace_->find(sibling)) && !places_.contains(sibling))
-        keep(sibling, build(std::move(halves[static_cast<std::size_t>(sibling % 2)])));
-    auto made = build(std::move(halves[static_cast<std::size_t>(node % 2)]));
+        keep(sibling, build(std::move(halves[sibling % 2])));
+    auto made = build(std::move(halves[node % 2]));
     return is_its_own ? keep(node, made) : made;
 }
 

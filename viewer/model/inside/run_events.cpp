@@ -70,7 +70,7 @@ RunEvent event_from_json(const Json& json) {
             break;
         case RunEvent::Kind::parts:
             for (const Json& part : json.at("parts")) event.parts.push_back(announced_part(part));
-            event.parts_total = static_cast<std::int64_t>(event.parts.size());
+            event.parts_total = std::ssize(event.parts);
             break;
         case RunEvent::Kind::part:
             event.parts.push_back(ended_part(json));
@@ -95,7 +95,7 @@ std::vector<RunEvent> EventTail::read_new() {
     const std::uintmax_t size = std::filesystem::file_size(path_, error);
     if (error || size <= position_) return {};
     std::ifstream file(path_, std::ios::binary);
-    file.seekg(static_cast<std::streamoff>(position_));
+    file.seekg(position_);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
     position_ += bytes.size();
     rest_ += bytes;

@@ -258,8 +258,8 @@ void RunFollower::apply_state(const PartialRun& state) {
     Progress& progress = document_.progress;
     progress.running = state.is_alive;
     progress.stage = "volume";
-    progress.parts = static_cast<std::int64_t>(state.parts.size());
-    progress.parts_done = static_cast<std::int64_t>(state.finished.size() + state.failed.size());
+    progress.parts = std::ssize(state.parts);
+    progress.parts_done = std::ssize(state.finished) + std::ssize(state.failed);
     progress.load_done = progress.parts > 0 ? static_cast<double>(progress.parts_done) / progress.parts : 0;
     progress.message =
         state.is_alive

@@ -34,7 +34,7 @@ double number(const Json& json, const char* name) {
 
 Vec3 vector_of(const Json& json) {
     Vec3 v;
-    for (int i = 0; i < 3; ++i) v[i] = json.at(static_cast<std::size_t>(i)).get<double>();
+    for (int i = 0; i < 3; ++i) v[i] = json.at(i).get<double>();
     return v;
 }
 
@@ -49,7 +49,7 @@ void read_node(const Json& node, Tree& tree) {
     if (row.regions > 1) return;  // which have axes, and are not cut
     row.centroid = vector_of(node.at("centroid"));
     row.eigenvalues = vector_of(node.at("eigenvalues"));
-    for (int i = 0; i < 3; ++i) row.axes.col(i) = vector_of(node.at("axes").at(static_cast<std::size_t>(i)));
+    for (int i = 0; i < 3; ++i) row.axes.col(i) = vector_of(node.at("axes").at(i));
     if (!node.contains("cut")) return;
     row.cut = cut_of_json(node.at("cut"));
     row.seconds = row.cut->seconds;
@@ -179,7 +179,7 @@ RunReportFile read_report(const std::string& folder) {
 }
 
 bool is_trace_of(const Trace& trace, const Tree& tree) {
-    std::size_t divided = 0;
+    std::int64_t divided = 0;
     for (const TreeRow& row : tree.rows) {
         if (row.leaf() || row.regions > 1) continue;
         ++divided;
@@ -188,8 +188,7 @@ bool is_trace_of(const Trace& trace, const Tree& tree) {
         const Plane* plane = row.plane();
         if (plane && (cut->plane.origin != plane->origin || cut->plane.normal != plane->normal)) return false;
     }
-    return divided == static_cast<std::size_t>(std::count_if(trace.cuts.begin(), trace.cuts.end(),
-                                                             [](const Cut& cut) { return cut.made(); }));
+    return divided == std::count_if(trace.cuts.begin(), trace.cuts.end(), [](const Cut& cut) { return cut.made(); });
 }
 
 }  // namespace kerf::view

@@ -78,8 +78,8 @@ PartSolution read_part_solution(const Solution& solution, std::size_t number, No
     PartSolution values;
     if (one.is_mode()) {
         values.displacement = arrays.vectors(one.name);
-        values.error_of_tet.assign(static_cast<std::size_t>(counts.tets), std::nanf(""));
-        values.error_at_facet.assign(static_cast<std::size_t>(counts.facets), std::nanf(""));
+        values.error_of_tet.assign(counts.tets, std::nanf(""));
+        values.error_at_facet.assign(counts.facets, std::nanf(""));
         return values;
     }
     const auto loads = std::count_if(solution.cases.begin(), solution.cases.end(),

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/core/types.h"
+#include "viewer/model/view_state.h"
 
 namespace kerf::view {
 
@@ -29,7 +30,7 @@ class Store {
     struct Key {
         Kind kind;
         NodeId node = 0;
-        int color = 0;
+        ColorBy color = {};
         std::size_t count = 0;     ///< number of worst cells; for a solution the number of the case
         const void* of = nullptr;  ///< the surface on which values lie; the values keep it alive
         auto operator<=>(const Key&) const = default;

@@ -1,5 +1,7 @@
 #include "viewer/model/inside/tree_source.h"
 
+#include "base/core/ids.h"
+
 namespace kerf::view {
 
 void describe_cut(const Cut& cut, TreeRow& row) {
@@ -51,9 +53,9 @@ Tree tree_of(const Trace& trace) {
         tree.at(2 * cut.node);
         tree.at(2 * cut.node + 1);
     }
-    for (std::size_t r = 0; r < trace.region_roots.size(); ++r)
+    for (std::int32_t r = 0; r < count_of(trace.region_roots); ++r)
         for (TreeRow& row : tree.rows)
-            if (lies_below(row.id, trace.region_roots[r])) row.region = static_cast<std::int32_t>(r);
+            if (lies_below(row.id, trace.region_roots[r])) row.region = r;
     count_leaves(tree);
     return tree;
 }

@@ -110,14 +110,14 @@ void TreeColumns::find_known(const std::vector<const TreeRow*>& rows, bool times
     shown[node_column] = shown[eye_column] = shown[state_column] = true;
     for (const TreeRow* row : rows) {
         for (int i = facets_column; i < column_count; ++i)
-            shown[static_cast<std::size_t>(i)] |= number_in(*row, static_cast<TreeColumn>(i)).has_value();
+            shown[i] |= number_in(*row, static_cast<TreeColumn>(i)).has_value();
         if (row->leaf() && row->load > 0) total_load += row->load;
     }
     // A run on a single rank needs no column of ranks.
     shown[rank_column] = std::any_of(rows.begin(), rows.end(), [](const TreeRow* row) { return row->rank > 0; });
     shown[seconds_column] &= times;
     shown[load_column] = total_load > 0;
-    for (int i = tries_column; i < column_count; ++i) shown[static_cast<std::size_t>(i)] &= chosen.contains(i);
+    for (int i = tries_column; i < column_count; ++i) shown[i] &= chosen.contains(i);
 }
 
 void TreeColumns::find_widths(const std::vector<const TreeRow*>& rows) {

@@ -121,13 +121,12 @@ bool Widgets::combo(const char* label, int* index, const std::vector<std::string
     }
     const std::string id = is_wide ? std::string("##") + label : label_left(label);
     const bool known = *index >= 0 && *index < static_cast<int>(names.size());
-    const bool open = ImGui::BeginCombo(id.c_str(), known ? names[static_cast<std::size_t>(*index)].c_str() : "",
-                                        ImGuiComboFlags_HeightLarge);
+    const bool open = ImGui::BeginCombo(id.c_str(), known ? names[*index].c_str() : "", ImGuiComboFlags_HeightLarge);
     record(label);
     if (!open) return false;
     bool changed = false;
     for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-        const std::string& name = names[static_cast<std::size_t>(i)];
+        const std::string& name = names[i];
         if (ImGui::Selectable(name.c_str(), i == *index)) {
             changed = i != *index;
             *index = i;

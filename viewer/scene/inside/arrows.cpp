@@ -33,7 +33,7 @@ std::vector<Arrow> spread(const std::vector<Arrow>& arrows, double diagonal) {
         Vec3 middle;
         for (Eigen::Index k = 0; k < 3; ++k) {
             const double number = std::floor(arrows[i].rest[k] / side);
-            cube[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(number);
+            cube[k] = static_cast<std::int64_t>(number);
             middle[k] = (number + 0.5) * side;
         }
         const double distance = (arrows[i].rest - middle).squaredNorm();

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/core/ids.h"
 #include "fill/mesh/edge_table.h"
 #include "fill/mesh/tet_mesh.h"
 #include "viewer/scene/inside/drawn_triangles.h"
@@ -23,7 +25,7 @@ Places places_of(const PartCells& cells, const CellChoice& choice) {
 
 Vec3 center_of(const Places& places, const std::array<std::int32_t, 4>& tet) {
     Vec3 sum = Vec3::Zero();
-    for (const std::int32_t v : tet) sum += places[static_cast<std::size_t>(v)];
+    for (const std::int32_t v : tet) sum += places[v];
     return sum / 4;
 }
 
@@ -42,7 +44,7 @@ bool is_chosen_by_plane(const std::array<double, 4>& distance, ClipStyle style) 
 
 Triangle face_of(const PartCells& cells, std::size_t tet, std::size_t face) {
     Triangle corners{};
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = cells.tets[tet][static_cast<std::size_t>(tet_faces[face][k])];
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = cells.tets[tet][tet_faces[face][k]];
     return corners;
 }
 
@@ -50,8 +52,7 @@ Triangle face_of(const PartCells& cells, std::size_t tet, std::size_t face) {
 std::array<std::int32_t, 3> edges_of_face(const PartCells& cells, std::size_t tet, std::size_t face) {
     std::array<std::int32_t, 3> edges = {};
     for (std::size_t e = 0; e < 3; ++e) {
-        const int a = tet_faces[face][static_cast<std::size_t>(ends_of_edges[e][0])],
-                  b = tet_faces[face][static_cast<std::size_t>(ends_of_edges[e][1])];
+        const int a = tet_faces[face][ends_of_edges[e][0]], b = tet_faces[face][ends_of_edges[e][1]];
         for (std::size_t k = 0; k < tet_edges.size(); ++k)
             if (tet_edges[k] == std::array{a, b} || tet_edges[k] == std::array{b, a})
                 edges[e] = cells.edges_of_tet[tet][k];
@@ -60,15 +61,14 @@ std::array<std::int32_t, 3> edges_of_face(const PartCells& cells, std::size_t te
 }
 
 void add_quadratic_face(Geometry& geometry, const PartCells& cells, const Frame& frame, const CellChoice& choice,
-                        const std::array<std::size_t, 2>& tet_and_face, float value, const Vec3& center,
+                        const std::pair<std::int32_t, std::size_t>& tet_and_face, float value, const Vec3& center,
                         double shrink) {
     const auto [tet, face] = tet_and_face;
     const DrawnVertices vertices{places_of(cells, choice), cells.vertices, choice.vertex_value};
     QuadraticTriangle t =
         quadratic_triangle(vertices, choice.edges, face_of(cells, tet, face), edges_of_face(cells, tet, face), value);
     for (Vec3& p : t.place) p += shrink * (center - p);
-    add_quadratic(geometry, frame, t, pieces_of(t, cells.tets.size()), static_cast<std::int32_t>(tet),
-                  !choice.places.empty());
+    add_quadratic(geometry, frame, t, pieces_of(t, cells.tets.size()), tet, !choice.places.empty());
 }
 
 // The points where the plane cuts a tetrahedron: three or four, in the order of going around, or none.
@@ -76,7 +76,7 @@ std::vector<ValuedPoint> section_of(const PartCells& cells, const CellChoice& ch
                                     const std::array<double, 4>& distance) {
     const Places places = places_of(cells, choice);
     const auto corner = [&](std::size_t i) -> ValuedPoint {
-        const auto v = static_cast<std::size_t>(cells.tets[tet][i]);
+        const std::int32_t v = cells.tets[tet][i];
         const float of_cell = choice.value.empty() ? 0 : choice.value[tet];
         return {places[v], choice.vertex_value.empty() ? of_cell : choice.vertex_value[v], cells.vertices[v]};
     };
@@ -121,7 +121,7 @@ std::vector<char> chosen_cells(const PartCells& cells, const CellChoice& choice)
         if (chosen[t] && choice.wanted) chosen[t] = choice.wanted(t);
         if (!choice.side || !chosen[t]) continue;
         std::array<double, 4> d = {};
-        for (std::size_t k = 0; k < 4; ++k) d[k] = distance[static_cast<std::size_t>(cells.tets[t][k])];
+        for (std::size_t k = 0; k < 4; ++k) d[k] = distance[cells.tets[t][k]];
         chosen[t] = is_chosen_by_plane(d, choice.style);
     }
     return chosen;
@@ -135,9 +135,8 @@ std::vector<std::array<float, 4>> face_values(const PartCells& cells, const Node
         const std::int32_t tet = cells.tet_at_facet[f];
         if (tet < 0) continue;
         const Triangle& facet = surface.facets[f];
-        const auto t = static_cast<std::size_t>(tet);
         for (std::size_t k = 0; k < 4; ++k)  // the corner opposite to the face is none of the facet's
-            if (std::find(facet.begin(), facet.end(), cells.tets[t][k]) == facet.end()) values[t][k] = of_facet[f];
+            if (std::find(facet.begin(), facet.end(), cells.tets[tet][k]) == facet.end()) values[tet][k] = of_facet[f];
     }
     return values;
 }
@@ -146,16 +145,16 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
     auto geometry = std::make_shared<Geometry>();
     const std::vector<char> chosen = chosen_cells(cells, choice);
     const Places places = places_of(cells, choice);
-    const auto is_open = [&](std::size_t t, std::size_t face) {
+    const auto is_open = [&](std::int32_t t, std::size_t face) {
         const std::int32_t neighbour = cells.neighbours[t][face];
-        return neighbour < 0 || !chosen[static_cast<std::size_t>(neighbour)];
+        return neighbour < 0 || !chosen[neighbour];
     };
-    const auto is_outer = [&](std::size_t t) {
+    const auto is_outer = [&](std::int32_t t) {
         return is_open(t, 0) || is_open(t, 1) || is_open(t, 2) || is_open(t, 3);
     };
     const bool shrinks = choice.shrink > 0;
     const bool is_quadratic = !choice.edges.empty() && !cells.edges_of_tet.empty();
-    for (std::size_t t = 0; t < chosen.size(); ++t) {
+    for (std::int32_t t = 0; t < count_of(chosen); ++t) {
         if (!chosen[t]) continue;
         const bool outer = is_outer(t);
         if (!outer && !shrinks) continue;
@@ -164,7 +163,7 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
         // A cell behind shrunk ones has those faces drawn that these would cover.
         const auto is_drawn = [&](std::size_t face) {
             if (outer) return shrinks || is_open(t, face);
-            return is_outer(static_cast<std::size_t>(cells.neighbours[t][face]));
+            return is_outer(cells.neighbours[t][face]);
         };
         for (std::size_t face = 0; face < 4; ++face) {
             if (!is_drawn(face)) continue;
@@ -175,8 +174,7 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
                 add_quadratic_face(*geometry, cells, frame, choice, {t, face}, of_face, center, shrink);
                 continue;
             }
-            add_triangle(*geometry, frame, shrunk(corners_at(places, corners), center, shrink), of_face, 7,
-                         static_cast<std::int32_t>(t));
+            add_triangle(*geometry, frame, shrunk(corners_at(places, corners), center, shrink), of_face, 7, t);
             if (!choice.vertex_value.empty()) set_corner_values(*geometry, corners, choice.vertex_value);
             if (!choice.places.empty()) add_rest(*geometry, frame, corners_at(cells.vertices, corners));
         }
@@ -189,20 +187,19 @@ std::shared_ptr<Geometry> cell_sections(const PartCells& cells, const Frame& fra
     if (!choice.side) return geometry;
     const std::vector<char> chosen = chosen_cells(cells, choice);
     const Places places = places_of(cells, choice);
-    for (std::size_t t = 0; t < chosen.size(); ++t) {
+    for (std::int32_t t = 0; t < count_of(chosen); ++t) {
         if (!chosen[t]) continue;
         std::array<double, 4> distance = {};
-        for (std::size_t k = 0; k < 4; ++k)
-            distance[k] = choice.side->distance(places[static_cast<std::size_t>(cells.tets[t][k])]);
+        for (std::size_t k = 0; k < 4; ++k) distance[k] = choice.side->distance(places[cells.tets[t][k]]);
         std::vector<ValuedPoint> polygon = section_of(cells, choice, t, distance);
         if (polygon.empty()) continue;
         if (choice.shrink > 0) {
             Vec3 center = Vec3::Zero();
-            for (const ValuedPoint& p : polygon) center += p.place / static_cast<double>(polygon.size());
+            for (const ValuedPoint& p : polygon) center += p.place / polygon.size();
             for (ValuedPoint& p : polygon) p.place += choice.shrink * (center - p.place);
         }
         face_towards(choice.side->normal, polygon);
-        add_polygon(*geometry, frame, polygon, static_cast<std::int32_t>(t), !choice.places.empty());
+        add_polygon(*geometry, frame, polygon, t, !choice.places.empty());
     }
     return geometry;
 }

@@ -40,7 +40,7 @@ Color mixed(const Color& a, const Color& b, float share) {
 Color color_from_hex(const char* text, float alpha) {
     const auto channel = [&](int i) {
         const char digits[3] = {text[1 + 2 * i], text[2 + 2 * i], 0};
-        return static_cast<float>(std::strtol(digits, nullptr, 16)) / 255;
+        return std::strtol(digits, nullptr, 16) / 255.f;
     };
     return {channel(0), channel(1), channel(2), alpha};
 }

@@ -9,6 +9,7 @@
 // variance follow.
 #include "viewer/scene/inside/cut_layers.h"
 
+#include "base/core/ids.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
@@ -23,16 +24,15 @@ constexpr float flat_shading = 0, interface_shading = 0.4f;        // so that se
 std::vector<std::array<Vec3, 2>> ends_of(const std::vector<SurfaceEdge>& edges, const NodeSurface& surface) {
     std::vector<std::array<Vec3, 2>> ends;
     for (const SurfaceEdge& edge : edges)
-        if (static_cast<std::size_t>(std::max(edge[0], edge[1])) < surface.vertices.size())
-            ends.push_back({surface.vertices[static_cast<std::size_t>(edge[0])],
-                            surface.vertices[static_cast<std::size_t>(edge[1])]});
+        if (std::max(edge[0], edge[1]) < count_of(surface.vertices))
+            ends.push_back({surface.vertices[edge[0]], surface.vertices[edge[1]]});
     return ends;
 }
 
 std::vector<std::array<Vec3, 2>> loops_of(const Cut& cut, const NodeSurface& surface, bool projected) {
     std::vector<std::array<Vec3, 2>> ends;
     const auto place = [&](std::int32_t v) -> Vec3 {
-        const Vec3& p = surface.vertices[static_cast<std::size_t>(v)];
+        const Vec3& p = surface.vertices[v];
         return projected ? cut.plane.lift(cut.plane.project(p), 0) : p;
     };
     for (const std::vector<std::int32_t>& loop : cut.loops)
@@ -78,8 +78,8 @@ void CutLayers::add_node(const std::shared_ptr<const NodeSurface>& surface) {
         layer = surfaces_.add(LayerKind::surface, surface, node, colors.surface, colors.interface);
     const Cut* cut = this->cut();
     const TreeRow* row = context_.document.tree.find(node);
-    const auto number = static_cast<std::size_t>(step.refused_try);
-    const CutTry* attempt = step.refused_try >= 0 && cut && number < cut->tries.size() ? &cut->tries[number] : nullptr;
+    const std::int32_t number = step.refused_try;
+    const CutTry* attempt = number >= 0 && cut && number < count_of(cut->tries) ? &cut->tries[number] : nullptr;
     // Things inside of the surface are to be seen.
     if (layer && (step.stage >= Stage::projected || (attempt && !attempt->collisions.empty()))) {
         layer->opacity = shell_opacity;
@@ -103,7 +103,7 @@ void CutLayers::add_axes(const TreeRow& row) {
     const double half_trace = row.eigenvalues.sum() / 2;
     std::vector<std::array<Vec3, 2>> ends;
     for (int k = 0; k < 3; ++k) {
-        const double variance = (half_trace - row.eigenvalues[k]) / static_cast<double>(row.vertices);
+        const double variance = (half_trace - row.eigenvalues[k]) / row.vertices;
         const Vec3 reach = 2 * std::sqrt(std::max(variance, 0.0)) * row.axes.col(k);
         ends.push_back({*row.centroid - reach, *row.centroid + reach});
     }
@@ -154,7 +154,7 @@ void CutLayers::add_collisions(const CutTry& attempt) {
         std::vector<Vec3> corners;
         std::vector<Triangle> sides;
         for (const Collision& pair : attempt.collisions) {
-            const auto first = static_cast<std::int32_t>(corners.size());
+            const std::int32_t first = count_of(corners);
             corners.insert(corners.end(), (pair.*side).begin(), (pair.*side).end());
             sides.push_back({first, first + 1, first + 2});
         }
@@ -227,7 +227,7 @@ void add_defects(const SceneContext& context, LayerSink& sink, const CheckedSoup
     if (!found || context.state.node != 1) return;
     const CheckedSoup& checked = *found;
     const Soup& soup = checked.soup;
-    const auto point = [&](std::int32_t v) { return soup.vertices[static_cast<std::size_t>(v)]; };
+    const auto point = [&](std::int32_t v) { return soup.vertices[v]; };
     std::vector<Vec3> errors, warnings;
     std::vector<std::array<Vec3, 2>> edges;
     std::vector<Triangle> facets;
@@ -241,7 +241,7 @@ void add_defects(const SceneContext& context, LayerSink& sink, const CheckedSoup
             for (std::size_t i = 0; i + 1 < defect.vertices.size() + (is_loop ? 1 : 0); ++i)
                 edges.push_back({point(defect.vertices[i]), point(defect.vertices[(i + 1) % defect.vertices.size()])});
         if (!is_loop)
-            for (const std::int32_t f : defect.facets) facets.push_back(soup.facets[static_cast<std::size_t>(f)]);
+            for (const std::int32_t f : defect.facets) facets.push_back(soup.facets[f]);
     }
     if (!facets.empty()) {
         Layer& layer =

@@ -24,8 +24,8 @@ inline void add_triangle(Geometry& geometry, const Frame& frame, const Corners& 
 inline std::array<std::int16_t, 3> packed_normal(const Vec3& normal) {
     const double length = normal.norm();
     if (!(length > 0)) return {};
-    const Vec3 n = normal / length * 32767;
-    return {static_cast<std::int16_t>(n.x()), static_cast<std::int16_t>(n.y()), static_cast<std::int16_t>(n.z())};
+    const auto n = (normal / length * 32767).cast<std::int16_t>().eval();
+    return {n.x(), n.y(), n.z()};
 }
 
 // Adds the places of the last triangle's corners when nothing is deformed.
@@ -40,19 +40,15 @@ inline Corners shrunk(Corners corners, const Vec3& center, double shrink) {
 }
 
 inline Corners corners_at(const Places& places, const Triangle& t) {
-    return {places[static_cast<std::size_t>(t[0])], places[static_cast<std::size_t>(t[1])],
-            places[static_cast<std::size_t>(t[2])]};
+    return {places[t[0]], places[t[1]], places[t[2]]};
 }
 
 // Gives the last triangle values of its own at its corners.
 inline void set_corner_values(Geometry& geometry, const std::array<float, 3>& values) {
-    for (std::size_t k = 0; k < 3; ++k)
-        (geometry.corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->value = values[k];
+    for (std::size_t k = 0; k < 3; ++k) (geometry.corners.end() - 3 + k)->value = values[k];
 }
 inline void set_corner_values(Geometry& geometry, const Triangle& t, std::span<const float> vertex_value) {
-    set_corner_values(geometry,
-                      {vertex_value[static_cast<std::size_t>(t[0])], vertex_value[static_cast<std::size_t>(t[1])],
-                       vertex_value[static_cast<std::size_t>(t[2])]});
+    set_corner_values(geometry, {vertex_value[t[0]], vertex_value[t[1]], vertex_value[t[2]]});
 }
 
 struct ValuedPoint {

@@ -25,7 +25,7 @@ std::string LegendMaker::title_of_values() const {
     std::string text = title(context_.state.coloring.by);
     if (!context_.needs_solution()) return text;
     const auto& cases = context_.document.solution->cases;
-    const auto number = static_cast<std::size_t>(context_.state.deformation.load_case);
+    const std::size_t number = context_.state.deformation.load_case;
     if (cases.size() > 1 && number < cases.size()) text += fmt::format(", case {}", cases[number].name);
     if (context_.state.deformation.factor != 0)
         text += fmt::format(", deformed {:g} x", context_.state.deformation.factor);

@@ -51,7 +51,7 @@ void PartLayers::mark_inside(std::size_t part_count) {
         if (!surface) continue;
         Range& outer = layer.ranges.front();
         Range inner = outer;
-        inner.first = outer.count = static_cast<std::uint32_t>(input_triangles(*layer.geometry, *surface));
+        inner.first = outer.count = input_triangles(*layer.geometry, *surface);
         inner.count -= outer.count;
         inner.inside = true;
         layer.ranges.push_back(inner);

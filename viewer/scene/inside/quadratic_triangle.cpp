@@ -18,7 +18,7 @@ namespace kerf::view {
 namespace {
 
 constexpr double straight_share = 1e-5;  // of the edge: largest distance of a straight edge's node from the middle
-constexpr double linear_share = 1e-3;    // of the values: a difference that no colour shows
+constexpr float linear_share = 1e-3f;    // of the values: a difference that no colour shows
 constexpr std::size_t many = 100000, most = 400000;
 
 using Shares = std::array<double, 3>;
@@ -34,7 +34,7 @@ Vec3 mixed_place(const std::array<Vec3, 6>& nodes, const std::array<double, 6>& 
 float mixed_value(const std::array<float, 6>& nodes, const std::array<double, 6>& shares) {
     double sum = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (shares[i] != 0) sum += shares[i] * static_cast<double>(nodes[i]);
+        if (shares[i] != 0) sum += shares[i] * nodes[i];
     const auto [least, largest] = std::minmax_element(nodes.begin(), nodes.end());
     return std::clamp(static_cast<float>(sum), *least, *largest);
 }
@@ -58,7 +58,7 @@ QuadraticTriangle quadratic_triangle(const DrawnVertices& vertices, const DrawnE
     QuadraticTriangle t;
     t.value.fill(value);
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto v = static_cast<std::size_t>(corners[k]), e = static_cast<std::size_t>(on_edges[k]);
+        const std::int32_t v = corners[k], e = on_edges[k];
         t.place[k] = vertices.places[v];
         t.place[3 + k] = edges.places[e];
         t.rest[k] = vertices.rest[v];
@@ -90,7 +90,7 @@ bool QuadraticTriangle::is_linear() const {
     for (const float v : value) largest = std::max(largest, std::abs(v));
     for (std::size_t e = 0; e < 3; ++e) {
         const float a = value[ends_of_edges[e][0]], b = value[ends_of_edges[e][1]];
-        if (std::abs(value[3 + e] - (a + b) / 2) > static_cast<float>(linear_share) * largest) return false;
+        if (std::abs(value[3 + e] - (a + b) / 2) > linear_share * largest) return false;
     }
     return true;
 }
@@ -129,7 +129,7 @@ void add_quadratic(Geometry& geometry, const Frame& frame, const QuadraticTriang
         set_corner_values(geometry, values);
         if (is_moved) add_rest(geometry, frame, rest);
         for (std::size_t k = 0; has_normals && k < 3; ++k)
-            (geometry.corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->normal = packed_normal(normals[k]);
+            (geometry.corners.end() - 3 + k)->normal = packed_normal(normals[k]);
     };
     for (int j = 0; j < pieces; ++j)
         for (int i = 0; i + j < pieces; ++i) {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "base/core/ids.h"
 #include "viewer/model/surface_values.h"
 
 namespace kerf::view {
@@ -34,7 +35,7 @@ SceneContext::SceneContext(const ViewState& shown, Session& source, GeometryCach
 void SceneContext::set_patch_palette() {
     std::map<std::array<std::uint8_t, 4>, float> places;
     for (std::size_t i = 0; i < document.patch_colours.size(); ++i) {
-        const auto [place, is_new] = places.emplace(document.patch_colours[i], static_cast<float>(palette.size()));
+        const auto [place, is_new] = places.emplace(document.patch_colours[i], palette.size());
         if (is_new) palette.push_back(patch_color(i));
         palette_of_patch.push_back(place->second);
     }
@@ -66,7 +67,7 @@ Vec3 SceneContext::offset_of(NodeId part) const {
     const std::int32_t region = region_number(part);
     const bool has_several = region_number(state.node) < 0;
     if (region < 0 || !has_several || region >= std::ssize(moves_of_regions_)) return of_cuts;
-    const Vec3 of_region = state.explosion.amount * moves_of_regions_[static_cast<std::size_t>(region)];
+    const Vec3 of_region = state.explosion.amount * moves_of_regions_[region];
     return state.explosion.regions ? of_region : Vec3(of_region + of_cuts);
 }
 
@@ -74,14 +75,14 @@ Color SceneContext::color_of(NodeId part) const {
     const TreeRow* row = document.tree.find(part);
     switch (state.coloring.by) {
         case ColorBy::rank:
-            return row && row->rank >= 0 ? category_color(static_cast<std::size_t>(row->rank)) : colors.none;
+            return row && row->rank >= 0 ? category_color(row->rank) : colors.none;
         case ColorBy::region:
-            return row && row->region >= 0 ? category_color(static_cast<std::size_t>(row->region)) : colors.none;
+            return row && row->region >= 0 ? category_color(row->region) : colors.none;
         case ColorBy::level:
-            return category_color(static_cast<std::size_t>(level_of(part)));
+            return category_color(level_of(part));
         case ColorBy::part: {
             const auto order = part_order_.find(part);
-            return category_color(order == part_order_.end() ? static_cast<std::size_t>(part) : order->second);
+            return category_color(order == part_order_.end() ? part : order->second);
         }
         default:
             return colors.none;
@@ -92,18 +93,17 @@ Color SceneContext::patch_color(std::size_t patch) const {
     if (!has_patch_colors()) return category_color(patch);
     const auto& [r, g, b, a] = document.patch_colours[patch];
     if (a == 0) return colors.surface;
-    return {static_cast<float>(r) / 255, static_cast<float>(g) / 255, static_cast<float>(b) / 255, 1};
+    return {r / 255.f, g / 255.f, b / 255.f, 1};
 }
 
 std::vector<float> SceneContext::patch_values(const NodeSurface& surface) const {
     std::vector<float> values;
     if (state.coloring.by != ColorBy::patch) return values;
     for (const std::int32_t patch : surface.patch) {
-        const auto i = static_cast<std::size_t>(patch);
         if (patch < 0)
             values.push_back(std::nanf(""));
         else
-            values.push_back(i < palette_of_patch.size() ? palette_of_patch[i] : static_cast<float>(patch));
+            values.push_back(patch < count_of(palette_of_patch) ? palette_of_patch[patch] : patch);
     }
     return values;
 }

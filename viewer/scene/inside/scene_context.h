@@ -64,7 +64,7 @@ class SceneContext {
     void set_patch_palette();
     bool has_patch_colors() const;
 
-    std::map<NodeId, std::size_t> part_order_;
+    std::map<NodeId, std::int32_t> part_order_;
     std::vector<Vec3> moves_of_regions_;  // moves of regions, where these are pulled apart
 };
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/core/ids.h"
 #include "viewer/scene/inside/drawn_triangles.h"
 
 namespace kerf::view {
@@ -25,13 +26,12 @@ struct Fans {
 
     explicit Fans(const NodeSurface& surface) : begin(surface.vertices.size() + 1, 0) {
         for (const Triangle& t : surface.facets)
-            for (const std::int32_t v : t) ++begin[static_cast<std::size_t>(v) + 1];
+            for (const std::int32_t v : t) ++begin[v + 1];
         for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-        facet.resize(static_cast<std::size_t>(begin.back()));
+        facet.resize(begin.back());
         std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
-        for (std::size_t f = 0; f < surface.facets.size(); ++f)
-            for (const std::int32_t v : surface.facets[f])
-                facet[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<std::int32_t>(f);
+        for (std::int32_t f = 0; f < count_of(surface.facets); ++f)
+            for (const std::int32_t v : surface.facets[f]) facet[next[v]++] = f;
     }
 };
 
@@ -39,9 +39,8 @@ std::vector<Vec3> area_normals(const NodeSurface& surface) {
     std::vector<Vec3> normals(surface.facets.size());
     for (std::size_t f = 0; f < normals.size(); ++f) {
         const Triangle& t = surface.facets[f];
-        const Vec3& a = surface.vertices[static_cast<std::size_t>(t[0])];
-        normals[f] = (surface.vertices[static_cast<std::size_t>(t[1])] - a)
-                         .cross(surface.vertices[static_cast<std::size_t>(t[2])] - a);
+        const Vec3& a = surface.vertices[t[0]];
+        normals[f] = (surface.vertices[t[1]] - a).cross(surface.vertices[t[2]] - a);
     }
     return normals;
 }
@@ -55,10 +54,10 @@ class SmoothNormals {
     std::array<Vec3, 3> of_facet(std::size_t f) const {
         std::array<Vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto v = static_cast<std::size_t>(surface_.facets[f][k]);
+            const std::int32_t v = surface_.facets[f][k];
             corners[k] = Vec3::Zero();
             for (std::int32_t j = fans_.begin[v]; j < fans_.begin[v + 1]; ++j) {
-                const Vec3& other = normals_[static_cast<std::size_t>(fans_.facet[static_cast<std::size_t>(j)])];
+                const Vec3& other = normals_[fans_.facet[j]];
                 if (other.dot(normals_[f]) > crease_cosine * other.norm() * normals_[f].norm()) corners[k] += other;
             }
         }
@@ -72,7 +71,7 @@ class SmoothNormals {
 };
 
 void add_quadratic_facet(Geometry& geometry, const NodeSurface& surface, const Frame& frame, const FacetChoice& choice,
-                         std::size_t f, const SmoothNormals* normals) {
+                         std::int32_t f, const SmoothNormals* normals) {
     const DrawnVertices vertices{choice.places.empty() ? Places(surface.vertices) : choice.places, surface.vertices,
                                  choice.vertex_value};
     QuadraticTriangle t = quadratic_triangle(vertices, choice.edges, surface.facets[f], surface.edges_of_facet[f],
@@ -80,24 +79,22 @@ void add_quadratic_facet(Geometry& geometry, const NodeSurface& surface, const F
     if (normals) t.normals = normals->of_facet(f);
     const Vec3 center = (t.place[0] + t.place[1] + t.place[2]) / 3;
     for (Vec3& p : t.place) p += choice.shrink * (center - p);
-    add_quadratic(geometry, frame, t, pieces_of(t, surface.facets.size()), static_cast<std::int32_t>(f),
-                  !choice.places.empty());
+    add_quadratic(geometry, frame, t, pieces_of(t, surface.facets.size()), f, !choice.places.empty());
 }
 
 void add_flat_facet(Geometry& geometry, const NodeSurface& surface, const Frame& frame, const FacetChoice& choice,
-                    std::size_t f, const SmoothNormals* normals) {
+                    std::int32_t f, const SmoothNormals* normals) {
     const Triangle& t = surface.facets[f];
     const Corners corners = corners_at(choice.places.empty() ? Places(surface.vertices) : choice.places, t);
     const Vec3 center = (corners[0] + corners[1] + corners[2]) / 3;
     if (!center.allFinite()) return;
     add_triangle(geometry, frame, shrunk(corners, center, choice.shrink), choice.value.empty() ? 0 : choice.value[f], 7,
-                 static_cast<std::int32_t>(f));
+                 f);
     if (!choice.vertex_value.empty()) set_corner_values(geometry, t, choice.vertex_value);
     if (!choice.places.empty()) add_rest(geometry, frame, corners_at(surface.vertices, t));
     if (!normals) return;
     const std::array<Vec3, 3> of_corners = normals->of_facet(f);
-    for (std::size_t k = 0; k < 3; ++k)
-        (geometry.corners.end() - 3 + static_cast<std::ptrdiff_t>(k))->normal = packed_normal(of_corners[k]);
+    for (std::size_t k = 0; k < 3; ++k) (geometry.corners.end() - 3 + k)->normal = packed_normal(of_corners[k]);
 }
 
 // Corners of the rectangle, counter-clockwise seen against the normal.
@@ -120,14 +117,14 @@ ShownSide shown_side(const Clip& clip, const Eigen::AlignedBox3d& box) {
 }
 
 ClipPlane clip_plane(const ShownSide& side, const Frame& frame) {
-    const Vec3 n = -side.normal;
+    const Eigen::Vector3f n = (-side.normal).cast<float>();
     const double d = (side.offset - side.normal.dot(frame.center)) * frame.scale;
-    return {{static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z()), static_cast<float>(d)}};
+    return {{n.x(), n.y(), n.z(), static_cast<float>(d)}};
 }
 
 std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Frame& frame, const FacetChoice& choice) {
     auto geometry = std::make_shared<Geometry>();
-    const auto count = static_cast<std::int32_t>(surface.facets.size());
+    const std::int32_t count = count_of(surface.facets);
     if (!choice.wanted) {
         geometry->corners.reserve(3 * surface.facets.size());
         geometry->element.reserve(surface.facets.size());
@@ -138,15 +135,15 @@ std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Fram
     for (const bool interfaces : {false, true})
         for (std::int32_t f = 0; f < count; ++f) {
             if (surface.is_interface(f) != interfaces || (choice.wanted && !choice.wanted(f))) continue;
-            (is_quadratic ? add_quadratic_facet : add_flat_facet)(
-                *geometry, surface, frame, choice, static_cast<std::size_t>(f), normals ? &*normals : nullptr);
+            (is_quadratic ? add_quadratic_facet : add_flat_facet)(*geometry, surface, frame, choice, f,
+                                                                  normals ? &*normals : nullptr);
         }
     return geometry;
 }
 
-std::size_t input_triangles(const Geometry& geometry, const NodeSurface& surface) {
+std::uint32_t input_triangles(const Geometry& geometry, const NodeSurface& surface) {
     const auto& element = geometry.element;
-    return static_cast<std::size_t>(
+    return static_cast<std::uint32_t>(
         std::find_if(element.begin(), element.end(), [&](std::int32_t f) { return surface.is_interface(f); }) -
         element.begin());
 }
@@ -175,10 +172,10 @@ std::shared_ptr<Geometry> isolines(const Geometry& triangles, std::size_t count,
 std::shared_ptr<Geometry> triangles(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
                                     const Frame& frame) {
     auto geometry = std::make_shared<Geometry>();
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::int32_t i = 0; i < count_of(triangles); ++i) {
         Corners corners;
-        for (std::size_t k = 0; k < 3; ++k) corners[k] = points[static_cast<std::size_t>(triangles[i][k])];
-        add_triangle(*geometry, frame, corners, 0, 7, static_cast<std::int32_t>(i));
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = points[triangles[i][k]];
+        add_triangle(*geometry, frame, corners, 0, 7, i);
     }
     return geometry;
 }
@@ -232,8 +229,7 @@ Eigen::AlignedBox3d box_of_shown(const std::vector<Vec3>& vertices, const std::v
     Eigen::AlignedBox3d box;
     for (const Triangle& t : facets)
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 &a = vertices[static_cast<std::size_t>(t[k])],
-                       &b = vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+            const Vec3 &a = vertices[t[k]], &b = vertices[t[(k + 1) % 3]];
             const double da = side.distance(a), db = side.distance(b);
             if (da <= 0 && style != ClipStyle::layer) box.extend(a);
             if ((da < 0) != (db < 0) && da != db) box.extend(a + da / (da - db) * (b - a));

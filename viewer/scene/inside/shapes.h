@@ -40,7 +40,7 @@ struct FacetChoice {
 /// first, then those of interfaces. O(#F).
 std::shared_ptr<Geometry> facet_triangles(const NodeSurface& surface, const Frame& frame, const FacetChoice& choice);
 /// Returns the number of triangles in such a geometry that are of the input, which come first. O(#F).
-std::size_t input_triangles(const Geometry& geometry, const NodeSurface& surface);
+std::uint32_t input_triangles(const Geometry& geometry, const NodeSurface& surface);
 
 /// Returns the segments inside of the first `count` triangles on which values are those of the levels. O(count) for
 /// each level.

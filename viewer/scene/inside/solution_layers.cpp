@@ -8,14 +8,15 @@
 
 #include <iterator>
 
+#include "base/core/ids.h"
+
 namespace kerf::view {
 
 SolvedNodes::SolvedNodes(const SceneContext& context, LayerSink& sink, NodeId part, const std::vector<Vec3>& vertices,
                          const EdgePoints& edges) {
     const ViewState& state = context.state;
     if (!context.needs_solution()) return;
-    found =
-        sink.awaited(context.session.fetched().solution(part, static_cast<std::size_t>(state.deformation.load_case)));
+    found = sink.awaited(context.session.fetched().solution(part, state.deformation.load_case));
     if (!found) return;
     const double factor = state.deformation.drawn();
     for (std::size_t v = 0; state.deformation.factor != 0 && v < vertices.size(); ++v)
@@ -29,9 +30,9 @@ SolvedNodes::SolvedNodes(const SceneContext& context, LayerSink& sink, NodeId pa
 void SolvedNodes::add_edges(const ViewState& state, const EdgePoints& edges) {
     const double factor = state.deformation.drawn();
     for (std::size_t e = 0; e < edges.places.size(); ++e) {
-        const auto n = static_cast<std::size_t>(edges.node[e]);
-        const auto a = static_cast<std::size_t>(edges.ends[e][0]), b = static_cast<std::size_t>(edges.ends[e][1]);
-        const bool is_known = n < found->displacement.size();
+        const std::int32_t n = edges.node[e];
+        const auto [a, b] = edges.ends[e];
+        const bool is_known = n < count_of(found->displacement);
         if (state.deformation.factor != 0) {
             const Vec3 displacement =
                 is_known ? found->displacement[n] : Vec3((found->displacement[a] + found->displacement[b]) / 2);
@@ -57,20 +58,20 @@ void SolutionLayers::add_isolines(const ValueRange& range) {
     std::vector<float> levels;
     for (int i = 1; i < 10; ++i) levels.push_back(static_cast<float>(low + i * (high - low) / 10));
     std::vector<Layer> lines;
-    for (std::size_t i = 0; i < sink_.layers().size(); ++i) {
+    for (std::int32_t i = 0; i < count_of(sink_.layers()); ++i) {
         const Layer& layer = sink_.layers()[i];
         if (layer.fill != Fill::scale) continue;
         Layer line;
         line.kind = LayerKind::isolines;
         line.owner = layer.owner;
-        line.lies_on = static_cast<int>(i);
+        line.lies_on = i;
         line.geometry = context_.cache.get(
             fmt::format("isolines of {} {} {} {} {}{}", static_cast<int>(layer.kind), layer.owner, low, high,
                         context_.state.explosion.amount > 0, context_.solution_key()),
             layer.geometry, [&] { return isolines(*layer.geometry, triangles_seen(layer), levels); });
         if (line.geometry->segments.empty()) continue;
         Range all = layer.ranges.front();
-        all.count = static_cast<std::uint32_t>(line.geometry->segments.size());
+        all.count = count_of(line.geometry->segments);
         all.color = context_.colors.feature;
         line.ranges.push_back(all);
         line.pixels = thin_pixels;
@@ -84,7 +85,7 @@ void SolutionLayers::add_isolines(const ValueRange& range) {
 void SolutionLayers::add_vectors() {
     if (!context_.state.deformation.vectors || !context_.document.solution || context_.step.stage != Stage::tetrahedra)
         return;
-    const auto number = static_cast<std::size_t>(context_.state.deformation.load_case);
+    const std::size_t number = context_.state.deformation.load_case;
     if (number >= context_.document.solution->cases.size()) return;
     std::vector<Arrow> arrows;
     std::shared_ptr<const void> source;
@@ -116,8 +117,7 @@ void SolutionLayers::add_arrows(const NodeSurface& surface, const PartSolution& 
     std::vector<char> is_outside(surface.vertices.size(), 0);
     for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f)
         if (!surface.is_interface(f) || context_.state.explosion.amount > 0)
-            for (const std::int32_t v : surface.facets[static_cast<std::size_t>(f)])
-                is_outside[static_cast<std::size_t>(v)] = 1;
+            for (const std::int32_t v : surface.facets[f]) is_outside[v] = 1;
     for (std::size_t v = 0; v < is_outside.size(); ++v) {
         const Vec3 place = surface.vertices[v] + factor * solution.displacement[v];
         if (is_outside[v] && (!context_.side || context_.side->distance(place) <= 0))

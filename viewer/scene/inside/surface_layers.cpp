@@ -15,9 +15,9 @@ namespace kerf::view {
 namespace {
 
 bool is_facet_shown(const NodeSurface& surface, std::int32_t facet, const ShownSide& side, ClipStyle style) {
-    const Triangle& t = surface.facets[static_cast<std::size_t>(facet)];
+    const Triangle& t = surface.facets[facet];
     std::array<double, 3> d = {};
-    for (std::size_t k = 0; k < 3; ++k) d[k] = side.distance(surface.vertices[static_cast<std::size_t>(t[k])]);
+    for (std::size_t k = 0; k < 3; ++k) d[k] = side.distance(surface.vertices[t[k]]);
     if (style == ClipStyle::cells) return d[0] + d[1] + d[2] <= 0;
     return std::min({d[0], d[1], d[2]}) < 0 && std::max({d[0], d[1], d[2]}) >= 0;
 }
@@ -45,7 +45,7 @@ bool is_met(const SceneContext& context, NodeId part, NodeId neighbour) {
 std::size_t divide_at_interfaces(const NodeSurface& surface, const ViewState& state, const Color& interface_color,
                                  Layer& layer) {
     Range input = layer.ranges.front(), interface = input;
-    input.count = static_cast<std::uint32_t>(input_triangles(*layer.geometry, surface));
+    input.count = input_triangles(*layer.geometry, surface);
     interface.first = input.count;
     interface.count -= input.count;
     interface.color = interface_color;
@@ -60,7 +60,7 @@ std::size_t divide_at_interfaces(const NodeSurface& surface, const ViewState& st
 }  // namespace
 
 bool PartFacets::wants(const NodeSurface& surface, std::int32_t facet) const {
-    const std::int32_t neighbour = surface.neighbour[static_cast<std::size_t>(facet)];
+    const std::int32_t neighbour = surface.neighbour[facet];
     return neighbour < 0 ? outer : !left_out.contains(neighbour);
 }
 
@@ -110,8 +110,7 @@ void FacetColors::finish(const SceneContext& context, const NodeSurface& surface
     if (!context.shows_patches() || surface.patch.empty()) return;
     auto numbers = std::make_shared<std::vector<std::int32_t>>();
     numbers->reserve(layer.geometry->element.size());
-    for (const std::int32_t facet : layer.geometry->element)
-        numbers->push_back(surface.patch[static_cast<std::size_t>(facet)]);
+    for (const std::int32_t facet : layer.geometry->element) numbers->push_back(surface.patch[facet]);
     layer.patch = std::move(numbers);
 }
 
