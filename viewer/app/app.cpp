@@ -105,15 +105,15 @@ void App::build_scene() {
     facts.pending = view_.session.pending();
     facts.triangles = facts.lines = 0;
     for (const Layer& layer : built.scene.layers) {
-        facts.triangles += static_cast<std::int64_t>(layer.geometry->triangle_count());
-        facts.lines += static_cast<std::int64_t>(layer.geometry->segments.size());
+        facts.triangles += layer.geometry->triangle_count();
+        facts.lines += layer.geometry->segments.size();
     }
 }
 
 void App::lay_out(bool panels) {
     ImGuiIO& io = ImGui::GetIO();
     const float scale = view_.size.scale;
-    io.DisplaySize = {static_cast<float>(view_.size.width), static_cast<float>(view_.size.height)};
+    io.DisplaySize = ImVec2(view_.size.width, view_.size.height);
     io.DisplayFramebufferScale = {1, 1};
     if (const std::pair style(view_.state.theme, scale); style != styled_for_) {
         ui_.apply(view_.state.theme, scale);

@@ -163,7 +163,7 @@ void apply_document(const ViewCommand& command, const Document& document, double
                                                       command.load_case, fmt::join(names, "', '")));
         state.deformation.load_case = static_cast<int>(found - cases.begin());
     }
-    const auto& chosen = cases.at(static_cast<std::size_t>(state.deformation.load_case));
+    const auto& chosen = cases.at(state.deformation.load_case);
     if (chosen.is_mode() && !command.chosen.color) state.coloring.by = ColorBy::displacement;
     if (command.picture.frames > 0 && state.deformation.motion == Motion::still)
         state.deformation.motion = Motion::swing;

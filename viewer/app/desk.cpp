@@ -60,7 +60,7 @@ ViewOrigin Desk::origin_of_picture() const {
             origin.run.push_back(option);
     origin.width = view_.size.width;
     origin.height = view_.size.height;
-    origin.scale = static_cast<double>(view_.size.scale);
+    origin.scale = view_.size.scale;
     origin.body = document.box;
     return origin;
 }

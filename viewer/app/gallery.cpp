@@ -41,7 +41,7 @@ std::vector<Example> read_examples(const std::string& folder, Renderer& renderer
         std::error_code no_size;
         const std::uintmax_t bytes = entry->file_size(no_size);
         if (path.extension() != ".stl" || no_size || bytes < stl_head_bytes) continue;
-        const auto facets = static_cast<std::int64_t>((bytes - stl_head_bytes) / stl_facet_bytes);
+        const std::int64_t facets = (bytes - stl_head_bytes) / stl_facet_bytes;
         examples.push_back({title_of_stem(path.stem().string()), path.string(), facets, nullptr});
     }
     std::sort(examples.begin(), examples.end(), [](const Example& a, const Example& b) { return a.name < b.name; });

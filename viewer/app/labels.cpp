@@ -51,9 +51,8 @@ void Labels::place_numbers() {
     if (!view_.state.look.numbers || std::none_of(layers.begin(), layers.end(), has_numbers)) return;
     const float least_room = 0.7f * ImGui::GetFontSize();
     for (const NumberPlace& place : view_.renderer.places_of_patches(view_.built.scene, view_.projection))
-        if (static_cast<float>(place.room) >= least_room)
-            view_.facts.numbers.push_back(
-                {patch_number(place.number), static_cast<float>(place.x) + 0.5f, static_cast<float>(place.y) + 0.5f});
+        if (place.room >= least_room)
+            view_.facts.numbers.push_back({patch_number(place.number), place.x + 0.5f, place.y + 0.5f});
 }
 
 void Labels::place_line_values() {
@@ -61,7 +60,7 @@ void Labels::place_line_values() {
     const std::vector<Layer>& layers = view_.built.scene.layers;
     if (!view_.state.look.numbers || std::none_of(layers.begin(), layers.end(), has_lines)) return;
     const auto size = [](float value) {
-        const ImVec2 extent = ImGui::CalcTextSize(rounded(static_cast<double>(value)).c_str());
+        const ImVec2 extent = ImGui::CalcTextSize(rounded(value).c_str());
         return Eigen::Vector2f(extent.x, extent.y);
     };
     std::vector<LabelArea> taken;
@@ -73,7 +72,7 @@ void Labels::place_line_values() {
                          {view_.body.x + view_.body.width, view_.body.y + view_.body.height}};
     const std::vector<SeenSegment> seen = view_.renderer.seen_isolines(view_.built.scene, view_.projection);
     for (const LineLabel& label : places_on_lines(seen, size, area, line_spacing * ImGui::GetFontSize(), taken))
-        view_.facts.labels.push_back({rounded(static_cast<double>(label.value)), label.place.x(), label.place.y()});
+        view_.facts.labels.push_back({rounded(label.value), label.place.x(), label.place.y()});
 }
 
 void Labels::place_extremes() {
@@ -108,9 +107,9 @@ void Labels::probe(bool wanted) {
     const auto hit = view_.pick(io.MousePos.x, io.MousePos.y);
     if (!hit || std::isnan(hit->value)) return;
     const Vec3 place = view_.built.frame.to_file(hit->rest.cast<double>());
-    view_.facts.probe = ValueLabel{fmt::format("{} {}\n{}", title(view_.state.coloring.by),
-                                               rounded(static_cast<double>(hit->value)), place_text(place)),
-                                   io.MousePos.x, io.MousePos.y, true};
+    view_.facts.probe =
+        ValueLabel{fmt::format("{} {}\n{}", title(view_.state.coloring.by), rounded(hit->value), place_text(place)),
+                   io.MousePos.x, io.MousePos.y, true};
 }
 
 }  // namespace kerf::view

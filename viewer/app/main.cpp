@@ -55,7 +55,7 @@ bool apply_when_known(App& app, const ViewCommand& command) {
         const Document& document = app.session().document();
         const Rectangle scene = app.scene_area();
         if (document.box.isEmpty() || scene.height < 1) return false;
-        apply_document(command, document, static_cast<double>(scene.width / scene.height), app.state());
+        apply_document(command, document, scene.width / scene.height, app.state());
         return true;
     } catch (const Error&) {
         return false;

@@ -80,7 +80,7 @@ void Navigation::clip_through_selection(bool faces_eye) {
     if (points.empty() || view_.session.document().box.isEmpty())
         return view_.notify("Select something to clip through first.");
     Vec3 middle = Vec3::Zero();
-    for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
+    for (const Vec3& p : points) middle += p / points.size();
     // The side towards the eye is cut away.
     const Vec3 normal = faces_eye ? view_.camera.back() : view_.state.clip.normal;
     if (faces_eye) view_.state.clip.flipped = false;

@@ -29,8 +29,8 @@ void Playing::toggle_motion() {
 }
 
 void Playing::move_step(int direction) {
-    const auto here = static_cast<int>(nearest_step(view_.steps, view_.state.step));
-    view_.state.step = view_.steps[std::clamp(here + direction, 0, static_cast<int>(view_.steps.size()) - 1)];
+    const std::int64_t here = nearest_step(view_.steps, view_.state.step);
+    view_.state.step = view_.steps[std::clamp<std::int64_t>(here + direction, 0, std::ssize(view_.steps) - 1)];
 }
 
 void Playing::move_node(int direction) {
@@ -44,7 +44,7 @@ void Playing::move() {
     Deformation& deformation = view_.state.deformation;
     view_.facts.moving &= deformation.motion != Motion::still && deformation.factor != 0;
     if (!view_.facts.moving) return;
-    motion_ += deformation.speed * static_cast<double>(ImGui::GetIO().DeltaTime);
+    motion_ += deformation.speed * ImGui::GetIO().DeltaTime;
     motion_ -= std::floor(motion_);
     deformation.phase = std::floor(motion_ * pictures_per_period) / pictures_per_period;
 }

@@ -70,7 +70,7 @@ void SceneInput::take_drag() {
         dragging_ |= ImGui::IsMouseDown(button) && io.MouseDragMaxDistanceSqr[button] > least_drag * least_drag;
     if (!dragging_ || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
     Camera camera = view_.camera;
-    const auto height = static_cast<double>(view_.height());
+    const double height = view_.height();
     (pans ? pan : orbit)(camera, io.MouseDelta.x / height, io.MouseDelta.y / height);
     view_.state.camera = camera;
 }

@@ -93,7 +93,7 @@ void check_regions(const Document& document, const ViewState& state) {
     if (names.empty() && (!wanted.empty() || state.visibility.walls || state.explosion.regions))
         refuse(document, fmt::format("{} has one region, not several.", document.path));
     constexpr std::size_t most = 20;
-    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+    const auto end = names.begin() + std::min(most, names.size());
     for (const std::string& region : wanted)
         if (std::find(names.begin(), names.end(), region) == names.end())
             refuse(document, fmt::format("{} has no region '{}', but '{}'{}.", document.path, region,
@@ -162,7 +162,7 @@ void take_screenshot(const ViewCommand& command, const AppOptions& options) {
     check_wishes(document, app.state(), picture.panels);
     const FrameSize size = {.width = picture.width * picture.antialias,
                             .height = picture.height * picture.antialias,
-                            .scale = picture.scale * static_cast<float>(picture.antialias)};
+                            .scale = picture.scale * picture.antialias};
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (picture.frames > 0) app.state().deformation.phase = static_cast<double>(i) / picture.frames;
         app.wake();

@@ -35,9 +35,7 @@ class ColorBar {
     float x_of(double value) const {
         return from_.x + size_.x * static_cast<float>(std::clamp((value - extent_.low) / length(), 0., 1.));
     }
-    double value_at(float x) const {
-        return extent_.low + length() * std::clamp(static_cast<double>((x - from_.x) / size_.x), 0., 1.);
-    }
+    double value_at(float x) const { return extent_.low + length() * std::clamp((x - from_.x) / size_.x, 0.f, 1.f); }
 
     void draw_colors() const {
         ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -46,10 +44,10 @@ class ColorBar {
         const float low = x_of(colored_.low), high = x_of(colored_.high);
         list.AddRectFilled(from_, {low, to.y}, packed(scale.front()));
         list.AddRectFilled({high, from_.y}, to, packed(scale.back()));
-        const auto pieces = static_cast<float>(scale.size() - 1);
+        const float pieces = scale.size() - 1;
         for (std::size_t i = 0; i + 1 < scale.size(); ++i) {
-            const float left = low + (high - low) * static_cast<float>(i) / pieces;
-            const float right = low + (high - low) * static_cast<float>(i + 1) / pieces;
+            const float left = low + (high - low) * i / pieces;
+            const float right = low + (high - low) * (i + 1) / pieces;
             const ImU32 first = packed(scale[i]), second = packed(scale[i + 1]);
             list.AddRectFilledMultiColor({left, from_.y}, {right, to.y}, first, second, second, first);
         }

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "viewer/model/surface_values.h"
 #include "viewer/panels/inside/parts.h"
 
@@ -93,11 +94,11 @@ void step_through_worst(UiContext& context, WorstCellsMemory& memory, ListKeys& 
                         const std::vector<WorstCell>& cells) {
     const int steps = keys.take(ListKeys::List::worst_cells);
     if (steps == 0) return;
-    const int last = static_cast<int>(cells.size()) - 1;
+    const int last = count_of(cells) - 1;
     memory.chosen = std::clamp(memory.chosen + steps, 0, last);
     fly_to_cell(context, cells[memory.chosen]);
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-    scroll_to_row(static_cast<float>(memory.chosen) * height, 2 * height);
+    scroll_to_row(memory.chosen * height, 2 * height);
 }
 
 void draw_worst_row(UiContext& context, WorstCellsMemory& memory, ListKeys& keys, const WorstCell& cell, int i) {
@@ -127,7 +128,7 @@ void draw_worst_row(UiContext& context, WorstCellsMemory& memory, ListKeys& keys
 void draw_worst_table(UiContext& context, WorstCellsMemory& memory, ListKeys& keys,
                       const std::vector<WorstCell>& cells) {
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoSavedSettings;
-    const float rows = std::min(10.f, static_cast<float>(cells.size()) + 1.3f);
+    const float rows = std::min(10.f, cells.size() + 1.3f);
     if (!ImGui::BeginTable("##worst", 4, flags, {0, rows * (ImGui::GetTextLineHeight() + 0.4f * em())})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("##number", ImGuiTableColumnFlags_WidthFixed, 2 * em());
@@ -141,7 +142,7 @@ void draw_worst_table(UiContext& context, WorstCellsMemory& memory, ListKeys& ke
     }
     step_through_worst(context, memory, keys, cells);
     ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(cells.size()));
+    clipper.Begin(count_of(cells));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
             draw_worst_row(context, memory, keys, cells[i], i);

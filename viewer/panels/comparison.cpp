@@ -72,7 +72,7 @@ void compare_cuts(NodeId node, const CutSummary& before, const CutSummary& now, 
     table.add("cut by", in_words(name(before.strategy)), in_words(name(now.strategy)));
     table.add("tries", before.tries, now.tries, Better::less);
     table.add("contour length", before.contour_length, now.contour_length, Better::less);
-    table.add("contour edges", static_cast<double>(before.contour_edges), static_cast<double>(now.contour_edges));
+    table.add("contour edges", before.contour_edges, now.contour_edges);
     table.add("loops", before.loops, now.loops);
     table.add("interface area", before.interface_area, now.interface_area, Better::less);
     table.add("smallest angle", before.quality.angle_deg, now.quality.angle_deg, Better::more);
@@ -98,7 +98,7 @@ RunNumbers numbers_of(const Document& document) {
         if (!row.leaf()) continue;
         ++n.parts;
         n.failed += row.state == NodeState::failed;
-        if (row.tets > 0) n.tets += static_cast<double>(row.tets);
+        if (row.tets > 0) n.tets += row.tets;
         has_loads &= row.load > 0;
         load += row.load;
         largest_load = std::max(largest_load, row.load);

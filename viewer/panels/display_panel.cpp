@@ -64,7 +64,7 @@ void draw_choice(Widgets& widgets, const char* title, const char* const (&labels
     };
     float widths = 0;
     for (const char* label : labels) widths += width_of_radio(label);
-    const float gap = std::min(em(), (title_share * room - widths) / static_cast<float>(N - 1));
+    const float gap = std::min(em(), (title_share * room - widths) / (N - 1));
     float x = left + (1 - title_share) * room;
     ImGui::AlignTextToFramePadding();
     show(title);

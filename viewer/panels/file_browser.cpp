@@ -9,6 +9,7 @@
 #include <imgui_internal.h>  // the veil behind the dialog
 #include <imgui_stdlib.h>
 
+#include "base/core/ids.h"
 #include "viewer/panels/imgui_input.h"
 #include "viewer/panels/inside/icons.h"
 #include "viewer/panels/inside/parts.h"
@@ -112,11 +113,11 @@ class Dialog {
     }
 
     void draw_entries() {
-        for (std::size_t i = 0; i < browser_.entries.size(); ++i)
-            if (is_listed(browser_.entries[i])) listed_.push_back(static_cast<int>(i));
+        for (int i = 0; i < count_of(browser_.entries); ++i)
+            if (is_listed(browser_.entries[i])) listed_.push_back(i);
         if (listed_.empty()) show("Nothing here that Kerf can open.", colors_.dim);
         ImGuiListClipper clipper;
-        clipper.Begin(static_cast<int>(listed_.size()));
+        clipper.Begin(count_of(listed_));
         int activated = -1;  // opening replaces the list
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
@@ -201,9 +202,8 @@ class Dialog {
     void move(int direction) {
         if (listed_.empty()) return;
         const auto at = std::find(listed_.begin(), listed_.end(), browser_.chosen);
-        const auto last = static_cast<int>(listed_.size()) - 1;
-        const int next = at == listed_.end() ? 0 : static_cast<int>(at - listed_.begin()) + direction;
-        browser_.chosen = listed_[std::clamp(next, 0, last)];
+        const std::int64_t next = at == listed_.end() ? 0 : at - listed_.begin() + direction;
+        browser_.chosen = listed_[std::clamp<std::int64_t>(next, 0, std::ssize(listed_) - 1)];
     }
 
     void activate(int index) {

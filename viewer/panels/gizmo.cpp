@@ -37,8 +37,8 @@ std::array<PlacedEnd, 6> place_ends(const Camera& camera, const ImVec2& center, 
     const Eigen::Quaterniond to_eye = camera.turn.conjugate();
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const Vec3 d = to_eye * (ends[i].sign * Vec3::Unit(ends[i].axis));
-        const auto x = static_cast<float>(d.x()), y = static_cast<float>(d.y());
-        placed[i] = {&ends[i], {center.x + reach * x, center.y - reach * y}, d.z()};
+        const Eigen::Vector2f seen = d.head<2>().cast<float>();
+        placed[i] = {&ends[i], {center.x + reach * seen.x(), center.y - reach * seen.y()}, d.z()};
     }
     std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.depth > b.depth; });
     return placed;

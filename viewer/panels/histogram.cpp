@@ -54,19 +54,15 @@ class HistogramView {
     }
 
  private:
-    float x_of(double bin) const {
-        return from_.x + size_.x * static_cast<float>((bin - static_cast<double>(span_.first)) /
-                                                      static_cast<double>(span_.size()));
-    }
+    float x_of(double bin) const { return from_.x + size_.x * static_cast<float>((bin - span_.first) / span_.size()); }
     std::size_t bin_at(float x) const {
-        const double place = static_cast<double>((x - from_.x) / size_.x) * static_cast<double>(span_.size());
-        return span_.first + static_cast<std::size_t>(std::clamp(place, 0., static_cast<double>(span_.size()) - 1));
+        const double place = (x - from_.x) / size_.x * static_cast<double>(span_.size());
+        return span_.first + static_cast<std::size_t>(std::clamp(place, 0., span_.size() - 1.));
     }
     float height_of(std::int64_t count) const {
         if (count <= 0 || most_ <= 0) return 0;
-        const double part = memory_.log_counts
-                                ? std::log2(1 + static_cast<double>(count)) / std::log2(1 + static_cast<double>(most_))
-                                : static_cast<double>(count) / static_cast<double>(most_);
+        const double part =
+            memory_.log_counts ? std::log2(1 + count) / std::log2(1 + most_) : static_cast<double>(count) / most_;
         return std::max(1.f, 0.94f * size_.y * static_cast<float>(part));
     }
 
@@ -75,9 +71,9 @@ class HistogramView {
         const auto& edges = histogram_.edges;
         const auto above = std::upper_bound(edges.begin(), edges.end(), value);
         if (above == edges.begin()) return 0;
-        if (above == edges.end()) return static_cast<double>(edges.size() - 1);
+        if (above == edges.end()) return edges.size() - 1;
         const double low = *(above - 1), high = *above;
-        return static_cast<double>(above - edges.begin() - 1) + (value - low) / (high - low);
+        return above - edges.begin() - 1 + (value - low) / (high - low);
     }
 
     // Draws a veil over the values that the filter leaves out.
@@ -93,7 +89,7 @@ class HistogramView {
     }
 
     void draw_bin(ImDrawList& list, std::size_t bin, bool hovered) const {
-        const float left = x_of(static_cast<double>(bin)), right = x_of(static_cast<double>(bin) + 1);
+        const float left = x_of(bin), right = x_of(bin + 1);
         const float gap = right - left > 4 ? 1.f : 0.f, floor = from_.y + size_.y;
         const bool under = hovered && bin == bin_at(ImGui::GetIO().MousePos.x);
         const auto bar = [&](std::int64_t count, const ImVec4& color) {
@@ -106,10 +102,9 @@ class HistogramView {
     // Sets the filter to whole bins, so that the cells shown are those counted.
     void brush() {
         const ImGuiIO& io = ImGui::GetIO();
-        if (ImGui::IsItemClicked()) memory_.brush_from = static_cast<double>(bin_at(io.MousePos.x));
+        if (ImGui::IsItemClicked()) memory_.brush_from = bin_at(io.MousePos.x);
         if (std::abs(io.MousePos.x - io.MouseClickedPos[0].x) < 3) return;
-        const auto start = static_cast<std::size_t>(memory_.brush_from);
-        const std::size_t here = bin_at(io.MousePos.x);
+        const std::size_t start = memory_.brush_from, here = bin_at(io.MousePos.x);
         context_.state.coloring.filter = {histogram_.edges[std::min(start, here)],
                                           histogram_.edges[std::max(start, here) + 1]};
     }

@@ -45,7 +45,7 @@ class LegendBox {
         if (has_scale) prepare_scale();
         prepare_entries();
         const float gap = has_scale && shown_ > 0 ? 0.6f * em() : 0;
-        ImVec2 at = begin(scale_height_ + gap + line_height() * static_cast<float>(rows_));
+        ImVec2 at = begin(scale_height_ + gap + line_height() * rows_);
         if (has_scale) draw_scale(at);
         at.y += scale_height_ + gap;
         draw_entries(at);
@@ -74,7 +74,7 @@ class LegendBox {
     void prepare_scale() {
         range_ = context_.state.coloring.range.value_or(*legend_.values);
         if (is_measure(context_.state.coloring.by)) filter_ = context_.state.coloring.filter;
-        const float entries = line_height() * static_cast<float>(legend_.categories.size() + 2);
+        const float entries = line_height() * (legend_.categories.size() + 2);
         bar_height_ = std::clamp(std::min(0.7f * highest_, highest_ - entries), 4.5f * em(), 11 * em());
         const float most_ticks = bar_height_ / (1.3f * ImGui::GetTextLineHeight());
         ticks_ = round_ticks(range_.low, range_.high, std::clamp(static_cast<int>(most_ticks), 2, 5));
@@ -144,10 +144,10 @@ class LegendBox {
     // have their colours.
     void draw_bar(const ImVec2& from, float width) {
         const std::vector<Color>& scale = legend_.scale;
-        const auto pieces = static_cast<float>(scale.size() - 1);
+        const float pieces = scale.size() - 1;
         for (std::size_t i = 0; i + 1 < scale.size(); ++i) {
-            const float low = from.y + bar_height_ * (1 - static_cast<float>(i) / pieces);
-            const float high = from.y + bar_height_ * (1 - static_cast<float>(i + 1) / pieces);
+            const float low = from.y + bar_height_ * (1 - i / pieces);
+            const float high = from.y + bar_height_ * (1 - (i + 1) / pieces);
             const ImU32 below = packed(scale[i]), above = packed(scale[i + 1]);
             list_.AddRectFilledMultiColor({from.x, high}, {from.x + width, low}, above, above, below, below);
         }
@@ -179,23 +179,23 @@ class LegendBox {
         }
         if (entries.size() > names_.size())
             column_width_ = std::max(column_width_, sample + width_of(more_text(entries.size())));
-        const float columns = is_wide(scene_) ? 1 : std::max(1.f, std::floor(widest_ / (column_width_ + e)));
-        shown_ = std::min(names_.size(), rows * static_cast<std::size_t>(columns));
+        const auto columns =
+            is_wide(scene_) ? 1 : static_cast<std::size_t>(std::max(1.f, std::floor(widest_ / (column_width_ + e))));
+        shown_ = std::min(names_.size(), rows * columns);
         if (entries.size() > shown_) {
-            shown_ = std::min(shown_, rows * static_cast<std::size_t>(columns) - (rows > 1 ? 1 : 0));
+            shown_ = std::min(shown_, rows * columns - (rows > 1 ? 1 : 0));
             more_ = more_text(entries.size() - shown_);
         }
         const std::size_t cells = shown_ + (more_.empty() ? 0 : 1);
         rows_ = std::min(rows, cells);
-        const auto used = static_cast<float>(rows_ > 0 ? (cells + rows_ - 1) / rows_ : 0);
+        const float used = rows_ > 0 ? (cells + rows_ - 1) / rows_ : 0;
         if (used > 0) width_ = std::max(width_, used * column_width_ + (used - 1) * e);
     }
 
     void draw_entries(const ImVec2& from) {
         const float e = em(), left = sample_width() + 0.6f * e;
         const auto place = [&](std::size_t i) {
-            return ImVec2{from.x + static_cast<float>(i / rows_) * (column_width_ + e),
-                          from.y + static_cast<float>(i % rows_) * line_height()};
+            return ImVec2{from.x + (i / rows_) * (column_width_ + e), from.y + (i % rows_) * line_height()};
         };
         for (std::size_t i = 0; i < shown_; ++i) {
             const ImVec2 at = place(i);

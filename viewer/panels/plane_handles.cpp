@@ -21,8 +21,8 @@ class ScreenPlace {
     std::optional<ImVec2> of(const Vec3& point) const {
         const auto seen = seen_from_target(camera_, point);
         if (!seen) return std::nullopt;
-        return ImVec2{middle_.x + pixels_ * static_cast<float>(seen->x()),
-                      middle_.y - pixels_ * static_cast<float>(seen->y())};
+        const Eigen::Vector2f offset = seen->cast<float>();
+        return ImVec2{middle_.x + pixels_ * offset.x(), middle_.y - pixels_ * offset.y()};
     }
     /// Units of the file that a pixel is at the target's depth.
     double unit() const { return camera_.height / pixels_; }

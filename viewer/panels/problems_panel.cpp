@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "viewer/model/advice.h"
 #include "viewer/model/line_of_sight.h"
 #include "viewer/model/repaired_places.h"
@@ -89,8 +90,8 @@ class ProblemList {
         draw_groups();
         ImGui::Spacing();
         const auto& defects = checked_.diagnosis.defects;
-        for (std::size_t i = 0; i < defects.size(); ++i)
-            if (memory_.group < 0 || group_of(defects[i]) == memory_.group) listed_.push_back(static_cast<int>(i));
+        for (int i = 0; i < count_of(defects); ++i)
+            if (memory_.group < 0 || group_of(defects[i]) == memory_.group) listed_.push_back(i);
         if (context_.widgets.small_button("Copy list", "All that is listed below, with places and remedies"))
             context_.actions.window.copy(text());
         ImGui::SameLine();
@@ -169,7 +170,7 @@ class ProblemList {
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) keys_.list = ListKeys::List::defects;
         take_steps();
         ImGuiListClipper clipper;
-        clipper.Begin(static_cast<int>(listed_.size()), entry_height() + ImGui::GetStyle().ItemSpacing.y);
+        clipper.Begin(count_of(listed_), entry_height() + ImGui::GetStyle().ItemSpacing.y);
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_entry(listed_[i]);
         ImGui::EndChild();
@@ -179,12 +180,13 @@ class ProblemList {
     void take_steps() {
         const int steps = listed_.empty() ? 0 : keys_.take(ListKeys::List::defects);
         if (steps == 0) return;
-        const int last = static_cast<int>(listed_.size()) - 1;
+        const std::int64_t last = std::ssize(listed_) - 1;
         const auto at = std::find(listed_.begin(), listed_.end(), memory_.chosen);
-        const int next = at == listed_.end() ? 0 : std::clamp(static_cast<int>(at - listed_.begin()) + steps, 0, last);
+        const std::int64_t next =
+            at == listed_.end() ? 0 : std::clamp<std::int64_t>(at - listed_.begin() + steps, 0, last);
         fly_to(listed_[next]);
         const float height = entry_height() + ImGui::GetStyle().ItemSpacing.y;
-        scroll_to_row(static_cast<float>(next) * height, 2 * height);
+        scroll_to_row(next * height, 2 * height);
     }
 
     static float entry_height() { return 2 * ImGui::GetTextLineHeight() + 0.2f * em(); }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "viewer/model/shown_parts.h"
 #include "viewer/panels/inside/icons.h"
@@ -30,12 +31,12 @@ class RegionList {
 
     void draw() {
         constexpr float most_rows = 8;
-        const float rows = std::min(most_rows, static_cast<float>(document_.region_names.size()));
+        const float rows = std::min<float>(most_rows, document_.region_names.size());
         ImGui::BeginChild("##regions", {0, rows * row_height()});
         ImGuiListClipper clipper;
-        clipper.Begin(static_cast<int>(document_.region_names.size()), row_height());
+        clipper.Begin(count_of(document_.region_names), row_height());
         while (clipper.Step())
-            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(static_cast<std::size_t>(i));
+            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(i);
         ImGui::EndChild();
     }
 
@@ -43,10 +44,10 @@ class RegionList {
     static float side() { return ImGui::GetTextLineHeight() + 0.15f * em(); }
     static float row_height() { return side() + ImGui::GetStyle().ItemSpacing.y; }
 
-    void draw_row(std::size_t number) {
+    void draw_row(int number) {
         const std::string& region = document_.region_names[number];
         const bool is_shown = shows_region(state_, document_, region);
-        ImGui::PushID(static_cast<int>(number));
+        ImGui::PushID(number);
         draw_swatch(region, is_shown ? 1 : 0.45f);
         draw_switches(region, is_shown);
         ImGui::SameLine(0, 0.5f * em());

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "surface/repair/repair_advice.h"
 #include "surface/repair/repair_step.h"
 #include "viewer/model/advice.h"
@@ -155,7 +156,7 @@ class ActionList {
         const float height = ImGui::CalcTextSize(text.c_str()).y;
         ImGui::PushID(number);
         if (ImGui::Selectable("##action", is_chosen, 0, {0, height})) {
-            const int last = static_cast<int>(action.places.size()) - 1;
+            const int last = count_of(action.places) - 1;
             fly_to(action, number, is_chosen && memory_.place < last ? memory_.place + 1 : 0);
         }
         context_.widgets.record(fmt::format("action {}", number + 1));
@@ -170,9 +171,9 @@ class ActionList {
 
     void draw_places(const RepairAction& action, int number) {
         constexpr int most_rows = 6;
-        const int count = static_cast<int>(action.places.size());
+        const int count = count_of(action.places);
         const float row = ImGui::GetTextLineHeightWithSpacing();
-        ImGui::BeginChild("##places", {0, (static_cast<float>(std::min(count, most_rows)) + 0.5f) * row}, true);
+        ImGui::BeginChild("##places", {0, (std::min(count, most_rows) + 0.5f) * row}, true);
         ImGuiListClipper clipper;
         clipper.Begin(count, row);
         while (clipper.Step())

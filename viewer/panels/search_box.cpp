@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "base/core/ids.h"
 #include "viewer/panels/inside/commands.h"
 
 namespace kerf::view {
@@ -54,8 +55,8 @@ bool draw_found(const Command& command, bool is_chosen, UiContext& context) {
 const Command* draw_list(UiContext& context, SearchBox& search, const std::vector<const Command*>& found) {
     const Command* clicked = nullptr;
     ImGui::BeginChild("##found", {0, most_rows * ImGui::GetTextLineHeightWithSpacing()});
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const bool is_chosen = static_cast<int>(i) == search.chosen;
+    for (int i = 0; i < count_of(found); ++i) {
+        const bool is_chosen = i == search.chosen;
         const float top = ImGui::GetCursorPosY();
         if (draw_found(*found[i], is_chosen, context)) clicked = found[i];
         if (is_chosen && search.moved) scroll_to_row(top, ImGui::GetTextLineHeightWithSpacing());
@@ -79,7 +80,7 @@ void draw_search(UiContext& context, Dialogs& dialogs) {
     if (!ImGui::BeginPopup("##search box", ImGuiWindowFlags_NoMove)) return;
     const bool entered = draw_field(context.widgets, search);
     const std::vector<const Command*> found = find_commands(search.typed);
-    search.chosen = std::clamp(search.chosen, 0, std::max(0, static_cast<int>(found.size()) - 1));
+    search.chosen = std::clamp(search.chosen, 0, std::max(0, count_of(found) - 1));
     const Command* command = draw_list(context, search, found);
     if (entered && !found.empty()) command = found[search.chosen];
     if (command && is_enabled(*command, context)) ImGui::CloseCurrentPopup();

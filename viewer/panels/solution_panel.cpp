@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
@@ -19,7 +20,7 @@ void draw_cases(UiContext& context, const Solution& solution) {
     ColorBy& color = context.state.coloring.by;
     std::vector<std::string> names;
     for (const Solution::Case& one : solution.cases) names.push_back(one.title());
-    deformation.load_case = std::min(deformation.load_case, static_cast<int>(names.size()) - 1);
+    deformation.load_case = std::min(deformation.load_case, count_of(names) - 1);
     context.widgets.combo(solution.has_modes() ? "Case or mode" : "Case", &deformation.load_case, names);
     if (solution.cases[deformation.load_case].is_mode() && needs_load_case(color))
         color = ColorBy::displacement;  // a mode has nothing else
@@ -37,7 +38,7 @@ void draw_motion(UiContext& context) {
 
 void draw_deformation(UiContext& context, const Solution& solution) {
     Deformation& deformation = context.state.deformation;
-    const auto number = static_cast<std::size_t>(deformation.load_case);
+    const std::size_t number = deformation.load_case;
     const double diagonal = context.session.document().box.diagonal().norm();
     const double good =
         number < solution.cases.size() ? good_deformation(solution.cases[number].largest_displacement, diagonal) : 0;

@@ -35,9 +35,7 @@ bool continues(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; 
 
 float width_of(const std::string& text) { return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x; }
 
-std::string compact(std::int64_t count) {
-    return count < 0 ? "" : with_unit(static_cast<double>(count), 1000, thousands);
-}
+std::string compact(std::int64_t count) { return count < 0 ? "" : with_unit(count, 1000, thousands); }
 
 std::string compact(double value) {
     if (!(value >= 0)) return "";
@@ -54,7 +52,7 @@ std::string duration(double seconds) {
     if (seconds < 0) return "";
     if (seconds < 0.95) return fmt::format("{:.2g} s", seconds);
     if (seconds < 99.5) return fmt::format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0);
-    const auto whole = static_cast<std::int64_t>(std::llround(seconds));
+    const std::int64_t whole = std::llround(seconds);
     if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
     return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
@@ -63,7 +61,7 @@ std::string number_of(std::int64_t n, const std::string& noun) {
     return fmt::format("{} {}{}", compact(n), noun, n == 1 ? "" : "s");
 }
 
-std::string file_size(std::uintmax_t bytes) { return with_unit(static_cast<double>(bytes), 1000, bytes_units); }
+std::string file_size(std::uintmax_t bytes) { return with_unit(bytes, 1000, bytes_units); }
 
 std::vector<double> round_ticks(double low, double high, int wanted) {
     if (!(high > low) || !std::isfinite(high - low)) return {low};

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "viewer/panels/inside/icons.h"
 #include "viewer/panels/inside/parts.h"
 
@@ -93,11 +94,11 @@ class TimelineBar {
         const std::vector<FailurePlace> places = failure_places(context_.session.document(), context_.state.node, step);
         if (places.empty()) return;
         if (memory_.node != context_.state.node || memory_.step != step ||
-            memory_.chosen >= static_cast<int>(places.size()))  // a cut that was made again has others
+            memory_.chosen >= count_of(places))  // a cut that was made again has others
             memory_.chosen = -1;
         memory_.node = context_.state.node;
         memory_.step = step;
-        const int count = static_cast<int>(places.size()), chosen = memory_.chosen;
+        const int count = count_of(places), chosen = memory_.chosen;
         ImGui::SameLine(0, 1.2f * em());
         if (control("previous place", Icon::left, "Fly to the place before", chosen > 0)) fly_to(places, chosen - 1);
         if (control("next place", Icon::right, "Fly to the next place where it failed", chosen + 1 < count))
@@ -154,15 +155,15 @@ class TimelineBar {
     // Draws the steps. Refused tries lie between their neighbours as long as there is room, else in a strip of their
     // own above.
     void draw_steps() {
-        const auto tries = static_cast<float>(
-            std::count_if(steps_.begin(), steps_.end(), [](const Step& step) { return step.refused_try >= 0; }));
+        const float tries =
+            std::count_if(steps_.begin(), steps_.end(), [](const Step& step) { return step.refused_try >= 0; });
         const float room = ImGui::GetContentRegionAvail().x, words = width_of_buttons();
         const bool apart = words + 0.6f * em() * tries > room;
         const float tick = tries > 0 ? std::min(0.9f * em(), (apart ? room : room - words) / tries) : 0;
         const std::vector<StepRow> rows = rows_of_steps(room, apart ? 0 : tick);
         const float height = rows.size() > 1 ? 1.4f * em() : step_height();
         const float bottom = ImGui::GetWindowPos().y + ImGui::GetWindowHeight() - ImGui::GetStyle().WindowPadding.y;
-        const ImVec2 start = {ImGui::GetCursorScreenPos().x, bottom - height * static_cast<float>(rows.size())};
+        const ImVec2 start = {ImGui::GetCursorScreenPos().x, bottom - height * rows.size()};
         float y = start.y, tick_x = start.x;
         for (const StepRow& row : rows) {
             const float left = room - row.words;

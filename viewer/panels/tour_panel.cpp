@@ -49,8 +49,8 @@ void show_stop(UiContext& context, const Tour& tour, Stage stage, const Rectangl
     const float height = std::max(body.height, 1.f);
     Camera camera;
     look_from(camera, view.back);
-    fit(camera, view.box, static_cast<double>(body.width / height));
-    camera.height *= static_cast<double>(scene.height / height);
+    fit(camera, view.box, body.width / height);
+    camera.height *= scene.height / height;
     context.state = view.state;
     context.actions.camera.take_camera(camera);
 }
@@ -75,8 +75,8 @@ void end_tour(UiContext& context, Dialogs& dialogs) {
 
 void go_on_tour(UiContext& context, Dialogs& dialogs, int count) {
     const std::vector<Step> stops = stops_of_tour(context.session.document(), dialogs.tour.node);
-    const int wanted = static_cast<int>(current_stop(context, stops)) + count;
-    if (wanted >= 0 && wanted < static_cast<int>(stops.size())) dialogs.tour.go_to = stops[wanted].stage;
+    const std::int64_t current = current_stop(context, stops), wanted = current + count;
+    if (wanted >= 0 && wanted < std::ssize(stops)) dialogs.tour.go_to = stops[wanted].stage;
 }
 
 void follow_tour(UiContext& context, Dialogs& dialogs, const Rectangle& scene) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "viewer/model/shown_parts.h"
 #include "viewer/panels/inside/icons.h"
 #include "viewer/panels/inside/parts.h"
@@ -62,7 +63,7 @@ class TreeTable {
         draw_heads();
         scroll_to_node();
         ImGuiListClipper clipper;
-        clipper.Begin(static_cast<int>(rows_.size()), row_height());
+        clipper.Begin(count_of(rows_), row_height());
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(*rows_[i]);
         ImGui::EndTable();
@@ -120,7 +121,7 @@ class TreeTable {
 
     float room() const {
         const ImVec2 all = ImGui::GetContentRegionAvail();
-        const bool scrolls = static_cast<float>(rows_.size() + 1) * row_height() > all.y;
+        const bool scrolls = (rows_.size() + 1) * row_height() > all.y;
         return all.x - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
     }
 
@@ -131,7 +132,7 @@ class TreeTable {
         const auto row =
             std::find_if(rows_.begin(), rows_.end(), [&](const TreeRow* r) { return r->id == context_.state.node; });
         if (row == rows_.end()) return;
-        const float top = static_cast<float>(row - rows_.begin()) * row_height();
+        const float top = (row - rows_.begin()) * row_height();
         scroll_to_row(top, 2 * row_height());
     }
 
@@ -158,7 +159,7 @@ class TreeTable {
     void draw_node(const TreeRow& row, float alpha) {
         ImGui::TableSetColumnIndex(node_column);
         const int level = is_tree() ? level_of(row.id) : 0;
-        const float left = ImGui::GetCursorPosX() + tree_indent * em() * static_cast<float>(level);
+        const float left = ImGui::GetCursorPosX() + tree_indent * em() * level;
         const ImVec2 cell = ImGui::GetCursorScreenPos();
         const float width = ImGui::GetContentRegionAvail().x;
         const bool is_picked = context_.state.selection.kind != Selection::Kind::none &&
@@ -171,8 +172,7 @@ class TreeTable {
                               {0, line_height()}))
             choose(row.id);
         const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
-        const float number =
-            cell.x + tree_indent * em() * static_cast<float>(level) + em();  // right of the button that folds it
+        const float number = cell.x + tree_indent * em() * level + em();  // right of the button that folds it
         context_.widgets.record(fmt::format("node {}", row.id), {number, from.y},
                                 {from.x + width, ImGui::GetItemRectMax().y});
         if (ImGui::IsItemHovered()) explain(details(row, region_of(context_.session.document(), row.id)));
@@ -191,7 +191,7 @@ class TreeTable {
         const float padding = ImGui::GetStyle().CellPadding.y;
         const ImU32 color = packed(faded(colors_.dim, 0.4f));
         for (int i = 0; i < level; ++i) {
-            const float x = std::round(cell.x + (tree_indent * static_cast<float>(i) + 0.35f) * em());
+            const float x = std::round(cell.x + (tree_indent * i + 0.35f) * em());
             ImGui::GetWindowDrawList()->AddLine({x, cell.y - padding}, {x, cell.y - padding + row_height()}, color);
         }
     }

@@ -58,7 +58,7 @@ namespace {
 
 // The height of the selection's text, about: lines may wrap.
 float selection_height(const std::string& text) {
-    const float lines = 1 + static_cast<float>(std::count(text.begin(), text.end(), '\n'));
+    const float lines = 1 + std::count(text.begin(), text.end(), '\n');
     return std::min(lines + 3, 16.f) * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeight();
 }
 

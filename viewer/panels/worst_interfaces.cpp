@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "viewer/model/interface_places.h"
 #include "viewer/panels/inside/parts.h"
 
@@ -35,12 +36,12 @@ class WorstInterfaces {
         explain("The smallest angle of a triangle of the interface");
         constexpr ImGuiTableFlags flags =
             ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoSavedSettings;
-        const float rows = std::min(10.f, static_cast<float>(rows_.size()) + 1.3f);
+        const float rows = std::min(10.f, rows_.size() + 1.3f);
         if (!ImGui::BeginTable("##worst interfaces", 4, flags, {0, rows * (ImGui::GetTextLineHeight() + 0.4f * em())}))
             return;
         draw_heads();
         ImGuiListClipper clipper;
-        clipper.Begin(static_cast<int>(rows_.size()));
+        clipper.Begin(count_of(rows_));
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(i);
         ImGui::EndTable();

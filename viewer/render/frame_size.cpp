@@ -7,7 +7,7 @@ namespace kerf::view {
 namespace {
 
 float pixels_per_unit(int pixels, int units) {
-    return pixels > 0 && units > 0 ? static_cast<float>(pixels) / static_cast<float>(units) : 1;
+    return pixels > 0 && units > 0 ? static_cast<float>(pixels) / units : 1;
 }
 
 }  // namespace

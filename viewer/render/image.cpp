@@ -12,6 +12,7 @@
 #include <zlib.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "files/io/file_bytes.h"
 #include "files/io/output_file.h"
 
@@ -19,9 +20,9 @@ namespace {
 
 // Compresses for stb, which frees the result. zlib's best makes files a quarter smaller than stb's own compression.
 unsigned char* compress_best(unsigned char* data, int size, int* compressed_size, int /*quality*/) {
-    uLongf length = compressBound(static_cast<uLong>(size));
+    uLongf length = compressBound(size);
     auto* bytes = static_cast<unsigned char*>(std::malloc(length));
-    if (bytes == nullptr || compress2(bytes, &length, data, static_cast<uLong>(size), Z_BEST_COMPRESSION) != Z_OK) {
+    if (bytes == nullptr || compress2(bytes, &length, data, size, Z_BEST_COMPRESSION) != Z_OK) {
         std::free(bytes);
         return nullptr;
     }
@@ -63,7 +64,7 @@ std::string marked(std::string png) {
         for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(n >> shift);
         return bytes;
     };
-    const auto check = crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size()));
+    const auto check = crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), chunk.size());
     return png.insert(end_of_header, number(chunk.size() - 4) + chunk + number(check));
 }
 
@@ -72,7 +73,7 @@ std::string marked(std::string png) {
 Image averaged(const Image& image, int factor) {
     if (factor == 1) return image;
     Image small{image.width / factor, image.height / factor, {}};
-    small.rgb.reserve(image.rgb.size() / static_cast<std::size_t>(factor * factor));
+    small.rgb.reserve(image.rgb.size() / (factor * factor));
     for (int y = 0; y < small.height; ++y)
         for (int x = 0; x < small.width; ++x)
             for (int channel = 0; channel < 3; ++channel) {
@@ -87,8 +88,8 @@ Image averaged(const Image& image, int factor) {
 Image read_png(const std::string& path) {
     const std::string file = read_file(path);
     Image image;
-    const Bytes pixels(stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
-                                             static_cast<int>(file.size()), &image.width, &image.height, nullptr, 3));
+    const Bytes pixels(stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), count_of(file),
+                                             &image.width, &image.height, nullptr, 3));
     if (!pixels) throw Error(ErrorCode::io, fmt::format("{} is no PNG.", path));
     image.rgb.assign(pixels.get(), pixels.get() + std::size_t{3} * image.width * image.height);
     return image;
@@ -98,8 +99,7 @@ void write_png(const std::string& path, const Image& image) {
     int size = 0;
     const Bytes png(stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size));
     if (!png) throw Error(ErrorCode::memory, fmt::format("There is not enough memory to compress {}.", path));
-    write_output_file(path,
-                      marked(std::string(reinterpret_cast<const char*>(png.get()), static_cast<std::size_t>(size))));
+    write_output_file(path, marked(std::string(reinterpret_cast<const char*>(png.get()), size)));
 }
 
 }  // namespace kerf::view

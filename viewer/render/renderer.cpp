@@ -233,15 +233,14 @@ std::vector<SeenSegment> Renderer::Impl::seen_isolines(const Scene& scene, const
     std::vector<SeenSegment> seen = seen_lines(scene, projection, ids);
     for (SeenSegment& segment : seen)
         for (Eigen::Vector2f* end : {&segment.from, &segment.to})
-            *end = {end->x() + static_cast<float>(projection.x),
-                    static_cast<float>(target_.height() - projection.y) - end->y()};
+            *end = {end->x() + projection.x, target_.height() - projection.y - end->y()};
     check_in_debug(gl_, "isolines");
     return seen;
 }
 
 Image Renderer::Impl::read() {
     Image image{target_.width(), target_.height(), {}};
-    const std::size_t row = 3 * static_cast<std::size_t>(image.width);
+    const std::size_t row = 3 * image.width;
     image.rgb.resize(row * image.height);
     target_.bind();
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -141,7 +141,7 @@ void draw_color_bar(UiContext& context, ColorBarMemory& memory);
 
 struct HistogramMemory {
     bool log_counts = false;
-    double brush_from = 0;  ///< index of the bin where a drag began
+    std::size_t brush_from = 0;  ///< index of the bin where a drag began
 };
 void draw_histogram(UiContext& context, HistogramMemory& memory);
 

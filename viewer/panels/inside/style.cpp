@@ -16,8 +16,7 @@ constexpr const char* font_family = "DejaVu Sans";
 constexpr float title_ratio = 1.6f;
 
 ImVec4 rgb(unsigned hex, float alpha = 1) {
-    return {static_cast<float>(hex >> 16 & 255) / 255, static_cast<float>(hex >> 8 & 255) / 255,
-            static_cast<float>(hex & 255) / 255, alpha};
+    return {(hex >> 16 & 255) / 255.f, (hex >> 8 & 255) / 255.f, (hex & 255) / 255.f, alpha};
 }
 
 const Palette light = {.text = rgb(0x1d2430),

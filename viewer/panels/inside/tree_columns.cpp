@@ -60,9 +60,9 @@ std::optional<double> number_in(const TreeRow& row, TreeColumn column) {
     const bool has_interface = row.cut && row.cut->made();
     switch (column) {
         case facets_column:
-            return if_known(static_cast<double>(row.facets));
+            return if_known(row.facets);
         case tets_column:
-            return if_known(static_cast<double>(row.tets));
+            return if_known(row.tets);
         case load_column:
             return if_known(row.load);
         case seconds_column:
@@ -123,8 +123,8 @@ void TreeColumns::find_known(const std::vector<const TreeRow*>& rows, bool times
 void TreeColumns::find_widths(const std::vector<const TreeRow*>& rows) {
     node_width = 2.8f;
     for (const TreeRow* row : rows) {
-        const auto digits = static_cast<float>(std::to_string(row->id).size());
-        const float left = tree_indent * static_cast<float>(level_of(row->id));
+        const float digits = std::to_string(row->id).size();
+        const float left = tree_indent * level_of(row->id);
         node_width = std::max(node_width, left + 1.3f + 0.56f * digits);
         state_width = std::max(state_width, width_of(word_of(*row, false)) / em() + 0.9f);
     }
@@ -139,19 +139,18 @@ float TreeColumns::needed() const {
         width += shown[i] ? column_facts[i].width : 0;
         columns += shown[i];
     }
-    return width * em() + 2 * static_cast<float>(columns) * ImGui::GetStyle().CellPadding.x;
+    return width * em() + 2 * columns * ImGui::GetStyle().CellPadding.x;
 }
 
 void TreeColumns::set_up() const {
     ImGui::TableSetupScrollFreeze(0, 1);
     for (int i = 0; i < column_count; ++i) {
-        const auto column = static_cast<std::size_t>(i);
-        const int off = shown[column] ? 0 : ImGuiTableColumnFlags_Disabled;
-        const float width = i == node_column ? node_width : column_facts[column].width;
+        const int off = shown[i] ? 0 : ImGuiTableColumnFlags_Disabled;
+        const float width = i == node_column ? node_width : column_facts[i].width;
         if (i == state_column)
             ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthStretch);
         else
-            ImGui::TableSetupColumn(i == eye_column ? "##show" : column_facts[column].title,
+            ImGui::TableSetupColumn(i == eye_column ? "##show" : column_facts[i].title,
                                     ImGuiTableColumnFlags_WidthFixed | off, width * em());
     }
 }

@@ -1,5 +1,7 @@
 #include "viewer/panels/inside/tree_words.h"
 
+#include <concepts>
+
 #include <fmt/format.h>
 
 #include "base/core/words.h"
@@ -15,7 +17,10 @@ class Lines {
     void add(const char* what, const std::string& value) {
         if (!value.empty()) text_ += fmt::format("{}{}: {}", text_.empty() ? "" : "\n", what, value);
     }
-    void add(const char* what, std::int64_t value) { add(what, value < 0 ? "" : fmt::format("{}", value)); }
+    template <std::integral Number>
+    void add(const char* what, Number value) {
+        add(what, value < 0 ? "" : fmt::format("{}", value));
+    }
     void add(const char* what, double value, const char* unit = "") {
         add(what, value < 0 ? "" : fmt::format("{:.6g}{}", value, unit));
     }
@@ -27,11 +32,11 @@ class Lines {
 
 void add_cut(const CutSummary& cut, Lines& lines) {
     lines.add("cut by", in_words(name(cut.strategy)));
-    if (cut.tries > 0) lines.add("tries", static_cast<std::int64_t>(cut.tries));
+    if (cut.tries > 0) lines.add("tries", cut.tries);
     if (!cut.made()) return;
     lines.add("contour length", cut.contour_length);
-    lines.add("contour loops", static_cast<std::int64_t>(cut.loops));
-    lines.add("interface triangles", static_cast<std::int64_t>(cut.interface_faces));
+    lines.add("contour loops", cut.loops);
+    lines.add("interface triangles", cut.interface_faces);
     lines.add("interface area", cut.interface_area);
     if (cut.section_area > 0 && cut.interface_area >= 0)
         lines.add("interface over section area", cut.interface_area / cut.section_area);
@@ -69,18 +74,18 @@ std::string word_of(const TreeRow& row, bool running) {
 
 std::string details(const TreeRow& row, const std::string* region) {
     Lines lines;
-    lines.add("node", static_cast<std::int64_t>(row.id));
+    lines.add("node", row.id);
     lines.add("state", std::string(name(row.state)));
-    if (row.regions > 1) lines.add("regions", static_cast<std::int64_t>(row.regions));
+    if (row.regions > 1) lines.add("regions", row.regions);
     if (region) lines.add("region", *region);
-    if (row.leaves > 1) lines.add("parts below", static_cast<std::int64_t>(row.leaves));
+    if (row.leaves > 1) lines.add("parts below", row.leaves);
     lines.add("facets", row.facets);
     lines.add("vertices", row.vertices);
     lines.add("tetrahedra", row.tets);
     lines.add("volume", row.volume);
     lines.add("load", row.load);
     lines.add(row.leaf() ? "meshed in" : "cut in", duration(row.seconds));
-    lines.add("rank", static_cast<std::int64_t>(row.rank));
+    lines.add("rank", row.rank);
     if (row.cut) add_cut(*row.cut, lines);
     lines.add("message", row.message);
     return lines.text();

@@ -12,6 +12,7 @@
 #include <imgui_internal.h>  // flags of the last item, the dialog on top
 #include <imgui_stdlib.h>
 
+#include "base/core/ids.h"
 #include "viewer/panels/inside/style.h"
 
 namespace kerf::view {
@@ -120,12 +121,12 @@ bool Widgets::combo(const char* label, int* index, const std::vector<std::string
         ImGui::SetNextItemWidth(-FLT_MIN);
     }
     const std::string id = is_wide ? std::string("##") + label : label_left(label);
-    const bool known = *index >= 0 && *index < static_cast<int>(names.size());
+    const bool known = *index >= 0 && *index < count_of(names);
     const bool open = ImGui::BeginCombo(id.c_str(), known ? names[*index].c_str() : "", ImGuiComboFlags_HeightLarge);
     record(label);
     if (!open) return false;
     bool changed = false;
-    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+    for (int i = 0; i < count_of(names); ++i) {
         const std::string& name = names[i];
         if (ImGui::Selectable(name.c_str(), i == *index)) {
             changed = i != *index;

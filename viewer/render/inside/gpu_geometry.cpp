@@ -54,7 +54,7 @@ std::vector<Item> six_of_each(const std::vector<Item>& items) {
 template <class Item>
 void upload(const Gl& gl, const GlObject& buffer, const std::vector<Item>& items) {
     gl.BindBuffer(GL_ARRAY_BUFFER, buffer.id());
-    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(), GL_STATIC_DRAW);
+    gl.BufferData(GL_ARRAY_BUFFER, items.size() * sizeof(Item), items.data(), GL_STATIC_DRAW);
 }
 
 }  // namespace

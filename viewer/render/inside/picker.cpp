@@ -70,8 +70,8 @@ void set_value(const Layer& layer, PickHit& hit) {
     double value = 0;
     Vec3d rest = Vec3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-        const double share = shares[static_cast<Eigen::Index>(k)];
-        value += share * static_cast<double>(geometry.corners[first + k].value);
+        const double share = shares[k];
+        value += share * geometry.corners[first + k].value;
         if (!geometry.rest.empty()) rest += share * to_double(geometry.rest[first + k]);
     }
     if (layer.fill == Fill::scale) hit.value = static_cast<float>(value);
@@ -85,7 +85,7 @@ PickHit describe(const Scene& scene, std::size_t number, std::uint32_t primitive
     hit.layer = number;
     hit.owner = layer.ranges[range].owner;
     hit.range = range;
-    hit.primitive = static_cast<std::int32_t>(primitive);
+    hit.primitive = primitive;
     hit.element = layer.geometry->element[primitive];
     hit.point = point_of(*layer.geometry, primitive, layer.ranges[range], ray_of(pixel));
     set_value(layer, hit);
@@ -120,10 +120,10 @@ std::vector<GLuint> Picker::draw(const Scene& scene, const Projection& projectio
     gl_.ClearBufferuiv(GL_COLOR, 0, nothing);
     gl_.ClearBufferfv(GL_DEPTH, 0, &far);
     gl_.Enable(GL_DEPTH_TEST);
-    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    for (std::uint32_t i = 0; i < scene.layers.size(); ++i) {
         const Layer& layer = scene.layers[i];
         if (!layer.geometry || layer.opacity < 1 || layer.backs_only) continue;
-        const std::uint32_t id = is_pickable(layer) ? static_cast<std::uint32_t>(i) + 1 : 0;
+        const std::uint32_t id = is_pickable(layer) ? i + 1 : 0;
         const PaintJob job = {layer, cache.get(layer.geometry), scene, projection};
         if (!layer.geometry->corners.empty())
             triangles.draw_ids(job, id);
@@ -131,8 +131,7 @@ std::vector<GLuint> Picker::draw(const Scene& scene, const Projection& projectio
             strokes.draw_ids(job, id);
     }
     gl_.Disable(GL_DEPTH_TEST);
-    std::vector<GLuint> ids(4 * static_cast<std::size_t>(projection.width) *
-                            static_cast<std::size_t>(projection.height));
+    std::vector<GLuint> ids(4 * static_cast<std::size_t>(projection.width) * projection.height);
     gl_.ReadPixels(0, 0, projection.width, projection.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, ids.data());
     return ids;
 }

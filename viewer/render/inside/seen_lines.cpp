@@ -36,8 +36,7 @@ class SeenLines {
         const Eigen::Vector3f moved = Eigen::Vector3f(p[0], p[1], p[2]) + offset;
         const Eigen::Vector4f clip = matrix_ * moved.homogeneous();
         if (!(clip.w() > 0)) return {-1e6f, -1e6f};
-        return {(clip.x() / clip.w() + 1) / 2 * static_cast<float>(width_),
-                (clip.y() / clip.w() + 1) / 2 * static_cast<float>(height_)};
+        return {(clip.x() / clip.w() + 1) / 2 * width_, (clip.y() / clip.w() + 1) / 2 * height_};
     }
 
     bool shows(const Eigen::Vector2f& place, std::uint32_t layer, std::uint32_t triangle) const {
@@ -47,7 +46,7 @@ class SeenLines {
              ++row)
             for (std::int64_t column = std::max<std::int64_t>(0, x - 1);
                  column <= std::min<std::int64_t>(width_ - 1, x + 1); ++column) {
-                const auto at = static_cast<std::size_t>(4 * (row * width_ + column));
+                const std::int64_t at = 4 * (row * width_ + column);
                 if (ids_[at] == layer && ids_[at + 1] == triangle) return true;
             }
         return false;
@@ -64,7 +63,7 @@ std::vector<SeenSegment> seen_lines(const Scene& scene, const Projection& projec
                                     std::span<const std::uint32_t> ids) {
     SeenLines lines(projection, ids);
     for (const Layer& layer : scene.layers)
-        if (layer.lies_on >= 0) lines.add(layer, static_cast<std::uint32_t>(layer.lies_on) + 1);
+        if (layer.lies_on >= 0) lines.add(layer, layer.lies_on + 1);
     return std::move(lines.seen);
 }
 

@@ -94,15 +94,15 @@ void StrokePainter::draw_pass(ShaderProgram& program, const PaintJob& job, const
     program.set("nearer", pass.nearer * (radius + 1));
     program.set("coverages", Eigen::Vector2f(pass.least, pass.below));
     job.geometry.bind_strokes();
-    for (std::size_t i = 0; i < job.layer.ranges.size(); ++i) {
+    for (unsigned i = 0; i < job.layer.ranges.size(); ++i) {
         const Range& range = job.layer.ranges[i];
         if (range.count == 0) continue;
         Color color = range.color;
         color.a *= pass.alpha;
         program.set("color", color);
         program.set("offset", range.offset);
-        program.set("range", static_cast<unsigned>(i));
-        gl_.DrawArrays(GL_TRIANGLES, static_cast<GLint>(6 * range.first), static_cast<GLsizei>(6 * range.count));
+        program.set("range", i);
+        gl_.DrawArrays(GL_TRIANGLES, 6 * range.first, 6 * range.count);
     }
     gl_.BindVertexArray(0);
     gl_.UseProgram(0);

@@ -36,9 +36,9 @@ Color mix(const Color& a, const Color& b, float t) {
 std::vector<Color> subdivide(const std::vector<Color>& colors) {
     std::vector<Color> steps(scale_steps);
     for (int i = 0; i < scale_steps; ++i) {
-        const float place = static_cast<float>(i) / (scale_steps - 1) * static_cast<float>(colors.size() - 1);
+        const float place = static_cast<float>(i) / (scale_steps - 1) * (colors.size() - 1);
         const std::size_t left = std::min(static_cast<std::size_t>(place), colors.size() - 2);
-        steps[i] = mix(colors[left], colors[left + 1], place - static_cast<float>(left));
+        steps[i] = mix(colors[left], colors[left + 1], place - left);
     }
     return steps;
 }
@@ -132,13 +132,13 @@ void TrianglePainter::set_scale(ShaderProgram& program, const ColorScale& scale)
 void TrianglePainter::draw_ranges(ShaderProgram& program, const PaintJob& job, bool colored) {
     const bool hides_inside = job.hides_backs();
     job.geometry.bind_triangles();
-    for (std::size_t i = 0; i < job.layer.ranges.size(); ++i) {
+    for (unsigned i = 0; i < job.layer.ranges.size(); ++i) {
         const Range& range = job.layer.ranges[i];
         if (range.count == 0 || (range.inside && hides_inside)) continue;
-        program.set("range", static_cast<unsigned>(i));
+        program.set("range", i);
         program.set("offset", range.offset);
         if (colored) program.set("color", range.color);
-        gl_.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * range.first), static_cast<GLsizei>(3 * range.count));
+        gl_.DrawArrays(GL_TRIANGLES, 3 * range.first, 3 * range.count);
     }
     gl_.BindVertexArray(0);
 }
@@ -150,8 +150,7 @@ void TrianglePainter::bind_row(ColorRow& row, const std::vector<Color>& colors) 
     if (bytes == row.rgba) return;
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(colors.size()), 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                   bytes.data());
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, colors.size(), 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
     row.rgba = std::move(bytes);
 }
 

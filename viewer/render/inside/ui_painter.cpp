@@ -121,10 +121,9 @@ void UiPainter::draw_command(const ImDrawCmd& command, const ImDrawData& ui, int
     // A list that was laid out before the fonts were first uploaded does not know their texture yet.
     const GLuint texture = from_imgui(command.GetTexID());
     gl_.BindTexture(GL_TEXTURE_2D, texture != 0 ? texture : fonts_.id());
-    gl_.DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
+    gl_.DrawElementsBaseVertex(GL_TRIANGLES, command.ElemCount,
                                sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
-                               buffer_offset(command.IdxOffset * sizeof(ImDrawIdx)),
-                               static_cast<GLint>(command.VtxOffset));
+                               buffer_offset(command.IdxOffset * sizeof(ImDrawIdx)), command.VtxOffset);
 }
 
 }  // namespace kerf::view

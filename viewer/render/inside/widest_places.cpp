@@ -22,9 +22,7 @@ class Distances {
     int& at(int x, int y) { return distance_[index(x, y)]; }
 
  private:
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-    }
+    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
     // The distance of a neighbour; 0 if it has another number or lies outside.
     int from(int x, int y, int nx, int ny) const {
         const bool is_inside = nx >= 0 && ny >= 0 && nx < width_ && ny < height_;
@@ -43,8 +41,7 @@ std::vector<NumberPlace> widest_places(std::span<const std::int32_t> image, int 
     std::map<std::int32_t, std::vector<NumberPlace>> widest;  // by number, all pixels with the most room
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const std::int32_t number =
-                image[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+            const std::int32_t number = image[static_cast<std::size_t>(y) * width + x];
             if (number < 0) continue;
             std::vector<NumberPlace>& of_number = widest[number];
             const int room = distances.at(x, y);
