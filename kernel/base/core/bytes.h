@@ -94,7 +94,7 @@ class ByteReader {
         raw(&n, sizeof n);
         if (n > bytes_.size() / least_item_size)
             throw Error(ErrorCode::internal, "A message between processes is damaged.");
-        return static_cast<std::size_t>(n);
+        return n;
     }
     template <class T>
     void read(T& value) {
@@ -102,7 +102,7 @@ class ByteReader {
             value.archive(*this);
         else {
             static_assert(detail::is_plain<T>);
-            raw(static_cast<void*>(&value), sizeof value);
+            raw(&value, sizeof value);
         }
     }
     void read(std::string& s) {
@@ -113,7 +113,7 @@ class ByteReader {
     void read(std::vector<T>& items) {
         if constexpr (detail::is_plain<T>) {
             items.resize(read_count(sizeof(T)));
-            raw(static_cast<void*>(items.data()), items.size() * sizeof(T));
+            raw(items.data(), items.size() * sizeof(T));
         } else {
             items.resize(read_count(1));
             for (T& item : items) read(item);

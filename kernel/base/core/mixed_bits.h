@@ -24,7 +24,7 @@ class RandomSequence {
 
     constexpr std::uint64_t next() { return state_ = state_ * 6364136223846793005 + 1442695040888963407; }
     /// Returns the next number as one from -1/2 to 1/2, of 24 bits.
-    constexpr double next_centred() { return static_cast<double>(next() >> 40) * 0x1p-24 - 0.5; }
+    constexpr double next_centred() { return (next() >> 40) * 0x1p-24 - 0.5; }
 
  private:
     std::uint64_t state_;

@@ -12,8 +12,7 @@ namespace kerf {
 /// Returns 1234567 as "1,234,567".
 inline std::string grouped(std::int64_t n) {
     std::string digits = std::to_string(n);
-    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), ",");
+    for (auto i = std::ssize(digits) - 3; i > 0; i -= 3) digits.insert(i, ",");
     return digits;
 }
 

@@ -15,7 +15,7 @@ class QuickLogarithm {
  public:
     QuickLogarithm() {
         for (std::size_t i = 0; i < intervals_.size(); ++i) {
-            const double centre = 1 + (static_cast<double>(i) + 0.5) / static_cast<double>(intervals_.size());
+            const double centre = 1 + (i + 0.5) / intervals_.size();
             intervals_[i] = {std::log2(centre), 1 / centre};
         }
     }
@@ -27,7 +27,7 @@ class QuickLogarithm {
         const Interval& interval = intervals_[mantissa >> (mantissa_bits - table_bits)];
         const auto in_one_to_two = std::bit_cast<double>(mantissa | std::uint64_t{exponent_of_one} << mantissa_bits);
         const double t = in_one_to_two * interval.reciprocal - 1;
-        return static_cast<double>(static_cast<int>(bits >> mantissa_bits) - exponent_of_one) + interval.logarithm +
+        return (static_cast<int>(bits >> mantissa_bits) - exponent_of_one) + interval.logarithm +
                std::numbers::log2e * t * (1 + t * (-1.0 / 2 + t * (1.0 / 3)));
     }
 

@@ -18,7 +18,7 @@ namespace detail {
 
 // The number of threads that may be started beside the running ones.
 inline std::atomic<int>& spare_threads() {
-    static std::atomic<int> spare(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1);
+    static std::atomic<int> spare(std::max<int>(1, std::thread::hardware_concurrency()) - 1);
     return spare;
 }
 
@@ -86,7 +86,7 @@ void for_each_on_threads(std::size_t count, const Work& work) {
     if (count == 0) return;
     detail::SharedRanges ranges(count);
     {
-        const detail::ThreadLease lease(static_cast<int>(std::min<std::size_t>(count - 1, 1024)));
+        const detail::ThreadLease lease(std::min<std::size_t>(count - 1, 1024));
         std::vector<std::jthread> others;
         try {
             for (int i = 0; i < lease.count(); ++i) others.emplace_back([&] { ranges.work(work); });
@@ -128,7 +128,7 @@ template <class T, class Less = std::less<T>>
 void sort_on_threads(std::vector<T>& items, const Less& less = Less()) {
     constexpr std::size_t least_of_range = std::size_t{1} << 16;
     std::size_t grain = std::max(least_of_range, (items.size() + 15) / 16);
-    const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto at = [&](std::size_t i) { return items.begin() + i; };
     for_ranges_on_threads(items.size(), grain,
                           [&](const IndexRange& range) { std::sort(at(range.first), at(range.last), less); });
     for (; grain < items.size(); grain *= 2)

@@ -44,9 +44,9 @@ constexpr bool lies_below(NodeId node, NodeId ancestor) {
 using Key = std::int64_t;
 
 constexpr Key make_key(NodeId node, std::int32_t index) {
-    return (static_cast<Key>(node) << 32) | static_cast<Key>(static_cast<std::uint32_t>(index));
+    return (static_cast<Key>(node) << 32) | static_cast<std::uint32_t>(index);
 }
-constexpr NodeId key_node(Key key) { return static_cast<NodeId>(key >> 32); }
+constexpr NodeId key_node(Key key) { return key >> 32; }
 /// Whether a vertex or facet is one of the input surface, or a piece of one. It does not follow that a facet lies on
 /// the outer boundary, or has a patch (files/part/part.h): walls inside of a body are of the input, too.
 constexpr bool is_of_input(Key key) { return key_node(key) == 0; }

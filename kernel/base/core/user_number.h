@@ -97,7 +97,7 @@ inline void require_in(const NumberRange& range, std::string_view option, double
 template <class Number>
 Number parse_number(std::string_view option, std::string_view text, const NumberRange& range) {
     const std::optional<Number> number = number_in<Number>(text);
-    if (!number || !range.contains(static_cast<double>(*number))) refuse_number(option, text, range.words);
+    if (!number || !range.contains(*number)) refuse_number(option, text, range.words);
     return *number;
 }
 

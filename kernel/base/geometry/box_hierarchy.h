@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/geometry/box.h"
 
@@ -36,7 +37,7 @@ class BoxHierarchy {
     /// called. Both are called from several threads, halve() for disjoint ranges at any time.
     template <class Halve, class NodeOf>
     BoxHierarchy(std::size_t count, const Halve& halve, const NodeOf& node_of) {
-        add_child(0, static_cast<std::int32_t>(count));
+        add_child(0, count);
         std::vector<std::size_t> level_begin;
         for (std::size_t begin = 0; begin < nodes_.size();) {
             level_begin.push_back(begin);
@@ -121,7 +122,7 @@ class BoxHierarchy {
         for (std::size_t n = begin; n < end; ++n) {
             if (is_leaf(nodes_[n])) continue;
             const std::int32_t first = nodes_[n].first, last = nodes_[n].last;
-            nodes_[n].left = static_cast<std::int32_t>(nodes_.size());
+            nodes_[n].left = count_of(nodes_);
             add_child(first, middle[n - begin]);
             add_child(middle[n - begin], last);
         }
@@ -177,7 +178,7 @@ inline BoxHierarchy<> make_hierarchy(const std::vector<Box>& boxes, std::vector<
     const auto number_of = [](const Item& item) { return item.box; };
     const auto halve = [&](std::int32_t first, std::int32_t last) {
         const auto begin = items.begin();
-        return static_cast<std::int32_t>(halve_by_centre(begin + first, begin + last, centre_of, number_of) - begin);
+        return halve_by_centre(begin + first, begin + last, centre_of, number_of) - begin;
     };
     BoxHierarchy<> hierarchy(items.size(), halve, [&](std::int32_t i) { return BoxNode{boxes[items[i].box]}; });
     for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].box;

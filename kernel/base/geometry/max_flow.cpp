@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 
 namespace kerf {
 
@@ -37,7 +38,7 @@ void MaxFlow::add_terminal(std::int32_t node, double from_source, double to_sink
 
 void MaxFlow::add_edge(std::int32_t a, std::int32_t b, double capacity) {
     KERF_CHECK(a != b && capacity >= 0);
-    const auto arc = static_cast<std::int32_t>(arcs_.size());
+    const auto arc = count_of(arcs_);
     arcs_.push_back({b, first_arc_[a], capacity});
     arcs_.push_back({a, first_arc_[b], capacity});
     first_arc_[a] = arc;
@@ -51,7 +52,7 @@ void MaxFlow::activate(std::int32_t node) {
 }
 
 bool MaxFlow::solve(std::int64_t step_limit) {
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(terminal_.size()); ++i) {
+    for (std::int32_t i = 0; i < count_of(terminal_); ++i) {
         if (terminal_[i] == 0) continue;
         tree_[i] = terminal_[i] > 0 ? Tree::source : Tree::sink;
         parent_[i] = terminal_parent;

@@ -59,7 +59,7 @@ void sort_by_code(std::vector<MortonItem>& items) {
     for_each_on_threads(starts.size() - 1, [&](std::size_t range) {
         for (std::size_t first = starts[range], last = first; first < starts[range + 1]; first = last) {
             while (last < starts[range + 1] && upper(last) == upper(first)) ++last;
-            const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+            const auto at = [&](std::size_t i) { return items.begin() + i; };
             if (last - first > 1) std::sort(at(first), at(last), comes_first);
         }
     });

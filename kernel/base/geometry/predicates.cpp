@@ -29,7 +29,7 @@ struct Bits {
 Bits bits_of(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     constexpr int mantissa_bits = 52, bias = 1075;
-    const auto mantissa = static_cast<std::int64_t>((bits & ((1ULL << mantissa_bits) - 1)) | 1ULL << mantissa_bits);
+    const std::int64_t mantissa = (bits & ((1ULL << mantissa_bits) - 1)) | 1ULL << mantissa_bits;
     return {x < 0 ? -mantissa : mantissa, static_cast<int>(bits >> mantissa_bits & 0x7ff) - bias};
 }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/ids.h"
+
 namespace kerf {
 
 /// The component of each item, numbered by their smallest items, and the number of components.
@@ -31,8 +33,8 @@ class UnionFind {
     /// Returns the sets, in the memory of the object, which must not be used afterwards.
     Components take() {
         std::int32_t count = 0;
-        for (std::size_t i = 0; i < parent_.size(); ++i)  // parents come first, so theirs are numbers already
-            parent_[i] = parent_[i] == static_cast<std::int32_t>(i) ? count++ : parent_[parent_[i]];
+        for (std::int32_t i = 0; i < count_of(parent_); ++i)  // parents come first, so theirs are numbers already
+            parent_[i] = parent_[i] == i ? count++ : parent_[parent_[i]];
         return {std::move(parent_), count};
     }
 

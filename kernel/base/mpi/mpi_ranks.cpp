@@ -80,7 +80,7 @@ constexpr std::size_t most_of_piece = std::size_t{1} << 30;
 template <class Array, class Pass>
 void for_pieces(Array& items, const Pass& pass) {
     for (std::size_t first = 0; first < items.size(); first += most_of_piece)
-        pass(items.data() + first, static_cast<int>(std::min(most_of_piece, items.size() - first)));
+        pass(items.data() + first, std::min(most_of_piece, items.size() - first));
 }
 
 std::size_t count_pieces(std::uint64_t bytes) { return (bytes + most_of_piece - 1) / most_of_piece; }
@@ -157,8 +157,7 @@ class MpiRanks::Transfer {
     std::vector<MPI_Request>& requests() { return own_.front().requests; }
     MPI_Request& new_request() { return requests().emplace_back(MPI_REQUEST_NULL); }
     void wait_for_all() {
-        check_mpi(MPI_Waitall(static_cast<int>(requests().size()), requests().data(), MPI_STATUSES_IGNORE),
-                  "MPI_Waitall");
+        check_mpi(MPI_Waitall(count_of(requests()), requests().data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
     }
 
  private:
@@ -168,9 +167,8 @@ class MpiRanks::Transfer {
 
 MpiRanks::MpiRanks(MPI_Comm comm)
     : comm_(duplicate_of(comm)), rank_(rank_in(comm_)), size_(size_of(comm_)), posted_(comm_, size_) {
-    const auto ranks = static_cast<std::size_t>(size_);
-    for (auto* of_ranks : {&sizes_, &sent_, &expected_}) of_ranks->resize(ranks);
-    leaving_.assign(ranks, MPI_REQUEST_NULL);
+    for (auto* of_ranks : {&sizes_, &sent_, &expected_}) of_ranks->resize(size_);
+    leaving_.assign(size_, MPI_REQUEST_NULL);
 }
 
 MpiRanks::~MpiRanks() { MPI_Comm_free(&comm_); }
@@ -193,10 +191,10 @@ void MpiRanks::end_together(const StageStatus& why) {
     is_over_ = true;
     if (why.code != 0) last_words_.code = why.code;
     why.message.copy(last_words_.message.data(), last_words_.message.size() - 1);
-    const auto speaker = std::find(sizes_.begin(), sizes_.end(), has_left) - sizes_.begin();
-    check_mpi(MPI_Bcast(&last_words_, sizeof last_words_, MPI_BYTE, static_cast<int>(speaker), comm_), "MPI_Bcast");
+    const int speaker = std::find(sizes_.begin(), sizes_.end(), has_left) - sizes_.begin();
+    check_mpi(MPI_Bcast(&last_words_, sizeof last_words_, MPI_BYTE, speaker, comm_), "MPI_Bcast");
     for (int r = 0; r < size_; ++r)
-        if (r != rank_ && sizes_[static_cast<std::size_t>(r)] == has_left)
+        if (r != rank_ && sizes_[r] == has_left)
             check_mpi(MPI_Recv(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
     check_mpi(MPI_Waitall(size_, leaving_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
     try {
@@ -211,9 +209,7 @@ void MpiRanks::leave(const StageStatus& why) {
     if (is_over_) return;
     const FailureDeadline deadline(why.code, why.message);
     for (int r = 0; r < size_; ++r)
-        if (r != rank_)
-            check_mpi(MPI_Isend(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, &leaving_[static_cast<std::size_t>(r)]),
-                      "MPI_Isend");
+        if (r != rank_) check_mpi(MPI_Isend(nullptr, 0, MPI_BYTE, r, leave_tag, comm_, &leaving_[r]), "MPI_Isend");
     check_mpi(MPI_Allgather(&has_left, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, comm_), "MPI_Allgather");
     end_together(why);
 }
@@ -229,28 +225,28 @@ std::vector<Bytes> MpiRanks::all_gather(const Bytes& contribution) {
     take_room(*this, [&] {
         for (const std::uint64_t size : sizes_) {
             starts.push_back(starts.empty() ? 0 : starts.back() + sizes.back());
-            sizes.push_back(is_one_call ? static_cast<int>(size) : 0);
+            sizes.push_back(is_one_call ? size : 0);
             all.emplace_back(size);
         }
         if (is_one_call) together.resize(total);
-        all[static_cast<std::size_t>(rank_)] = contribution;
+        all[rank_] = contribution;
     });
     if (is_one_call)
-        check_mpi(MPI_Allgatherv(contribution.data(), static_cast<int>(contribution.size()), MPI_BYTE, together.data(),
-                                 sizes.data(), starts.data(), MPI_BYTE, comm_),
+        check_mpi(MPI_Allgatherv(contribution.data(), count_of(contribution), MPI_BYTE, together.data(), sizes.data(),
+                                 starts.data(), MPI_BYTE, comm_),
                   "MPI_Allgatherv");
     for (std::size_t r = 0; r < all.size(); ++r)
         if (is_one_call)
             std::copy_n(together.begin() + starts[r], sizes[r], all[r].begin());
         else
-            broadcast_bytes(all[r], static_cast<int>(r), comm_);
+            broadcast_bytes(all[r], r, comm_);
     return all;
 }
 
 Bytes MpiRanks::broadcast(Bytes of_root, int root) {
     begin_collective(of_root.size());
     take_room(*this, [&] {
-        if (rank_ != root) of_root = Bytes(sizes_[static_cast<std::size_t>(root)]);
+        if (rank_ != root) of_root = Bytes(sizes_[root]);
     });
     broadcast_bytes(of_root, root, comm_);
     return of_root;
@@ -258,8 +254,7 @@ Bytes MpiRanks::broadcast(Bytes of_root, int root) {
 
 std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
     begin_collective(0);
-    const auto own = static_cast<std::size_t>(rank_);
-    for (std::size_t r = 0; r < sent_.size(); ++r) sent_[r] = r == own ? 0 : to_rank[r].size();
+    for (int r = 0; r < size_; ++r) sent_[r] = r == rank_ ? 0 : to_rank[r].size();
     check_mpi(MPI_Alltoall(sent_.data(), 1, MPI_UINT64_T, expected_.data(), 1, MPI_UINT64_T, comm_), "MPI_Alltoall");
     std::optional<Transfer> sent, got;
     take_room(*this, [&] {
@@ -273,13 +268,13 @@ std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> to_rank) {
         sent.emplace(std::move(to_rank), pieces_sent);
         got.emplace(std::move(from_rank), pieces_expected);
     });
-    got->messages()[own] = std::move(sent->messages()[own]);
+    got->messages()[rank_] = std::move(sent->messages()[rank_]);
     for (int step = 1; step < size_; ++step) {  // each rank begins with another one
         const int r = (rank_ + step) % size_;
-        for_pieces(got->messages()[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+        for_pieces(got->messages()[r], [&](char* piece, int size) {
             check_mpi(MPI_Irecv(piece, size, MPI_BYTE, r, exchange_tag, comm_, &got->new_request()), "MPI_Irecv");
         });
-        for_pieces(sent->messages()[static_cast<std::size_t>(r)], [&](char* piece, int size) {
+        for_pieces(sent->messages()[r], [&](char* piece, int size) {
             check_mpi(MPI_Isend(piece, size, MPI_BYTE, r, exchange_tag, comm_, &sent->new_request()), "MPI_Isend");
         });
     }
@@ -380,7 +375,7 @@ std::vector<Bytes> MpiRanks::gather_on_host(const Bytes& contribution, std::size
     std::vector<Bytes> all;
     {
         MpiRanks on_host(host);
-        own = static_cast<std::size_t>(on_host.rank());
+        own = on_host.rank();
         all = on_host.all_gather(contribution);
     }
     check_mpi(MPI_Comm_free(&host), "MPI_Comm_free");

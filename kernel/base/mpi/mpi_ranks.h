@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include "base/core/ids.h"
 #include "base/mpi/inside/posted_messages.h"
 #include "base/parallel/communicator.h"
 
@@ -84,8 +85,8 @@ class MpiRanks : public Communicator {
     /// Collective, with as many values on every rank: replaces each value by its sum, least or largest over the ranks.
     template <class T>
     void all_reduce(std::span<T> values, Reduction reduction) const {
-        check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), mpi_type<T>(),
-                                mpi_operation(reduction), comm_),
+        check_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), count_of(values), mpi_type<T>(), mpi_operation(reduction),
+                                comm_),
                   "MPI_Allreduce");
     }
     template <class T>
@@ -100,14 +101,14 @@ class MpiRanks : public Communicator {
     void exchange(const std::vector<RankValues<T>>& out, std::vector<RankValues<T>>& in) const {
         std::vector<MPI_Request> requests;
         for (RankValues<T>& from : in)
-            check_mpi(MPI_Irecv(from.values.data(), static_cast<int>(from.values.size()), mpi_type<T>(), from.rank,
-                                exchange_tag, comm_, &requests.emplace_back()),
+            check_mpi(MPI_Irecv(from.values.data(), count_of(from.values), mpi_type<T>(), from.rank, exchange_tag,
+                                comm_, &requests.emplace_back()),
                       "MPI_Irecv");
         for (const RankValues<T>& to : out)
-            check_mpi(MPI_Isend(to.values.data(), static_cast<int>(to.values.size()), mpi_type<T>(), to.rank,
-                                exchange_tag, comm_, &requests.emplace_back()),
+            check_mpi(MPI_Isend(to.values.data(), count_of(to.values), mpi_type<T>(), to.rank, exchange_tag, comm_,
+                                &requests.emplace_back()),
                       "MPI_Isend");
-        check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+        check_mpi(MPI_Waitall(count_of(requests), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
     }
 
     /// Ends all ranks without their consent. Does not return.

@@ -33,25 +33,24 @@ class Ownership {
     /// own items, then of the ghosts, in their order. Collective; messages follow the ghosts.
     static Ownership of_numbers(MpiRanks& ranks, const std::vector<std::int64_t>& first_of_ranks,
                                 const std::vector<std::int64_t>& ghosts) {
-        const auto own = static_cast<std::size_t>(ranks.rank());
+        const int own = ranks.rank();
         const std::int64_t first = first_of_ranks[own];
-        auto local = static_cast<std::int32_t>(first_of_ranks[own + 1] - first);
-        std::vector<std::vector<std::int64_t>> asked(static_cast<std::size_t>(ranks.size()));
+        std::int32_t local = first_of_ranks[own + 1] - first;
+        std::vector<std::vector<std::int64_t>> asked(ranks.size());
         std::vector<Neighbour> of_own, of_ghosts;
         for (const std::int64_t number : ghosts) {
             const auto after = std::upper_bound(first_of_ranks.begin(), first_of_ranks.end(), number);
-            const auto owner = static_cast<int>(after - first_of_ranks.begin()) - 1;
+            const int owner = after - first_of_ranks.begin() - 1;
             if (of_ghosts.empty() || of_ghosts.back().rank != owner) of_ghosts.push_back({owner, {}});
             of_ghosts.back().items.push_back(local++);
-            asked[static_cast<std::size_t>(owner)].push_back(number);
+            asked[owner].push_back(number);
         }
         asked = exchange_items(ranks, std::move(asked));
-        for (std::size_t r = 0; r < asked.size(); ++r) {
+        for (int r = 0; r < ranks.size(); ++r) {
             if (asked[r].empty()) continue;
             Neighbour& neighbour = of_own.emplace_back();
-            neighbour.rank = static_cast<int>(r);
-            for (const std::int64_t number : asked[r])
-                neighbour.items.push_back(static_cast<std::int32_t>(number - first));
+            neighbour.rank = r;
+            for (const std::int64_t number : asked[r]) neighbour.items.push_back(number - first);
         }
         return {ranks, std::move(of_own), std::move(of_ghosts)};
     }
@@ -136,12 +135,10 @@ class Ownership {
     auto exchanged(const std::vector<Neighbour>& from, const std::vector<Neighbour>& to,
                    const ListFor& list_for) const {
         using List = std::invoke_result_t<const ListFor&, const Neighbour&>;
-        std::vector<List> of_ranks(static_cast<std::size_t>(ranks_->size())), received;
-        for (const Neighbour& neighbour : from)
-            of_ranks[static_cast<std::size_t>(neighbour.rank)] = list_for(neighbour);
+        std::vector<List> of_ranks(ranks_->size()), received;
+        for (const Neighbour& neighbour : from) of_ranks[neighbour.rank] = list_for(neighbour);
         of_ranks = exchange_items(*ranks_, std::move(of_ranks));
-        for (const Neighbour& neighbour : to)
-            received.push_back(std::move(of_ranks[static_cast<std::size_t>(neighbour.rank)]));
+        for (const Neighbour& neighbour : to) received.push_back(std::move(of_ranks[neighbour.rank]));
         return received;
     }
 

@@ -42,7 +42,7 @@ void throw_first_error(Communicator& ranks, const StageStatus& own) {
     ranks.sum(counts);
     if (counts[0] + counts[1] == 0) return;
     const std::vector<char> may_speak = all_gather(ranks, static_cast<char>(counts[0] > 0 ? has_failed : was_stopped));
-    const auto speaker = static_cast<int>(std::find(may_speak.begin(), may_speak.end(), 1) - may_speak.begin());
+    const int speaker = std::find(may_speak.begin(), may_speak.end(), 1) - may_speak.begin();
     const Bytes words = ranks.broadcast(ranks.rank() == speaker ? to_bytes(own) : Bytes(), speaker);
     throw from_bytes<StageStatus>(words).error();
 }

@@ -140,8 +140,8 @@ std::vector<std::vector<T>> exchange_items(Communicator& ranks, std::vector<std:
 /// others.
 template <class T>
 std::vector<T> gather_items_to(Communicator& ranks, int root, std::vector<T> own) {
-    std::vector<std::vector<T>> items(static_cast<std::size_t>(ranks.size()));
-    items[static_cast<std::size_t>(root)] = std::move(own);
+    std::vector<std::vector<T>> items(ranks.size());
+    items[root] = std::move(own);
     std::vector<T> all;
     for (std::vector<T>& of_rank : exchange_items(ranks, std::move(items)))
         std::move(of_rank.begin(), of_rank.end(), std::back_inserter(all));
@@ -151,9 +151,9 @@ std::vector<T> gather_items_to(Communicator& ranks, int root, std::vector<T> own
 /// Collective: returns the sum of one number of each rank.
 template <std::integral Number>
 Number sum_of(Communicator& ranks, Number own) {
-    std::uint64_t word = static_cast<std::uint64_t>(own);
+    std::uint64_t word = own;
     ranks.sum(std::span(&word, 1));
-    return static_cast<Number>(word);
+    return word;
 }
 
 /// Throws the error of the first rank that has one, on every rank. A rank that was cancelled counts only where there is

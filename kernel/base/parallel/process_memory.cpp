@@ -22,11 +22,11 @@ std::int64_t own_peak_rss_bytes() {
 }
 
 double most_memory_bytes() {
-    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-    const double machine = pages * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double pages = sysconf(_SC_PHYS_PAGES);
+    const double machine = pages * sysconf(_SC_PAGE_SIZE);
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return machine;
-    return std::min(machine, static_cast<double>(limit.rlim_cur));
+    return std::min<double>(machine, limit.rlim_cur);
 }
 
 }  // namespace kerf

@@ -44,7 +44,7 @@ void allow_processors(const std::vector<int>& processors) {
     ::sched_setaffinity(0, bytes, set.get());
 }
 
-int machine_processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int machine_processors() { return std::max<int>(1, std::thread::hardware_concurrency()); }
 
 int share_of_processors(const std::vector<std::vector<int>>& allowed, std::size_t process) {
     std::map<int, int> users;

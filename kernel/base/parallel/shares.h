@@ -16,13 +16,11 @@ inline std::int64_t first_of_rank(std::int64_t count, int rank, const Communicat
 
 /// Returns the rank in whose range a thing lies.
 inline int rank_in_range(std::int64_t count, std::int64_t thing, const Communicator& ranks) {
-    return static_cast<int>((ranks.size() * (thing + 1) - 1) / count);
+    return (ranks.size() * (thing + 1) - 1) / count;
 }
 
 /// Returns the rank to which a thing with this number belongs, where numbers may be any and each rank is to have its
 /// share.
-inline int rank_of_number(std::uint64_t number, const Communicator& ranks) {
-    return static_cast<int>(mixed_bits(number) % static_cast<std::uint64_t>(ranks.size()));
-}
+inline int rank_of_number(std::uint64_t number, const Communicator& ranks) { return mixed_bits(number) % ranks.size(); }
 
 }  // namespace kerf

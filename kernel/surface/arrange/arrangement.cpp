@@ -16,6 +16,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/core/ids.h"
 #include "base/geometry/predicates.h"
 #include "surface/arrange/inside/crossing_pairs.h"
 #include "surface/arrange/inside/divided_facets.h"
@@ -44,19 +45,19 @@ class Arranger {
           divided_{DistinctPoints(vertices)},
           check_cancelled_(check_cancelled) {
         for (const Vec3& p : vertices) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
-        for (std::size_t f = 0; f < facets.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(facets); ++f) {
             Triangle t = facets[f];
             for (std::int32_t& v : t) v = divided_.points.number_of(vertices[v]);
             if (!divided_.has_area(t)) continue;
             divided_.facets.push_back(t);
-            divided_.parent.push_back(static_cast<std::int32_t>(f));
+            divided_.parent.push_back(f);
         }
         divided_.changed.assign(divided_.facets.size(), 1);
     }
 
     Arrangement run() {
         std::vector<FacetPair> pairs = find_pairs();
-        result_.crossing_pairs = static_cast<std::int64_t>(pairs.size());
+        result_.crossing_pairs = std::ssize(pairs);
         for (; is_to_be_divided(pairs); ++result_.rounds, pairs = find_pairs()) {
             if (result_.rounds > 0) keep_if_best(pairs);
             if (result_.rounds >= exact_rounds) pairs = join_near(pairs);
@@ -83,7 +84,7 @@ class Arranger {
             pairs = plane_overlaps(divided_, reached, *given_tolerance_, check_cancelled_);
             std::erase_if(pairs, [&](const FacetPair& pair) { return !walls[pair[0]] || !walls[pair[1]]; });
             const auto copies = std::count_if(pairs.begin(), pairs.end(), [&](const auto& p) { return are_copies(p); });
-            const std::size_t unlike = pairs.size() - static_cast<std::size_t>(copies);
+            const std::size_t unlike = pairs.size() - copies;
             if (unlike == 0 || unlike >= fewest) break;
             fewest = unlike;
             divide(pairs);
@@ -106,7 +107,7 @@ class Arranger {
     }
     // A surface with more pairs is hopeless: a solid tangle, or one that rounding makes worse and worse.
     std::size_t most_pairs() const {
-        if (result_.rounds > 0) return 5000 + 10 * static_cast<std::size_t>(result_.crossing_pairs);
+        if (result_.rounds > 0) return 5000 + 10 * result_.crossing_pairs;
         return 200'000 + 2 * divided_.facets.size();
     }
     bool are_copies(const FacetPair& pair) const {
@@ -190,10 +191,10 @@ void Arranger::divide(const std::vector<FacetPair>& pairs) {
         if (share_area(pair)) overlaps.push_back(pair);
         for (const std::int32_t f : pair) is_divided[f] = 1;
     }
-    if (result_.rounds == 0) result_.coplanar_overlaps = static_cast<std::int64_t>(overlaps.size());
+    if (result_.rounds == 0) result_.coplanar_overlaps = std::ssize(overlaps);
     std::vector<std::int32_t> chosen;
-    for (std::size_t f = 0; f < divided_.facets.size(); ++f)
-        if (is_divided[f]) chosen.push_back(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(divided_.facets); ++f)
+        if (is_divided[f]) chosen.push_back(f);
     const PlaneGroups groups = group_planes(divided_, chosen, overlaps, tolerance());
     const std::vector<FacetPair> contacts = contacts_between(groups, pairs);
     std::vector<std::int32_t> others;
@@ -227,10 +228,10 @@ Arrangement Arranger::finish(const std::vector<FacetPair>& pairs) {
         result_.unresolved.push_back({(p[0] + p[1] + p[2]) / 3, pair});
     }
     result_.vertices = divided_.points.take();
-    result_.new_vertices = static_cast<std::int64_t>(result_.vertices.size() - given_vertices_);
+    result_.new_vertices = result_.vertices.size() - given_vertices_;
     std::vector<std::int32_t> left = divided_.parent;
     left.erase(std::unique(left.begin(), left.end()), left.end());
-    result_.dropped_facets = static_cast<std::int64_t>(given_facets_ - left.size());
+    result_.dropped_facets = given_facets_ - left.size();
     result_.facets = std::move(divided_.facets);
     result_.parent = std::move(divided_.parent);
     return std::move(result_);

@@ -16,7 +16,7 @@ void number_new_vertices(Soup& soup, std::size_t count) {
     const std::size_t old_count = number.size();
     const std::int32_t next = 1 + *std::max_element(number.begin(), number.end());
     number.resize(count);
-    std::iota(number.begin() + static_cast<std::ptrdiff_t>(old_count), number.end(), next);
+    std::iota(number.begin() + old_count, number.end(), next);
 }
 
 void drop_lost_model_edges(Soup& soup) {

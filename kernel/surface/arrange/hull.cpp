@@ -15,6 +15,7 @@
 #include <span>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/geometry/max_flow.h"
 #include "base/geometry/triangle.h"
@@ -33,7 +34,7 @@ std::vector<std::int32_t> samples_of(std::vector<std::int32_t>& patch, const std
     constexpr std::size_t largest = 8, each = 16;
     std::vector<std::int32_t> chosen;
     for (std::size_t i = 0; i < patch.size(); i += each) chosen.push_back(patch[i]);
-    const auto last = patch.begin() + static_cast<std::ptrdiff_t>(std::min(largest, patch.size()));
+    const auto last = patch.begin() + std::min(largest, patch.size());
     std::partial_sort(patch.begin(), last, patch.end(), [&](std::int32_t f, std::int32_t g) {
         return areas[f] != areas[g] ? areas[f] > areas[g] : f < g;
     });
@@ -108,7 +109,7 @@ class SideLabeller {
             for_ranges_on_threads(std::min(facets_between_checks, facets_.size() - first), grain,
                                   [&](const IndexRange& range) {
                                       for (std::size_t f = first + range.first; f < first + range.last; ++f)
-                                          ask(static_cast<std::int32_t>(f), areas_[f]);
+                                          ask(f, areas_[f]);
                                   });
         }
     }
@@ -120,8 +121,7 @@ class SideLabeller {
             if (facing.has_two_facets) joined.join(facing.a / 2, facing.b / 2);
         const Components patches = joined.take();
         std::vector<std::vector<std::int32_t>> facets_of(patches.count);
-        for (std::size_t f = 0; f < facets_.size(); ++f)
-            facets_of[patches.of[f]].push_back(static_cast<std::int32_t>(f));
+        for (std::int32_t f = 0; f < count_of(facets_); ++f) facets_of[patches.of[f]].push_back(f);
         for (std::vector<std::int32_t>& patch : facets_of) {
             double area = 0, asked = 0;
             for (const std::int32_t f : patch) area += areas_[f];
@@ -178,7 +178,7 @@ class SideLabeller {
                 flow.add_terminal(s, std::max(votes[s], 0.0), std::max(-votes[s], 0.0));
             for (const Facing& f : facing_)
                 flow.add_edge(sets_.of[f.a], sets_.of[f.b], cost_of_edge * f.length * f.length);
-            if (flow.solve(steps_of_link * static_cast<std::int64_t>(facing_.size())))
+            if (flow.solve(steps_of_link * std::ssize(facing_)))
                 for (std::int32_t s = 0; s < sets_.count; ++s) is_inside[s] = !flow.on_sink_side(s);
         }
         std::vector<char> of_sides;
@@ -212,7 +212,7 @@ std::vector<HullFate> find_hull(const std::vector<Vec3>& vertices, const std::ve
 
     std::vector<HullFate> fate(facets.size(), HullFate::outside);
     std::vector<std::int32_t> stays(single.facets.size(), -1);  // of each single facet the one that stays
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         const std::int32_t u = single.single_of[f];
         if (u < 0) continue;
         const bool in_front = is_inside[front_side(u)] != 0, behind = is_inside[back_side(u)] != 0;
@@ -224,7 +224,7 @@ std::vector<HullFate> find_hull(const std::vector<Vec3>& vertices, const std::ve
         fate[f] = HullFate::copy;
         if (stays[u] >= 0 && (!is_right || fate[stays[u]] == HullFate::stays)) continue;
         if (stays[u] >= 0) fate[stays[u]] = HullFate::copy;
-        stays[u] = static_cast<std::int32_t>(f);
+        stays[u] = f;
         fate[f] = is_right ? HullFate::stays : HullFate::turns;
     }
     return fate;

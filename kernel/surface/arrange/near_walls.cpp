@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/box_tree.h"
 #include "base/geometry/closest_point.h"
 #include "base/geometry/triangle.h"
@@ -38,17 +39,15 @@ class NearWallFinder {
     NearWalls run(const std::function<void()>& check_cancelled) {
         constexpr std::size_t walls_between_checks = 4096;
         std::vector<char> is_near(facets_.size(), 0), thin(facets_.size(), 0);
-        for (std::size_t i = 0; i < facets_.size(); ++i) {
-            if (i % walls_between_checks == 0) check_cancelled();
-            const auto f = static_cast<std::int32_t>(i);
+        for (std::int32_t f = 0; f < count_of(facets_); ++f) {
+            if (f % walls_between_checks == 0) check_cancelled();
             for_each_near(f, tolerance_, [&](std::int32_t g) { is_near[f] |= body_[g] != body_[f]; });
             if (!is_near[f] || !is_thin(f)) continue;
             thin[f] = 1;
             found_.thin.push_back(f);
         }
-        for (std::size_t i = 0; i < facets_.size(); ++i) {
-            if (!is_near[i]) continue;
-            const auto f = static_cast<std::int32_t>(i);
+        for (std::int32_t f = 0; f < count_of(facets_); ++f) {
+            if (!is_near[f]) continue;
             for_each_near(f, tolerance_, [&](std::int32_t g) {
                 if (body_[g] == body_[f] || (thin[g] && !thin[f])) return;
                 found_.is_wall[f] = !thin[f];

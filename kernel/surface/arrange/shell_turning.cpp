@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "surface/arrange/winding_number.h"
 #include "surface/complex/mass_properties.h"
@@ -30,8 +31,7 @@ class ShellTurner {
           consistent_(make_consistent(facets)),
           facets_of_(consistent_.shell_count),
           check_cancelled_(check_cancelled) {
-        for (std::size_t f = 0; f < facets.size(); ++f)
-            facets_of_[consistent_.shell[f]].push_back(static_cast<std::int32_t>(f));
+        for (std::int32_t f = 0; f < count_of(facets); ++f) facets_of_[consistent_.shell[f]].push_back(f);
     }
 
     /// Returns for each facet whether it is to be turned.

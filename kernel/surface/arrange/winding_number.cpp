@@ -10,6 +10,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 
 namespace kerf {
@@ -128,19 +129,18 @@ WindingNumber::WindingNumber(const std::vector<Vec3>& vertices, const std::vecto
     : item_of_(facets.size()) {
     KERF_CHECK(are_in_range(facets, vertices.size()) && (times.empty() || times.size() == facets.size()));
     items_.reserve(facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         const auto& [a, b, c] = facets[f];
-        items_.push_back(
-            {{vertices[a], vertices[b], vertices[c]}, static_cast<std::int32_t>(f), times.empty() ? 1 : times[f]});
+        items_.push_back({{vertices[a], vertices[b], vertices[c]}, f, times.empty() ? 1 : times[f]});
     }
     const auto centre_of = [](const Item& item) -> Vec3 { return box_around(item.corners).center(); };
     const auto halve = [&](std::int32_t first, std::int32_t last) {
         const auto begin = items_.begin();
         const auto facet_of = [](const Item& item) { return item.facet; };
-        return static_cast<std::int32_t>(halve_by_centre(begin + first, begin + last, centre_of, facet_of) - begin);
+        return halve_by_centre(begin + first, begin + last, centre_of, facet_of) - begin;
     };
     hierarchy_ = {items_.size(), halve, [&](std::int32_t i) { return node_of(items_[i]); }};
-    for (std::size_t i = 0; i < items_.size(); ++i) item_of_[items_[i].facet] = static_cast<std::int32_t>(i);
+    for (std::int32_t i = 0; i < count_of(items_); ++i) item_of_[items_[i].facet] = i;
 }
 
 double WindingNumber::beside(std::int32_t facet) const {

@@ -15,6 +15,7 @@
 
 #include "base/core/check.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/geometry/union_find.h"
 #include "surface/complex/touching.h"
@@ -29,7 +30,7 @@ Triangle turned_over(const Triangle& t) { return {t[0], t[2], t[1]}; }
 void check_sides(const SurfaceArrays& facets, const std::vector<FacetSides>& sides,
                  const std::vector<std::string>& names) {
     KERF_CHECK(is_well_formed(facets) && sides.size() == facets.facets.size() && names.size() >= 1);
-    const auto count = static_cast<std::int32_t>(names.size());
+    const auto count = count_of(names);
     for (std::size_t f = 0; f < sides.size(); ++f) {
         const auto [front, back] = sides[f];
         KERF_CHECK(std::max(front, back) < count && std::min(front, back) >= -1);
@@ -115,7 +116,7 @@ Contacts find_contacts(const std::vector<Triangle>& outer, std::span<const Key> 
         }
     });
     std::vector<std::int32_t> fan_of_vertex(key.size(), -1);
-    for (std::int32_t corner = 0; corner < 3 * static_cast<std::int32_t>(outer.size()); ++corner) {
+    for (std::int32_t corner = 0; corner < 3 * count_of(outer); ++corner) {
         std::int32_t& fan = fan_of_vertex[start_vertex(outer, corner)];
         const std::int32_t own = fans.root(corner);
         if (fan < 0) fan = own;
@@ -151,13 +152,13 @@ void Complex::become_only_region() {
 void Complex::find_facets_of_regions() {
     first_.assign(names_.size() + 1, 0);
     const auto each_side = [&](auto visit) {
-        for (std::size_t f = 0; f < sides_.size(); ++f)
+        for (std::int32_t f = 0; f < count_of(sides_); ++f)
             for (const std::int32_t region : {sides_[f].back, sides_[f].front})
-                if (region >= 0) visit(region, static_cast<std::int32_t>(f));
+                if (region >= 0) visit(region, f);
     };
     each_side([&](std::int32_t region, std::int32_t) { ++first_[region + 1]; });
     for (std::size_t r = 1; r < first_.size(); ++r) first_[r] += first_[r - 1];
-    facet_of_region_.resize(static_cast<std::size_t>(first_.back()));
+    facet_of_region_.resize(first_.back());
     std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
     each_side([&](std::int32_t region, std::int32_t facet) { facet_of_region_[next[region]++] = facet; });
 }
@@ -215,8 +216,7 @@ SurfaceArrays Complex::arrays_of(RegionIndex region) const {
         own.vertex_key.push_back(facets_.vertex_key[v]);
     }
     for (Triangle& t : own.facets)
-        for (std::int32_t& v : t)
-            v = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+        for (std::int32_t& v : t) v = std::lower_bound(used.begin(), used.end(), v) - used.begin();
     return own;
 }
 

@@ -42,7 +42,7 @@ class Complex {
     /// Error(input) is thrown where the surface touches itself. O(#F log #F).
     Complex(SurfaceArrays facets, std::vector<FacetSides> sides, std::vector<std::string> region_names);
 
-    std::int32_t region_count() const { return names_.empty() ? 1 : static_cast<std::int32_t>(names_.size()); }
+    std::int32_t region_count() const { return names_.empty() ? 1 : count_of(names_); }
     /// The names of the regions; empty if there is only one, which needs no name.
     std::span<const std::string> region_names() const { return names_; }
     std::int32_t vertex_count() const;

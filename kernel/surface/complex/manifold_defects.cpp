@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "surface/soup/edge_corners.h"
 
@@ -39,7 +40,7 @@ std::vector<std::int32_t> sizes_of_fans(const std::vector<Triangle>& facets, con
     for (std::size_t f = 0; f < facets.size(); ++f)
         for (std::size_t i = 0; i < 3; ++i) {
             if (check[facets[f][i]] != VertexCheck::fan) continue;
-            size[facets[f][i]] = static_cast<std::int32_t>(3 * f + i);
+            size[facets[f][i]] = 3 * f + i;
             ++corners;
         }
     for_ranges_on_threads(check.size(), vertices_of_pairing, [&](const IndexRange& range) {
@@ -68,15 +69,15 @@ void find_vertex_defects(const std::vector<Triangle>& facets, const std::vector<
         for (const std::int32_t v : t) rest[v] += check[v] == VertexCheck::fan;
     std::vector<std::int32_t> slot(check.size(), -1);
     const std::size_t first_new = defects.size();
-    for (std::size_t v = 0; v < check.size(); ++v)
+    for (std::int32_t v = 0; v < count_of(check); ++v)
         if (rest[v] != 0) {
-            slot[v] = static_cast<std::int32_t>(defects.size());
-            defects.push_back({ManifoldDefect::Kind::non_manifold_vertex, {static_cast<std::int32_t>(v)}, {}});
+            slot[v] = count_of(defects);
+            defects.push_back({ManifoldDefect::Kind::non_manifold_vertex, {v}, {}});
         }
     if (defects.size() == first_new) return;
-    for (std::size_t f = 0; f < facets.size(); ++f)
+    for (std::int32_t f = 0; f < count_of(facets); ++f)
         for (std::int32_t v : facets[f])
-            if (slot[v] >= 0) defects[slot[v]].facets.push_back(static_cast<std::int32_t>(f));
+            if (slot[v] >= 0) defects[slot[v]].facets.push_back(f);
 }
 
 // True if one of the fans at a vertex has neither gap nor defect towards the others: whatever closes or parts those,
@@ -84,9 +85,9 @@ void find_vertex_defects(const std::vector<Triangle>& facets, const std::vector<
 // facets.
 bool is_pinched(const std::vector<Triangle>& facets, std::int32_t vertex, std::span<const std::int32_t> around) {
     std::vector<std::pair<std::int32_t, std::int32_t>> spokes;  // far end, place in `around`
-    for (std::size_t i = 0; i < around.size(); ++i)
+    for (std::int32_t i = 0; i < count_of(around); ++i)
         for (std::int32_t v : facets[around[i]])
-            if (v != vertex) spokes.emplace_back(v, static_cast<std::int32_t>(i));
+            if (v != vertex) spokes.emplace_back(v, i);
     std::sort(spokes.begin(), spokes.end());
     UnionFind fans(around.size());
     std::vector<std::int32_t> at_gap;
@@ -97,17 +98,16 @@ bool is_pinched(const std::vector<Triangle>& facets, std::int32_t vertex, std::s
     std::vector<char> has_gap(around.size(), 0);
     for (const std::int32_t i : at_gap) has_gap[fans.root(i)] = 1;
     std::size_t whole = 0;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(around.size()); ++i)
-        whole += fans.root(i) == i && !has_gap[i];
+    for (std::int32_t i = 0; i < count_of(around); ++i) whole += fans.root(i) == i && !has_gap[i];
     return whole + (at_gap.empty() ? 0 : 1) > 1;
 }
 
 void find_pinched_vertices(const std::vector<Triangle>& facets, const std::vector<VertexCheck>& check,
                            std::vector<ManifoldDefect>& defects) {
     std::vector<std::pair<std::int32_t, std::int32_t>> at;  // vertex, facet
-    for (std::size_t f = 0; f < facets.size(); ++f)
+    for (std::int32_t f = 0; f < count_of(facets); ++f)
         for (std::int32_t v : facets[f])
-            if (check[v] == VertexCheck::open) at.emplace_back(v, static_cast<std::int32_t>(f));
+            if (check[v] == VertexCheck::open) at.emplace_back(v, f);
     std::sort(at.begin(), at.end());
     for (std::size_t i = 0, j = 0; i < at.size(); i = j) {
         std::vector<std::int32_t> around;
@@ -157,7 +157,7 @@ CornerPairing pair_open_corners(std::size_t vertex_count, const std::vector<Tria
 CornerPairing pair_all_corners(std::size_t vertex_count, const std::vector<Triangle>& facets,
                                std::vector<std::int32_t> partner) {
     for_ranges_on_threads(facets.size(), facets_of_pairing, [&](const IndexRange& range) {
-        for (auto c = static_cast<std::int32_t>(3 * range.first); c < static_cast<std::int32_t>(3 * range.last); ++c)
+        for (std::size_t c = 3 * range.first; c < 3 * range.last; ++c)
             if (partner[c] >= 0 && start_vertex(facets, c) == start_vertex(facets, partner[c])) partner[c] = -1;
     });
     return pair_corners(facets, std::move(partner), std::vector<VertexCheck>(vertex_count, VertexCheck::fan));

@@ -48,8 +48,8 @@ class VolumeErrorSum {
     }
     double error(double volume) const {
         constexpr double own_rounding = 1.01;  // of this bound
-        constexpr double half_long_ulp = static_cast<double>(std::numeric_limits<long double>::epsilon() / 2);
-        const double of_products = static_cast<double>(terms_ + 8) * half_long_ulp * products_ / 6;
+        constexpr double half_long_ulp = std::numeric_limits<long double>::epsilon() / 2;
+        const double of_products = (terms_ + 8) * half_long_ulp * products_ / 6;
         return own_rounding * (swept_ + of_products + half_ulp * std::abs(volume));
     }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "surface/soup/edge_corners.h"
 #include "surface/soup/radial_order.h"
 
@@ -81,9 +82,8 @@ void for_each_in_fan(const std::vector<std::int32_t>& partner, std::int32_t firs
 std::vector<std::int32_t> find_further_fans(const SurfaceArrays& surface, const std::vector<std::int32_t>& partner) {
     std::vector<char> is_seen(partner.size(), 0), has_fan(surface.vertices.size(), 0);
     std::vector<std::int32_t> further;
-    for (std::size_t c = 0; c < partner.size(); ++c) {
-        if (is_seen[c]) continue;
-        const auto first = static_cast<std::int32_t>(c);
+    for (std::int32_t first = 0; first < count_of(partner); ++first) {
+        if (is_seen[first]) continue;
         for_each_in_fan(partner, first, [&](std::int32_t corner) { is_seen[corner] = 1; });
         if (std::exchange(has_fan[start_vertex(surface.facets, first)], char{1})) further.push_back(first);
     }
@@ -149,7 +149,7 @@ SeparatedSurface separate_touching(SurfaceArrays arrays) {
     std::iota(separated.original.begin(), separated.original.end(), 0);
     for (const std::int32_t first : fans) {
         const std::int32_t vertex = start_vertex(surface.facets, first);
-        const auto copy = static_cast<std::int32_t>(surface.vertices.size());
+        const auto copy = count_of(surface.vertices);
         for_each_in_fan(separated.partner, first,
                         [&](std::int32_t corner) { surface.facets[corner / 3][corner % 3] = copy; });
         surface.vertices.push_back(Vec3(surface.vertices[vertex]));
@@ -189,8 +189,8 @@ SurfaceArrays joined_by_key(SurfaceArrays arrays) {
     }
     if (all_differ) return arrays;
     std::int32_t kept = 0;
-    for (std::size_t v = 0; v < count; ++v) {
-        if (number[v] != static_cast<std::int32_t>(v)) {
+    for (std::int32_t v = 0; v < count_of(number); ++v) {
+        if (number[v] != v) {
             number[v] = number[number[v]];  // the first one has its number already
             continue;
         }

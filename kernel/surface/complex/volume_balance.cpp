@@ -15,6 +15,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 
 namespace kerf {
@@ -36,8 +37,8 @@ struct FaceCorner {
 std::vector<FaceCorner> corners_by_face(const FacetsOfFaces& mesh) {
     std::vector<FaceCorner> corners;
     corners.reserve(3 * mesh.facets.size());
-    for (std::size_t f = 0; f < mesh.facets.size(); ++f)
-        for (const std::int32_t v : mesh.facets[f]) corners.push_back({v, mesh.patch[f], static_cast<std::int32_t>(f)});
+    for (std::int32_t f = 0; f < count_of(mesh.facets); ++f)
+        for (const std::int32_t v : mesh.facets[f]) corners.push_back({v, mesh.patch[f], f});
     std::sort(corners.begin(), corners.end(), [](const FaceCorner& a, const FaceCorner& b) {
         return std::tie(a.vertex, a.patch, a.facet) < std::tie(b.vertex, b.patch, b.facet);
     });
@@ -123,13 +124,13 @@ class RegionVolumes {
         double gain;  // of volume by the whole move
     };
     Eigen::VectorXd scales_of(const Eigen::VectorXd& of_regions) const {
-        Eigen::VectorXd scales = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(weight_.size()));
+        Eigen::VectorXd scales = Eigen::VectorXd::Zero(weight_.size());
         for (const Entry& e : entries_)
             if (weight_[e.vertex] > 0) scales[e.vertex] += e.gain / weight_[e.vertex] * of_regions[e.region];
         return scales;
     }
     Eigen::VectorXd gains_of(const Eigen::VectorXd& scales) const {
-        Eigen::VectorXd gains = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regions_));
+        Eigen::VectorXd gains = Eigen::VectorXd::Zero(regions_);
         for (const Entry& e : entries_) gains[e.region] += e.gain * scales[e.vertex];
         return gains;
     }
@@ -143,16 +144,15 @@ class RegionVolumes {
 // not.
 bool move_to_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const std::vector<Vec3>& start,
                      const std::vector<Vec3>& moves, const std::vector<double>& volumes, const ScaleRange& range) {
-    Eigen::VectorXd scales = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(moves.size()));
+    Eigen::VectorXd scales = Eigen::VectorXd::Ones(moves.size());
     for (int step = 0; step <= balance_limits::secant_steps; ++step) {
-        for (std::size_t v = 0; v < moves.size(); ++v)
-            vertices[v] = start[v] + scales[static_cast<Eigen::Index>(v)] * moves[v];
+        for (std::size_t v = 0; v < moves.size(); ++v) vertices[v] = start[v] + scales[v] * moves[v];
         const std::vector<double> now = region_volumes(vertices, mesh, volumes.size());
-        Eigen::VectorXd missing(static_cast<Eigen::Index>(volumes.size()));
+        Eigen::VectorXd missing(volumes.size());
         bool is_right = true;
         for (std::size_t r = 0; r < volumes.size(); ++r) {
             const bool is_off = std::abs(volumes[r] - now[r]) > balance_limits::precision * volumes[r];
-            missing[static_cast<Eigen::Index>(r)] = is_off ? volumes[r] - now[r] : 0;
+            missing[r] = is_off ? volumes[r] - now[r] : 0;
             is_right = is_right && !is_off;
         }
         if (is_right) return scales.minCoeff() >= range.least && scales.maxCoeff() <= range.most;
@@ -218,8 +218,8 @@ std::vector<double> region_volumes(const std::vector<Vec3>& vertices, const Face
         const auto& [a, b, c] = mesh.facets[f];
         const double volume = (vertices[a] - apex).dot((vertices[b] - apex).cross(vertices[c] - apex)) / 6;
         const FacetSides sides = mesh.sides_of(f);
-        if (sides.back >= 0) volumes[static_cast<std::size_t>(sides.back)] += volume;
-        if (sides.front >= 0) volumes[static_cast<std::size_t>(sides.front)] -= volume;
+        if (sides.back >= 0) volumes[sides.back] += volume;
+        if (sides.front >= 0) volumes[sides.front] -= volume;
     }
     return volumes;
 }

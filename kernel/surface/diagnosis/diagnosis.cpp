@@ -16,6 +16,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/box.h"
@@ -92,18 +93,18 @@ class Examination {
 
 void Examination::find_non_finite() {
     std::vector<std::int32_t> defect_of_vertex(soup_.vertices.size(), -1);
-    for (std::size_t v = 0; v < soup_.vertices.size(); ++v) {
+    for (std::int32_t v = 0; v < count_of(soup_.vertices); ++v) {
         if (soup_.vertices[v].allFinite()) continue;
         unbounded_[v] = 1;
-        defect_of_vertex[v] = static_cast<std::int32_t>(result_.defects.size());
-        add({DefectKind::non_finite, Severity::error, {}, {static_cast<std::int32_t>(v)}});
+        defect_of_vertex[v] = count_of(result_.defects);
+        add({DefectKind::non_finite, Severity::error, {}, {v}});
     }
     if (result_.clean()) return;
-    for (std::size_t f = 0; f < soup_.facets.size(); ++f)
+    for (std::int32_t f = 0; f < count_of(soup_.facets); ++f)
         for (std::int32_t v : soup_.facets[f]) {
             if (defect_of_vertex[v] < 0) continue;
             Defect& defect = result_.defects[defect_of_vertex[v]];
-            defect.facets.push_back(static_cast<std::int32_t>(f));
+            defect.facets.push_back(f);
             for (std::int32_t other : soup_.facets[f])  // a neighbour is the nearest place that can be shown
                 if (soup_.vertices[other].allFinite()) defect.where = soup_.vertices[other];
         }
@@ -112,12 +113,12 @@ void Examination::find_non_finite() {
 void Examination::find_absurd() {
     Defect defect{DefectKind::absurd_magnitude, Severity::error, {}, {}};
     Eigen::AlignedBox3d box;
-    for (std::size_t v = 0; v < soup_.vertices.size(); ++v) {
+    for (std::int32_t v = 0; v < count_of(soup_.vertices); ++v) {
         if (unbounded_[v]) continue;
         box.extend(soup_.vertices[v]);
         if (soup_.vertices[v].cwiseAbs().maxCoeff() <= largest_magnitude) continue;
         unbounded_[v] = 1;
-        defect.vertices.push_back(static_cast<std::int32_t>(v));
+        defect.vertices.push_back(v);
     }
     const bool tiny = !box.isEmpty() && box.sizes().maxCoeff() < least_extent && box.sizes().maxCoeff() > 0;
     if (tiny) defect.vertices = {0};
@@ -130,7 +131,7 @@ void Examination::find_unfit() {
     for (const std::int32_t polygon : soup_.unfit_polygons) {
         const auto [begin, end] = std::equal_range(soup_.polygon.begin(), soup_.polygon.end(), polygon);
         std::vector<std::int32_t> facets;
-        for (auto it = begin; it != end; ++it) facets.push_back(static_cast<std::int32_t>(it - soup_.polygon.begin()));
+        for (auto it = begin; it != end; ++it) facets.push_back(it - soup_.polygon.begin());
         if (!facets.empty()) add_at_facet(DefectKind::unfit_polygon, Severity::error, std::move(facets));
     }
 }
@@ -178,7 +179,7 @@ void Examination::find_degenerate() {
                 no_area_[f] = 1;
             } else if (!ignored_[f] && are_collinear(soup_.vertices[a], soup_.vertices[b], soup_.vertices[c])) {
                 no_area_[f] = 1;
-                flat.push_back(static_cast<std::int32_t>(f));
+                flat.push_back(f);
             }
         }
         return flat;
@@ -191,10 +192,10 @@ void Examination::select_facets() {
     all_are_left_ = std::find(ignored_.begin(), ignored_.end(), char{1}) == ignored_.end();
     if (!all_are_left_ || !soup_.sides.empty()) partner_ = {};
     if (all_are_left_) return;
-    for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(soup_.facets); ++f) {
         if (ignored_[f]) continue;
         facets_.push_back(soup_.facets[f]);
-        number_.push_back(static_cast<std::int32_t>(f));
+        number_.push_back(f);
     }
     if (soup_.sides.empty()) partner_ = edge_partners(facets_);
 }
@@ -283,7 +284,7 @@ void Examination::find_intersections() {
     std::vector<Triangle> solid;
     std::vector<std::int32_t> number_of_solid;
     const bool all_are_solid = std::find(no_area_.begin(), no_area_.end(), char{1}) == no_area_.end();
-    for (std::int32_t i = 0; !all_are_solid && i < static_cast<std::int32_t>(facets().size()); ++i) {
+    for (std::int32_t i = 0; !all_are_solid && i < count_of(facets()); ++i) {
         if (no_area_[number(i)]) continue;
         solid.push_back(facets()[i]);
         number_of_solid.push_back(number(i));
@@ -301,7 +302,7 @@ void Examination::find_intersections() {
 
 template <class ToDefect>
 void Examination::add_worst(DefectKind kind, std::vector<PoorShape>&& found, const ToDefect& to_defect) {
-    result_.counts[static_cast<std::size_t>(kind)] = static_cast<std::int64_t>(found.size());
+    result_.counts[static_cast<std::size_t>(kind)] = std::ssize(found);
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.measure < b.measure; });
     if (found.size() > warning_limit) found.resize(warning_limit);
     for (const PoorShape& shape : found) {
@@ -316,7 +317,7 @@ void Examination::find_poor_shapes() {
     const PoorShapeSearch search(soup_.vertices, facets(), options_.needle_angle_deg);
     const auto ranges = values_of_ranges(facets().size(), facets_at_once, [&](const IndexRange& range) {
         PoorShapes found;
-        for (auto i = static_cast<std::int32_t>(range.first); i < static_cast<std::int32_t>(range.last); ++i)
+        for (std::int32_t i = range.first, last = range.last; i < last; ++i)
             if (!no_area_[number(i)]) search.look_at(i, found);
         return found;
     });

@@ -55,7 +55,7 @@ bool covers(const std::array<Vec3, 3>& facet, std::span<const std::array<Vec3, 3
         if (part < -area_tolerance) return false;
         sum += part;
     }
-    return std::abs(sum - area.norm()) <= area_tolerance * static_cast<double>(pieces.size() + 1);
+    return std::abs(sum - area.norm()) <= area_tolerance * (pieces.size() + 1);
 }
 
 }  // namespace kerf

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 #include "base/geometry/union_find.h"
 #include "surface/diagnosis/inside/wall_mismatch.h"
 
@@ -28,8 +29,7 @@ struct OwnSoup {
 
 std::vector<std::vector<std::int32_t>> facets_of_bodies(const GivenBodies& bodies) {
     std::vector<std::vector<std::int32_t>> facets(bodies.names.size());
-    for (std::size_t f = 0; f < bodies.of_facet.size(); ++f)
-        facets[bodies.of_facet[f]].push_back(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(bodies.of_facet); ++f) facets[bodies.of_facet[f]].push_back(f);
     return facets;
 }
 
@@ -39,8 +39,7 @@ void copy_own_patches(const Soup& all, Soup& own) {
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const std::int32_t patch : used) own.patch_names.push_back(all.patch_names[patch]);
-    for (std::int32_t& patch : own.patch)
-        patch = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), patch) - used.begin());
+    for (std::int32_t& patch : own.patch) patch = std::lower_bound(used.begin(), used.end(), patch) - used.begin();
 }
 
 void copy_own_unfit_polygons(const Soup& all, Soup& own) {
@@ -69,8 +68,7 @@ OwnSoup soup_of_body(const Soup& all, std::vector<std::int32_t> facets) {
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const std::int32_t v : used) own.soup.vertices.push_back(all.vertices[v]);
     for (Triangle& t : own.soup.facets)
-        for (std::int32_t& v : t)
-            v = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+        for (std::int32_t& v : t) v = std::lower_bound(used.begin(), used.end(), v) - used.begin();
     return own;
 }
 
@@ -159,11 +157,11 @@ Diagnosis diagnose_bodies(const Soup& soup, const GivenBodies& bodies, const Dia
     if (all.clean()) {
         std::vector<Triangle> facets;
         std::vector<std::int32_t> body, number;
-        for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(soup.facets); ++f) {
             if (!all.dropped.empty() && all.dropped[f] != 0) continue;
             facets.push_back(soup.facets[f]);
             body.push_back(bodies.of_facet[f]);
-            number.push_back(static_cast<std::int32_t>(f));
+            number.push_back(f);
         }
         for (const WallMismatch& mismatch : find_overlaps(soup.vertices, facets, body))
             add_mismatch(all, mismatch, Severity::error, bodies.names, number);
@@ -176,14 +174,14 @@ void add_gaps(Diagnosis& diagnosis, const Soup& soup, const GivenBodies& bodies,
               const std::vector<std::int32_t>& facet_number) {
     std::vector<Triangle> facets;
     std::vector<std::int32_t> body, number;
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(soup.facets); ++f) {
         const Triangle& t = soup.facets[f];
         const FacetSides sides = soup.sides.empty() ? FacetSides{-1, bodies.of_facet[f]} : soup.sides[f];
         if (sides.is_wall() || (!diagnosis.dropped.empty() && facet_number.empty() && diagnosis.dropped[f] != 0))
             continue;
         facets.push_back(sides.front < 0 ? t : Triangle{t[0], t[2], t[1]});
         body.push_back(std::max(sides.front, sides.back));
-        number.push_back(facet_number.empty() ? static_cast<std::int32_t>(f) : facet_number[f]);
+        number.push_back(facet_number.empty() ? f : facet_number[f]);
     }
     const std::vector<std::string>& names = soup.sides.empty() ? bodies.names : soup.region_names;
     for (const WallMismatch& gap : find_gaps(soup.vertices, facets, body, suspicious_gap))

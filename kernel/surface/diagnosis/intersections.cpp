@@ -26,6 +26,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/closest_point.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/vector_pair.h"
@@ -343,15 +344,15 @@ IntersectingPairs find_intersections_of(const std::vector<char>& chosen, const s
                                         const std::function<bool(std::int32_t, std::int32_t)>& counts) {
     KERF_CHECK(chosen.size() == facets.size());
     std::vector<std::int32_t> few;
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        if (chosen[f]) few.push_back(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(facets); ++f)
+        if (chosen[f]) few.push_back(f);
     const FacetTree tree(vertices, facets, few);
     const auto is_counted = [&](std::int32_t f, std::int32_t g) {
         return !counts || (facets_intersect(vertices, facets[f], facets[g]) && counts(f, g));
     };
     // All facets ask the tree; chosen ones come in both orders.
     return first_intersections(vertices, facets, facets.size(), limit, [&](const IndexRange& range, const auto& visit) {
-        for (auto f = static_cast<std::int32_t>(range.first); f < static_cast<std::int32_t>(range.last); ++f)
+        for (std::int32_t f = range.first, last = range.last; f < last; ++f)
             if (tree.any_near(f, [&](std::int32_t g) {
                     return g != f && (g < f || !chosen[f]) && is_counted(f, g) && visit(f, g);
                 }))

@@ -14,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 
@@ -29,7 +30,7 @@ constexpr double shortest_piece = 1e-3;  // length of a polygon over the limit, 
 
 template <class Corners>
 Vec3 extent(const Corners& corners, int count) {
-    return box_around(std::span(corners.data(), static_cast<std::size_t>(count))).sizes();
+    return box_around(std::span(corners.data(), count)).sizes();
 }
 
 // Returns the vector from one corner of a polygon to another between which the distance is largest, or nearly so.
@@ -47,8 +48,8 @@ Vec3 longest_way(const Corners& corners, int count) {
 Nearness::Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets)
     : surface_(surface), partner_(edge_partners(facets)) {
     frames_.reserve(facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        const std::array<Vec3, 3>& t = surface.corners(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
+        const std::array<Vec3, 3>& t = surface.corners(f);
         const Vec3 normal = doubled_area_vector(t);
         Frame frame = {t, {}, normal.normalized(), false};
         double longest = 0;

@@ -9,6 +9,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {
@@ -65,25 +66,24 @@ class LoopTracer {
         std::vector<std::size_t> path;
         for (std::size_t e = first; e < edges_.size() && !used_[e]; e = next_edge(edges_[e].to)) {
             used_[e] = 1;
-            position_[edges_[e].from] = static_cast<std::int32_t>(path.size());
+            position_[edges_[e].from] = count_of(path);
             path.push_back(e);
             const std::int32_t begin = position_[edges_[e].to];
-            if (begin >= 0) cut_off(path, static_cast<std::size_t>(begin), true);
+            if (begin >= 0) cut_off(path, begin, true);
         }
         if (!path.empty()) cut_off(path, 0, false);
     }
     void cut_off(std::vector<std::size_t>& path, std::size_t begin, bool closed) {
-        const std::vector<std::size_t> loop(path.begin() + static_cast<std::ptrdiff_t>(begin), path.end());
+        const std::vector<std::size_t> loop(path.begin() + begin, path.end());
         for (const std::size_t e : loop) position_[edges_[e].from] = -1;
         path.resize(begin);
         add_loop(loop, closed);
     }
     // The first unused edge that leaves the vertex, or the number of edges.
     std::size_t next_edge(std::int32_t vertex) {
-        const auto first = static_cast<std::size_t>(
-            std::lower_bound(edges_.begin(), edges_.end(), vertex,
-                             [](const OpenEdge& edge, std::int32_t v) { return edge.from < v; }) -
-            edges_.begin());
+        const std::size_t first = std::lower_bound(edges_.begin(), edges_.end(), vertex,
+                                                   [](const OpenEdge& edge, std::int32_t v) { return edge.from < v; }) -
+                                  edges_.begin();
         if (first == edges_.size()) return first;
         std::size_t& e = cursor_[first];
         e = std::max(e, first);

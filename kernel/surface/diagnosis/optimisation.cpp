@@ -21,6 +21,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/closest_point.h"
 #include "base/geometry/triangle.h"
 #include "surface/soup/edge_corners.h"
@@ -43,7 +44,7 @@ class Rows {
         for (std::int32_t row : row_of) ++first_[row + 1];
         for (std::size_t row = 0; row < row_count; ++row) first_[row + 1] += first_[row];
         std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-        for (std::size_t i = 0; i < row_of.size(); ++i) items_[next[row_of[i]]++] = static_cast<std::int32_t>(i);
+        for (std::int32_t i = 0; i < count_of(row_of); ++i) items_[next[row_of[i]]++] = i;
     }
     std::span<const std::int32_t> operator[](std::int32_t row) const {
         return {items_.data() + first_[row], items_.data() + first_[row + 1]};
@@ -168,28 +169,27 @@ NodeOptimiser::NodeOptimiser(const std::vector<Vec3>& vertices, const std::vecto
       first_sample_(facets.size(), -1) {
     is_fixed_.resize(vertices.size(), 0);
     mark_features(facets, normals_, patch, cosine_of_deg(options.feature_angle_deg), is_fixed_);
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        const auto corners = star(static_cast<std::int32_t>(v));
+    for (std::int32_t v = 0; v < count_of(vertices); ++v) {
+        const auto corners = star(v);
         if (!corners.empty()) add_sample(vertices[v], corners.front() / 3);
         is_awake_.push_back(!corners.empty() && !is_fixed_[v]);
     }
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         const Triangle& t = facets[f];
-        add_sample((vertices[t[0]] + vertices[t[1]] + vertices[t[2]]) / 3, static_cast<std::int32_t>(f));
+        add_sample((vertices[t[0]] + vertices[t[1]] + vertices[t[2]]) / 3, f);
     }
 }
 
 void NodeOptimiser::add_sample(const Vec3& point, std::int32_t facet) {
     next_sample_.push_back(first_sample_[facet]);
-    first_sample_[facet] = static_cast<std::int32_t>(samples_.size());
+    first_sample_[facet] = count_of(samples_);
     samples_.push_back(point);
 }
 
 bool NodeOptimiser::sweep() {
     bool any_moved = false;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        if (!is_awake_[i]) continue;
-        const auto v = static_cast<std::int32_t>(i);
+    for (std::int32_t v = 0; v < count_of(points_); ++v) {
+        if (!is_awake_[v]) continue;
         is_awake_[v] = move(v);
         if (!is_awake_[v]) continue;
         any_moved = true;

@@ -15,6 +15,7 @@
 #include "base/core/check.h"
 #include "base/core/elements.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/geometry/union_find.h"
 #include "surface/complex/mass_properties.h"
@@ -36,9 +37,9 @@ class Propagation {
     }
 
     FacetShells run() {
-        for (std::size_t f = 0; f < facets_.size(); ++f)
+        for (std::int32_t f = 0; f < count_of(facets_); ++f)
             if (result_.shell[f] < 0) {
-                search(static_cast<std::int32_t>(f));
+                search(f);
                 turn_minority();
                 ++result_.shell_count;
             }
@@ -59,7 +60,7 @@ class Propagation {
     void cross(std::int32_t corner) {
         const std::int32_t facet = corner / 3, other = partner_[corner] / 3;
         const bool disagree = start_vertex(facets_, corner) == start_vertex(facets_, partner_[corner]);
-        const char turned = turned_[facet] ^ static_cast<char>(disagree);
+        const char turned = turned_[facet] ^ disagree;
         if (result_.shell[other] < 0) {
             result_.shell[other] = result_.shell_count;
             turned_[other] = turned;
@@ -70,8 +71,7 @@ class Propagation {
     }
     void turn_minority() {
         const auto count = std::count_if(members_.begin(), members_.end(), [&](std::int32_t f) { return turned_[f]; });
-        const auto size = static_cast<std::ptrdiff_t>(members_.size());
-        const char minority = 2 * count <= size;
+        const char minority = 2 * count <= std::ssize(members_);
         for (std::int32_t f : members_)
             if (turned_[f] == minority) result_.turned.push_back(f);
     }
@@ -97,7 +97,7 @@ std::optional<FacetShells> shells_that_agree(const std::vector<Triangle>& facets
     UnionFind sets(facets.size());
     const auto ranges = values_of_ranges(facets.size(), grain, [&](const IndexRange& range) {
         RangeOfShells found;
-        const auto first = static_cast<std::int32_t>(3 * range.first), last = static_cast<std::int32_t>(3 * range.last);
+        const std::int32_t first = 3 * range.first, last = 3 * range.last;
         for (std::int32_t c = first; c < last; ++c) {
             const std::int32_t other = partner[c];
             if (other < 0 || other > c) continue;
@@ -143,7 +143,7 @@ void find_parents(const std::vector<Vec3>& vertices, const std::vector<Shell>& s
                   const std::vector<std::int32_t>& order, std::vector<ShellPlace>& places) {
     constexpr std::size_t grain = 64;
     std::vector<std::int32_t> rank(shells.size());
-    for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<std::int32_t>(k);
+    for (std::int32_t k = 0; k < count_of(order); ++k) rank[order[k]] = k;
     const BoxTree boxes = boxes_of(shells);
     for_ranges_on_threads(shells.size(), grain, [&](const IndexRange& range) {
         for (std::size_t i = range.first; i < range.last; ++i) {
@@ -198,7 +198,7 @@ std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const s
                                       const FacetShells& of_facets, const std::vector<Vec3>& holes) {
     const std::vector<Shell> shells = collect_shells(vertices, facets, of_facets.shell, of_facets.shell_count);
     std::vector<ShellPlace> places(shells.size());
-    for (std::size_t f = facets.size(); f-- > 0;) places[of_facets.shell[f]].first_facet = static_cast<std::int32_t>(f);
+    for (std::int32_t f = count_of(facets); f-- > 0;) places[of_facets.shell[f]].first_facet = f;
     const std::vector<std::int32_t> order = by_falling_boxes(shells);
     find_parents(vertices, shells, order, places);
     for (const std::int32_t i : order)
@@ -208,9 +208,9 @@ std::vector<ShellPlace> locate_shells(const std::vector<Vec3>& vertices, const s
 }
 
 Orientation find_orientation(const FacetShells& shells, const std::vector<ShellPlace>& places) {
-    KERF_CHECK(shells.contradictions.empty() && places.size() == static_cast<std::size_t>(shells.shell_count));
+    KERF_CHECK(shells.contradictions.empty() && count_of(places) == shells.shell_count);
     Orientation orientation;
-    orientation.report.facets_flipped = static_cast<std::int64_t>(shells.turned.size());
+    orientation.report.facets_flipped = std::ssize(shells.turned);
     orientation.report.shells = shells.shell_count;
     std::vector<char> flip;
     for (const ShellPlace& place : places) {
@@ -223,11 +223,10 @@ Orientation find_orientation(const FacetShells& shells, const std::vector<ShellP
         return orientation;
     }
     auto next = shells.turned.begin();
-    for (std::size_t f = 0; f < shells.shell.size(); ++f) {
-        const bool is_turned = next != shells.turned.end() && *next == static_cast<std::int32_t>(f);
+    for (std::int32_t f = 0; f < count_of(shells.shell); ++f) {
+        const bool is_turned = next != shells.turned.end() && *next == f;
         next += is_turned;
-        if (is_turned != static_cast<bool>(flip[shells.shell[f]]))
-            orientation.turned.push_back(static_cast<std::int32_t>(f));
+        if (is_turned != (flip[shells.shell[f]] != 0)) orientation.turned.push_back(f);
     }
     return orientation;
 }

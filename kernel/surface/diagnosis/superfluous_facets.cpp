@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/geometry/union_find.h"
 #include "surface/soup/edge_corners.h"
@@ -36,7 +37,7 @@ std::vector<std::int32_t> possible_copies(const std::vector<Triangle>& facets,
     constexpr std::size_t grain = std::size_t{1} << 16;
     const auto ranges = values_of_ranges(facets.size(), grain, [&](const IndexRange& range) {
         std::vector<std::int32_t> found;
-        for (auto f = static_cast<std::int32_t>(range.first); f < static_cast<std::int32_t>(range.last); ++f) {
+        for (std::int32_t f = range.first, last = range.last; f < last; ++f) {
             bool is_possible = !has_repeated_vertex(facets[f]);
             for (std::int32_t c = 3 * f; is_possible && c < 3 * f + 3; ++c)
                 is_possible = partner[c] < 0 || third_vertex(facets, c) == third_vertex(facets, partner[c]);
@@ -75,14 +76,14 @@ struct OneOfEach {
 OneOfEach one_of_each(const std::vector<Triangle>& facets, const FacetGroups& groups) {
     constexpr std::int32_t further = -2;
     std::vector<std::int32_t> group(facets.size(), -1);
-    for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (std::int32_t g = 0; g < count_of(groups); ++g) {
         for (const std::int32_t f : groups[g]) group[f] = further;
-        group[groups[g].front()] = static_cast<std::int32_t>(g);
+        group[groups[g].front()] = g;
     }
     OneOfEach single{{}, {}, std::vector<std::int32_t>(groups.size())};
     for (std::size_t f = 0; f < facets.size(); ++f) {
         if (group[f] == further || has_repeated_vertex(facets[f])) continue;
-        if (group[f] >= 0) single.place[group[f]] = static_cast<std::int32_t>(single.facets.size());
+        if (group[f] >= 0) single.place[group[f]] = count_of(single.facets);
         single.facets.push_back(facets[f]);
         single.group.push_back(group[f]);
     }
@@ -121,8 +122,8 @@ SuperfluousFacets find_superfluous_facets(const std::vector<Triangle>& facets) {
 SuperfluousFacets find_superfluous_facets(const std::vector<Triangle>& facets,
                                           const std::vector<std::int32_t>& partner) {
     SuperfluousFacets found;
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        if (has_repeated_vertex(facets[f])) found.repeated_vertex.push_back(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(facets); ++f)
+        if (has_repeated_vertex(facets[f])) found.repeated_vertex.push_back(f);
     const FacetGroups groups = group_equal(facets, possible_copies(facets, partner));
     if (groups.empty()) return found;
 
@@ -141,7 +142,7 @@ SuperfluousFacets find_superfluous_facets(const std::vector<Triangle>& facets,
         copies.keep = number_to_keep(at_edges[place]);
         // A single facet with a copy is a flat pocket, not a body.
         if (!only_copies[own_shell] || copies.keep == 0) continue;
-        const auto [it, is_new] = number.try_emplace(own_shell, static_cast<std::int32_t>(number.size()));
+        const auto [it, is_new] = number.try_emplace(own_shell, count_of(number));
         if (is_new) found.coincident_shells.emplace_back();
         copies.shell = it->second;
         std::vector<std::int32_t>& all = found.coincident_shells[it->second];

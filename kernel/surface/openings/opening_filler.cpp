@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/triangle.h"
 #include "surface/diagnosis/intersections.h"
@@ -88,7 +89,7 @@ class OpeningFiller {
                 else
                     try_next(i);
             }
-            is_any |= static_cast<bool>(is_open_[i]);
+            is_any |= is_open_[i] != 0;
         }
         return is_any;
     }
@@ -138,11 +139,11 @@ class OpeningFiller {
     }
     void add_facets(std::size_t i) {
         const PatchMesh& patch = *filled_[i].patch;
-        const std::vector<std::int32_t> number = numbers(i, static_cast<std::int32_t>(vertices_.size()));
+        const std::vector<std::int32_t> number = numbers(i, count_of(vertices_));
         vertices_.insert(vertices_.end(), patch.points().begin() + patch.rim_count(), patch.points().end());
         for (const Triangle& t : patch.triangles()) {
             facets_.push_back({number[t[0]], number[t[1]], number[t[2]]});
-            owner_.push_back(static_cast<std::int32_t>(i));
+            owner_.push_back(i);
         }
     }
     // Returns numbers for the points of a patch: those of the surface, then numbers from `next` on.
@@ -150,7 +151,7 @@ class OpeningFiller {
         std::vector<std::int32_t> number;
         for (const Rim* rim : filled_[i].opening.rims)
             for (const std::int32_t v : rim->vertices) number.push_back(first_[v]);
-        while (static_cast<std::int32_t>(number.size()) < filled_[i].patch->count()) number.push_back(next++);
+        while (count_of(number) < filled_[i].patch->count()) number.push_back(next++);
         return number;
     }
     // Marks two patches with the same edge between vertices of their rims, which would have four facets.
@@ -234,7 +235,7 @@ void PatchAppender::append(const FilledOpening& filled, std::int32_t patch) {
     for (const Rim* rim : filled.opening.rims) number.insert(number.end(), rim->vertices.begin(), rim->vertices.end());
     const PatchMesh& mesh = *filled.patch;
     for (std::int32_t v = mesh.rim_count(); v < mesh.count(); ++v) {
-        number.push_back(static_cast<std::int32_t>(soup_.vertices.size()));
+        number.push_back(count_of(soup_.vertices));
         soup_.vertices.push_back(mesh.points()[v]);
         if (!soup_.vertex_number.empty()) soup_.vertex_number.push_back(next_vertex_++);
     }
@@ -253,7 +254,7 @@ std::int32_t add_patch(Soup& soup, const std::string& name) {
     for (int n = 2; is_known(free); ++n) free = fmt::format("{}_{}", name, n);
     soup.patch_names.push_back(free);
     if (!soup.patch_colours.empty()) soup.patch_colours.push_back({0, 0, 0, 0});
-    return static_cast<std::int32_t>(soup.patch_names.size()) - 1;
+    return count_of(soup.patch_names) - 1;
 }
 
 }  // namespace kerf

@@ -55,7 +55,7 @@ double mean_gap(const std::vector<Vec3>& rim, const std::vector<Vec3>& other) {
         for (const Vec3& q : other) nearest = std::min(nearest, (p - q).squaredNorm());
         sum += std::sqrt(nearest);
     }
-    return sum / static_cast<double>(count);
+    return sum / count;
 }
 
 std::vector<RimPair> find_pairs(const OpenRims& all, const std::vector<RimOpening>& openings,

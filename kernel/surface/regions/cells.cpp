@@ -11,6 +11,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
 #include "surface/soup/edge_corners.h"
@@ -125,7 +126,7 @@ class CellFinder {
         const BoxTree boxes = boxes_of(inner);
         const std::vector<std::int32_t> order = by_falling_boxes(inner);
         std::vector<std::int32_t> rank(order.size()), innermost;
-        for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<std::int32_t>(k);
+        for (std::int32_t k = 0; k < count_of(order); ++k) rank[order[k]] = k;
         for (std::int32_t c = 0; c < components_.count; ++c) {
             std::vector<std::int32_t> candidates = boxes.around(box_of_[c]);
             std::erase_if(candidates, [&](std::int32_t i) { return component_of_[set_of[i]] == c; });
@@ -144,9 +145,9 @@ class CellFinder {
         box_of_.resize(components_.count);
         std::vector<std::int32_t> component_at(vertices_.size(), -1);
         is_shared_.assign(vertices_.size(), 0);
-        for (std::size_t f = 0; f < facets_.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(facets_); ++f) {
             const std::int32_t c = components_.of[f];
-            members_[c].push_back(static_cast<std::int32_t>(f));
+            members_[c].push_back(f);
             box_of_[c].extend(box_around(vertices_, facets_[f]));
             for (const std::int32_t v : facets_[f]) {
                 is_shared_[v] |= component_at[v] >= 0 && component_at[v] != c;
@@ -184,7 +185,7 @@ class CellFinder {
             if (number == -2) number = cells.count++;
             return number;
         };
-        for (std::int32_t f = 0; f < static_cast<std::int32_t>(facets_.size()); ++f) {
+        for (std::int32_t f = 0; f < count_of(facets_); ++f) {
             const std::int32_t front = cell_of_side(front_side(f));
             cells.sides.push_back({front, cell_of_side(back_side(f))});
         }

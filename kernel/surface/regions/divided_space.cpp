@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "surface/soup/region_patches.h"
 
 namespace kerf {
@@ -30,7 +31,7 @@ void drop_empty_regions(DividedSpace& space) {
     std::vector<std::string> names;
     for (std::size_t r = 0; r < number.size(); ++r) {
         if (number[r] < 0) continue;
-        number[r] = static_cast<std::int32_t>(names.size());
+        number[r] = count_of(names);
         names.push_back(space.names[r]);
     }
     space.names = std::move(names);
@@ -49,9 +50,9 @@ SingleFacets single_facets(const std::vector<Triangle>& facets) {
     single.single_of.assign(facets.size(), -1);
     single.is_turned.assign(facets.size(), 0);
     std::vector<std::pair<Triangle, std::int32_t>> sorted;
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         if (has_repeated_vertex(facets[f])) continue;
-        sorted.emplace_back(facets[f], static_cast<std::int32_t>(f));
+        sorted.emplace_back(facets[f], f);
         std::sort(sorted.back().first.begin(), sorted.back().first.end());
     }
     std::sort(sorted.begin(), sorted.end());
@@ -62,12 +63,12 @@ SingleFacets single_facets(const std::vector<Triangle>& facets) {
         first_of[f] = is_first ? f : first_of[sorted[i - 1].second];
         single.is_turned[f] = !have_one_direction(facets[f], facets[first_of[f]]);
     }
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         if (first_of[f] < 0) continue;
-        if (first_of[f] == static_cast<std::int32_t>(f)) {
-            single.single_of[f] = static_cast<std::int32_t>(single.facets.size());
+        if (first_of[f] == f) {
+            single.single_of[f] = count_of(single.facets);
             single.facets.push_back(facets[f]);
-            single.first.push_back(static_cast<std::int32_t>(f));
+            single.first.push_back(f);
         }
         single.single_of[f] = single.single_of[first_of[f]];
     }
@@ -106,9 +107,9 @@ void give_sides(Soup& soup, DividedSpace space) {
         soup.sides[f] = sides;
         drop[f] = 0;
     }
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(soup.facets); ++f) {
         const std::int32_t u = space.single.single_of[f];
-        copies += u >= 0 && space.single.first[u] != static_cast<std::int32_t>(f);
+        copies += u >= 0 && space.single.first[u] != f;
     }
     drop_facets(soup, drop);
     soup.region_names = std::move(space.names);

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "surface/complex/mass_properties.h"
 #include "surface/regions/cells.h"
@@ -52,9 +53,8 @@ std::optional<std::vector<Windings>> find_windings(const DividedSpace& space, co
     CellWalk(space.cells).run([&](std::int32_t from, std::int32_t facet, std::int32_t to) {
         of[to + 1] = across(of[from + 1], facet, space.cells.sides[facet].front == from ? 1 : -1);
     });
-    for (std::size_t u = 0; u < single.facets.size(); ++u)
-        if (const auto [front, back] = space.cells.sides[u];
-            across(of[front + 1], static_cast<std::int32_t>(u), 1) != of[back + 1])
+    for (std::int32_t u = 0; u < count_of(single.facets); ++u)
+        if (const auto [front, back] = space.cells.sides[u]; across(of[front + 1], u, 1) != of[back + 1])
             return std::nullopt;
     of.erase(of.begin());
     return of;
@@ -140,7 +140,7 @@ bool name_by_patches(const Soup& soup, DividedSpace& space) {
 void name_in_order(DividedSpace& space, const std::vector<char>& is_region, const char* prefix) {
     space.names.clear();
     for (std::int32_t c = 0; c < space.cells.count; ++c) {
-        space.region_of_cell[c] = is_region[c] ? static_cast<std::int32_t>(space.names.size()) : -1;
+        space.region_of_cell[c] = is_region[c] ? count_of(space.names) : -1;
         if (is_region[c]) space.names.push_back(fmt::format("{}_{}", prefix, space.names.size() + 1));
     }
 }
@@ -194,20 +194,20 @@ bool name_between_walls(Soup& soup, DividedSpace& space) {
 void place_seeds(const Soup& soup, const CellLocator& locator, DividedSpace& space) {
     std::vector<std::int32_t> seed_of(space.cells.count, -1);
     std::map<std::string, std::int32_t> number;
-    for (std::size_t s = 0; s < soup.seeds.size(); ++s) {
+    for (std::int32_t s = 0; s < count_of(soup.seeds); ++s) {
         const RegionSeed& seed = soup.seeds[s];
         const std::optional<std::int32_t> cell = locator.find(seed.point);
         if (!cell) refuse_point(seed, "lies on a facet. Move it into the region.");
         if (*cell < 0)
             refuse_point(seed, "lies outside: no facets close around it. Move it into the region, or close its walls.");
-        const auto [found, is_new] = number.try_emplace(seed.name, static_cast<std::int32_t>(space.names.size()));
+        const auto [found, is_new] = number.try_emplace(seed.name, count_of(space.names));
         if (is_new) space.names.push_back(seed.name);
         if (seed_of[*cell] >= 0 && soup.seeds[seed_of[*cell]].name != seed.name)
             refuse_point(seed,
                          fmt::format("lies in one cell with the point {} of the region '{}': no facets are between "
                                      "them. Leave one of the points out, give both one name, or close the wall.",
                                      place_text(soup.seeds[seed_of[*cell]].point), soup.seeds[seed_of[*cell]].name));
-        seed_of[*cell] = static_cast<std::int32_t>(s);
+        seed_of[*cell] = s;
         space.region_of_cell[*cell] = found->second;
     }
 }
@@ -233,7 +233,7 @@ void name_other_cells(Soup& soup, const CellLocator& locator, DividedSpace& spac
         do ++number;
         while (taken.contains(fmt::format("cell_{}", number)));
         added.push_back(fmt::format("cell_{}", number));
-        space.region_of_cell[c] = static_cast<std::int32_t>(space.names.size());
+        space.region_of_cell[c] = count_of(space.names);
         space.names.push_back(added.back());
     }
     if (added.empty()) return;
@@ -251,7 +251,7 @@ std::vector<std::array<std::int32_t, 2>> number_walls(const std::vector<NamedWal
         for (std::size_t side = 0; side < 2; ++side) {
             if (wall.regions[side].empty()) continue;
             const auto found = std::find(names.begin(), names.end(), wall.regions[side]);
-            own[side] = static_cast<std::int32_t>(found - names.begin());
+            own[side] = found - names.begin();
             if (found == names.end()) names.push_back(wall.regions[side]);
         }
     }
@@ -280,7 +280,7 @@ void place_walls(const Soup& soup, const std::vector<NamedWall>& walls, DividedS
                     fmt::format("{} lies on one of its sides. Correct the regions of the patch, or of those around it.",
                                 quoted_region(region < 0 ? std::string() : space.names[region])));
     };
-    const auto count = static_cast<std::int32_t>(space.single.facets.size());
+    const auto count = count_of(space.single.facets);
     for (std::int32_t f = 0; f < count; ++f)
         if (space.cells.sides[f].front == space.cells.sides[f].back)
             refuse_wall(walls[patch_of(f)], place_of(f),
@@ -299,9 +299,8 @@ void place_walls(const Soup& soup, const std::vector<NamedWall>& walls, DividedS
             if (side != one && side != other) refuse_side(f, side);
         if (front == back) refuse_side(f, front);
     }
-    for (std::size_t r = 0; r < space.names.size(); ++r)
-        if (std::find(space.region_of_cell.begin(), space.region_of_cell.end(), static_cast<std::int32_t>(r)) ==
-            space.region_of_cell.end())
+    for (std::int32_t r = 0; r < count_of(space.names); ++r)
+        if (std::find(space.region_of_cell.begin(), space.region_of_cell.end(), r) == space.region_of_cell.end())
             throw Error(ErrorCode::input, fmt::format("The region '{}' is nowhere: no facets of its patches close "
                                                       "around it. Correct the regions of patches.",
                                                       space.names[r]));
@@ -408,7 +407,7 @@ bool fill_voids(Soup& soup) {
     std::int32_t voids = 0;
     for (std::int32_t& own : region) {
         if (own >= 0) continue;
-        own = static_cast<std::int32_t>(space->names.size());
+        own = count_of(space->names);
         space->names.push_back(fmt::format("void_{}", ++voids));
     }
     if (voids == 0) return false;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
@@ -23,8 +24,8 @@ std::int32_t make_feature_patches(Soup& soup, double angle_deg) {
     for (const Triangle& t : soup.facets) normal.push_back(area_vector(soup.vertices, t).normalized());
     const double limit = angle_deg * std::numbers::pi / 180;
     UnionFind facets(soup.facets.size());
-    for (std::size_t corner = 0; corner < partner.size(); ++corner) {
-        const auto f = static_cast<std::int32_t>(corner / 3), other = partner[corner] / 3;
+    for (std::int32_t corner = 0; corner < count_of(partner); ++corner) {
+        const std::int32_t f = corner / 3, other = partner[corner] / 3;
         if (partner[corner] >= 0 && !(angle_between(normal[f], normal[other]) > limit)) facets.join(f, other);
     }
     Components regions = facets.take();
@@ -32,7 +33,7 @@ std::int32_t make_feature_patches(Soup& soup, double angle_deg) {
     soup.patch_names.clear();
     for (std::int32_t number = 1; number <= regions.count; ++number)
         soup.patch_names.push_back("face_" + std::to_string(number));
-    return static_cast<std::int32_t>(soup.patch_names.size());
+    return count_of(soup.patch_names);
 }
 
 std::int64_t keep_largest_component(Soup& soup) {
@@ -44,7 +45,7 @@ std::int64_t keep_largest_component(Soup& soup) {
         const double own = area_vector(soup.vertices, t).norm();
         if (std::isfinite(own)) area[vertices.root(t[0])] += own;
     }
-    const auto largest = static_cast<std::int32_t>(std::max_element(area.begin(), area.end()) - area.begin());
+    const std::int32_t largest = std::max_element(area.begin(), area.end()) - area.begin();
     std::vector<char> drop;
     for (const Triangle& t : soup.facets) drop.push_back(vertices.root(t[0]) != largest);
     drop_facets(soup, drop);

@@ -16,6 +16,7 @@
 
 #include "base/core/cancellation.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "surface/complex/touching.h"
 #include "surface/diagnosis/intersections.h"
@@ -83,8 +84,7 @@ FinerShares finer_shares(const SheetMesh& mesh) {
 // Joins the copies at seams, and makes the numbers of vertices their keys.
 SurfaceArrays with_seams_joined(SurfaceArrays sheets) {
     SurfaceArrays joined = joined_by_key(std::move(sheets));
-    for (std::size_t v = 0; v < joined.vertices.size(); ++v)
-        joined.vertex_key[v] = make_key(0, static_cast<std::int32_t>(v));
+    for (std::int32_t v = 0; v < count_of(joined.vertices); ++v) joined.vertex_key[v] = make_key(0, v);
     return joined;
 }
 
@@ -109,7 +109,7 @@ void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit
 }
 
 int divisions_for(std::size_t facets) {
-    return static_cast<int>(std::min<std::size_t>(least_divisions + divisions_per_facet * facets, 1 << 30));
+    return std::min<std::size_t>(least_divisions + divisions_per_facet * facets, 1 << 30);
 }
 
 // One of the surfaces, with the bounds within which the facets of the other are known to be near.
@@ -244,7 +244,7 @@ void restore_volumes_within_bound(const SurfaceArrays& surface, const TriangleTr
             return;
         }
         for (std::size_t v = 0; v < is_fixed.size(); ++v)
-            if (refused[static_cast<std::size_t>(result.places[v].facet)] != 0) is_fixed[v] = 1;
+            if (refused[result.places[v].facet] != 0) is_fixed[v] = 1;
     }
 }
 

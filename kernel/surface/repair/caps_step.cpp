@@ -45,7 +45,7 @@ std::vector<RimOpening> openings_to_cap(const OpenRims& rims, const StepRequest&
         const RepairPlace place = place_of_rim(rims.soup(), rim);
         if (rim.obstacle != RimObstacle::none) {
             said.unfit.add(place);
-        } else if (static_cast<double>(rim.facets.size()) < request.amount) {
+        } else if (rim.facets.size() < request.amount) {
             said.few.add(place);
         } else {
             RimOpening opening = make_opening(rims, {&rim});

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "surface/repair/inside/covered_facets.h"
 #include "surface/repair/inside/facet_copies.h"
 #include "surface/repair/inside/flat_facets.h"
@@ -84,7 +85,7 @@ class Cleaning {
         for (const std::int32_t polygon : soup_.unfit_polygons) {
             const auto facet = std::lower_bound(soup_.polygon.begin(), soup_.polygon.end(), polygon);
             if (facet == soup_.polygon.end() || *facet != polygon) continue;
-            const Triangle& t = soup_.facets[static_cast<std::size_t>(facet - soup_.polygon.begin())];
+            const Triangle& t = soup_.facets[facet - soup_.polygon.begin()];
             accepted.add({soup_.vertices[t[0]], {polygon}});
         }
         soup_.unfit_polygons.clear();
@@ -92,12 +93,12 @@ class Cleaning {
     }
     void drop_undefined() {
         std::vector<std::int32_t> infinite, repeated;
-        for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(soup_.facets); ++f) {
             const auto [a, b, c] = soup_.facets[f];
             if (!soup_.vertices[a].allFinite() || !soup_.vertices[b].allFinite() || !soup_.vertices[c].allFinite())
-                infinite.push_back(static_cast<std::int32_t>(f));
+                infinite.push_back(f);
             else if (has_repeated_vertex(soup_.facets[f]))
-                repeated.push_back(static_cast<std::int32_t>(f));
+                repeated.push_back(f);
         }
         std::vector<char> drop(soup_.facets.size(), 0);
         mark(infinite, {"facet without finite coordinates removed", "facets without finite coordinates removed"}, drop);
@@ -116,8 +117,7 @@ class Cleaning {
                 divided.add({soup_.vertices[point.vertex], soup_.file_facets({point.corner / 3})});
         report_.actions.push_back(std::move(divided));
         std::vector<std::int32_t> new_number(drop.size());  // without the flat facets
-        for (std::size_t f = 0, kept = 0; f < drop.size(); kept += drop[f++] == 0)
-            new_number[f] = static_cast<std::int32_t>(kept);
+        for (std::size_t f = 0, kept = 0; f < drop.size(); kept += drop[f++] == 0) new_number[f] = kept;
         drop_facets(soup_, drop);
         for (SidePoint& point : flat.points) point.corner = 3 * new_number[point.corner / 3] + point.corner % 3;
         divide_at(soup_, std::move(flat.points));

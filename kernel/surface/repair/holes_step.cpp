@@ -51,8 +51,7 @@ struct HolesReport {
 RepairPlace place_of(const Soup& soup, const Rim& rim, double measure) {
     constexpr std::size_t a_few = 10;
     const std::size_t count = std::min(rim.facets.size(), a_few);
-    return {rim.centre(soup),
-            soup.file_facets({rim.facets.begin(), rim.facets.begin() + static_cast<std::ptrdiff_t>(count)}), measure};
+    return {rim.centre(soup), soup.file_facets({rim.facets.begin(), rim.facets.begin() + count}), measure};
 }
 
 RepairPlace place_of(const Soup& soup, const RimOpening& opening) {
@@ -63,7 +62,7 @@ std::vector<RimOpening> openings_to_fill(const OpenRims& rims, const StepRequest
     std::vector<RimOpening> openings;
     for (const Rim& rim : rims.all()) {
         request.check_cancelled();
-        const auto edges = static_cast<double>(rim.facets.size());
+        const double edges = rim.facets.size();
         if (rim.obstacle != RimObstacle::none)
             said.of(rim.obstacle).add(place_of(rims.soup(), rim, edges));
         else if (edges > request.amount)

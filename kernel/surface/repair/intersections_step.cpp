@@ -13,6 +13,7 @@
 #include <span>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
@@ -79,14 +80,13 @@ class CrossingResolver {
         const auto size_of = [](const Vec3& p) { return p.cwiseAbs().maxCoeff(); };
         std::vector<double> lengths;
         RepairPlace place;
-        for (std::size_t f = 0; f < soup_.facets.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(soup_.facets); ++f) {
             lengths.push_back(box_around(soup_.vertices, soup_.facets[f]).sizes().maxCoeff());
             for (const std::int32_t v : soup_.facets[f])
-                if (size_of(soup_.vertices[v]) > size_of(place.where))
-                    place = {soup_.vertices[v], {static_cast<std::int32_t>(f)}};
+                if (size_of(soup_.vertices[v]) > size_of(place.where)) place = {soup_.vertices[v], {f}};
         }
         if (place.facets.empty()) return {};
-        const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        const auto middle = lengths.begin() + lengths.size() / 2;
         std::nth_element(lengths.begin(), middle, lengths.end());
         if (*middle >= std::numeric_limits<double>::epsilon() * size_of(place.where)) return {};
         place.facets = soup_.file_facets(place.facets);
@@ -164,16 +164,15 @@ class CrossingResolver {
     // Reports crossings; their places are the new vertices, with the facets that meet there.
     void tell_crossings() {
         RepairAction resolved{"crossing resolved", "crossings resolved"};
-        const auto first_new = static_cast<std::int32_t>(soup_.vertices.size());
+        const auto first_new = count_of(soup_.vertices);
         const std::size_t most = std::min(RepairAction::most_places, pieces_.vertices.size() - soup_.vertices.size());
         std::vector<std::vector<std::int32_t>> at(most);
-        for (std::size_t f = 0; f < pieces_.facets.size(); ++f)
+        for (std::int32_t f = 0; f < count_of(pieces_.facets); ++f)
             for (const std::int32_t v : pieces_.facets[f])
-                if (v >= first_new && static_cast<std::size_t>(v - first_new) < most)
-                    at[v - first_new].push_back(static_cast<std::int32_t>(f));
+                if (v >= first_new && v - first_new < std::ssize(at)) at[v - first_new].push_back(f);
         for (std::size_t i = 0; i < most; ++i)
             if (!at[i].empty()) resolved.places.push_back({pieces_.vertices[first_new + i], in_file(at[i])});
-        resolved.count = pieces_.crossing_pairs - static_cast<std::int64_t>(pieces_.unresolved.size());
+        resolved.count = pieces_.crossing_pairs - std::ssize(pieces_.unresolved);
         report_.actions.push_back(std::move(resolved));
     }
 
@@ -197,10 +196,10 @@ class CrossingResolver {
         });
         const Components components = joined.take();
         std::vector<LeftOut> of(components.count, LeftOut{{}, true});
-        for (std::size_t f = 0; f < fate_.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(fate_); ++f) {
             if (is_kept(fate_[f])) continue;
             LeftOut& own = of[components.of[f]];
-            own.facets.push_back(static_cast<std::int32_t>(f));
+            own.facets.push_back(f);
             if (has_kept_neighbour[f]) own.is_apart = false;
         }
         std::erase_if(of, [](const LeftOut& own) { return own.facets.empty(); });
@@ -250,12 +249,12 @@ class CrossingResolver {
     void tell_turned() {
         RepairAction outwards{"facet turned outwards", "facets turned outwards"};
         std::int32_t last = -1;
-        for (std::size_t f = 0; f < fate_.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(fate_); ++f) {
             const std::int32_t parent = pieces_.parent[f];
             if (!is_kept(fate_[f]) || (fate_[f] == HullFate::turns) == (turned_[parent] != 0) || parent == last)
                 continue;
             last = parent;
-            outwards.add({centroid(f), in_file({static_cast<std::int32_t>(f)})});
+            outwards.add({centroid(f), in_file({f})});
         }
         report_.actions.push_back(std::move(outwards));
     }

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/core/drop_items.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
 #include "surface/regions/cells.h"
@@ -63,9 +64,9 @@ class SheetSearch {
         const std::vector<std::int32_t> partner = edge_partners(facets_);
         UnionFind sets(facets_.size());
         for (std::size_t c = 0; c < partner.size(); ++c)
-            if (partner[c] >= 0) sets.join(static_cast<std::int32_t>(c / 3), partner[c] / 3);
+            if (partner[c] >= 0) sets.join(c / 3, partner[c] / 3);
         sheets_ = sets.take();
-        has_free_rim_.assign(static_cast<std::size_t>(sheets_.count), 0);
+        has_free_rim_.assign(sheets_.count, 0);
         for (std::size_t c = 0; c < rims_.is_open.size(); ++c)
             if (rims_.is_open[c]) has_free_rim_[sheets_.of[c / 3]] = 1;
     }
@@ -96,9 +97,8 @@ class SheetSearch {
                 if (is_candidate(*c)) sets.join(first->corner / 3, c->corner / 3);
             if (first != corners.end()) has_odd[first->corner / 3] |= corners.size() % 2;
         });
-        for (std::size_t i = 0; i < piece.size(); ++i) has_odd[sets.root(static_cast<std::int32_t>(i))] |= has_odd[i];
-        for (std::size_t i = 0; i < piece.size(); ++i)
-            is_wall[i] = sides[i].is_wall() && has_odd[sets.root(static_cast<std::int32_t>(i))];
+        for (std::int32_t i = 0; i < count_of(piece); ++i) has_odd[sets.root(i)] |= has_odd[i];
+        for (std::int32_t i = 0; i < count_of(piece); ++i) is_wall[i] = sides[i].is_wall() && has_odd[sets.root(i)];
         return is_wall;
     }
     std::vector<Triangle> facets_of(const std::vector<std::int32_t>& numbers) const {

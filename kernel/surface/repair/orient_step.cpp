@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "surface/arrange/winding_number.h"
@@ -27,8 +28,8 @@ class Orienting {
  public:
     Orienting(Soup& soup, const StepRequest& request, StepReport& report)
         : soup_(soup), request_(request), report_(report) {
-        for (std::size_t f = 0; f < soup.facets.size(); ++f)
-            if (is_ordinary(soup.vertices, soup.facets[f])) number_.push_back(static_cast<std::int32_t>(f));
+        for (std::int32_t f = 0; f < count_of(soup.facets); ++f)
+            if (is_ordinary(soup.vertices, soup.facets[f])) number_.push_back(f);
         for (const std::int32_t f : number_) facets_.push_back(soup.facets[f]);
     }
 
@@ -74,17 +75,16 @@ class Orienting {
 
 // Facets of a one-sided shell cannot all agree: they stay as they came where that is no worse.
 void Orienting::restore_one_sided() {
-    is_one_sided_.assign(static_cast<std::size_t>(new_.shell_count), 0);
+    is_one_sided_.assign(new_.shell_count, 0);
     for (const std::int32_t f : new_.contradictions) is_one_sided_[new_.shell[f]] = 1;
     if (new_.contradictions.empty()) return;
     std::vector<std::int64_t> gain(is_one_sided_.size(), 0);
     const std::vector<std::int32_t> partner = edge_partners(facets_);
     const auto is_turned = [&](std::int32_t corner) { return facets_[corner / 3] != new_.facets[corner / 3]; };
-    for (std::size_t c = 0; c < partner.size(); ++c) {
-        const auto own = static_cast<std::int32_t>(c);
-        if (partner[c] < own || !is_one_sided_[new_.shell[c / 3]]) continue;
-        if (is_turned(own) == is_turned(partner[c])) continue;
-        gain[new_.shell[c / 3]] += start_vertex(facets_, own) == start_vertex(facets_, partner[c]) ? 1 : -1;
+    for (std::int32_t c = 0; c < count_of(partner); ++c) {
+        if (partner[c] < c || !is_one_sided_[new_.shell[c / 3]]) continue;
+        if (is_turned(c) == is_turned(partner[c])) continue;
+        gain[new_.shell[c / 3]] += start_vertex(facets_, c) == start_vertex(facets_, partner[c]) ? 1 : -1;
     }
     for (std::size_t f = 0; f < facets_.size(); ++f)
         if (is_one_sided_[new_.shell[f]] && gain[new_.shell[f]] <= 0) new_.facets[f] = facets_[f];
@@ -101,7 +101,7 @@ void Orienting::turn_by_cells() {
         turn_piece_by_cells(pieces[p]);
     }
     // Numbered by smallest facet again.
-    std::vector<std::int32_t> of_piece(pieces.size(), -1), of_shell(static_cast<std::size_t>(new_.shell_count), -1);
+    std::vector<std::int32_t> of_piece(pieces.size(), -1), of_shell(new_.shell_count, -1);
     for (std::size_t f = 0; f < new_.shell.size(); ++f) {
         const std::int32_t p = rims_.piece_of[f];
         const bool is_one = rims_.pieces[p].is_closed() && rims_.pieces[p].edges_of_many > 0;
@@ -173,8 +173,8 @@ std::vector<std::int32_t> Orienting::find_roots(std::vector<double>& fullness) c
     }
     if (closed.facets.empty()) return roots;
     const std::vector<ShellPlace> places = locate_shells(soup_.vertices, closed);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        std::int32_t root = static_cast<std::int32_t>(i);
+    for (std::int32_t i = 0; i < count_of(places); ++i) {
+        std::int32_t root = i;
         while (places[root].parent >= 0) root = places[root].parent;
         roots[shell[i]] = shell[root];
         if (places[root].touches < 0) fullness[shell[root]] = places[root].outward ? 1 : -1;
@@ -190,7 +190,7 @@ std::vector<double> Orienting::find_fullness() const {
         std::int64_t rim_vertices = 0;
         double volume = 0, area = 0;
     };
-    std::vector<Open> shells(static_cast<std::size_t>(new_.shell_count));
+    std::vector<Open> shells(new_.shell_count);
     for (std::size_t c = 0; c < 3 * new_.facets.size(); ++c)
         if (rims_.is_open[c]) {
             Open& open = shells[new_.shell[c / 3]];
@@ -198,7 +198,7 @@ std::vector<double> Orienting::find_fullness() const {
             ++open.rim_vertices;
         }
     for (Open& open : shells)
-        if (open.rim_vertices > 0) open.middle /= static_cast<double>(open.rim_vertices);
+        if (open.rim_vertices > 0) open.middle /= open.rim_vertices;
     for (std::size_t f = 0; f < new_.facets.size(); ++f) {
         Open& open = shells[new_.shell[f]];
         const Vec3 area = area_vector(soup_.vertices, new_.facets[f]);
@@ -216,9 +216,8 @@ std::vector<double> Orienting::find_fullness() const {
 std::vector<double> Orienting::find_what_is_around(const std::vector<double>& fullness) const {
     constexpr std::size_t most_samples = 64;
     std::vector<std::vector<std::int32_t>> facets_of(fullness.size());
-    for (std::size_t f = 0; f < new_.facets.size(); ++f)
-        if (std::abs(fullness[new_.shell[f]]) > least_fullness)
-            facets_of[new_.shell[f]].push_back(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(new_.facets); ++f)
+        if (std::abs(fullness[new_.shell[f]]) > least_fullness) facets_of[new_.shell[f]].push_back(f);
     const WindingNumber winding(soup_.vertices, new_.facets);
     std::vector<double> around(fullness.size(), 0);
     for (std::size_t s = 0; s < fullness.size(); ++s) {
@@ -237,18 +236,18 @@ std::vector<double> Orienting::find_what_is_around(const std::vector<double>& fu
 
 void Orienting::turn_shells(const std::vector<char>& is_turned) {
     std::vector<char> is_said(is_turned.size(), 0);
-    for (std::size_t f = 0; f < new_.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(new_.facets); ++f) {
         const std::int32_t s = new_.shell[f];
         if (!is_turned[s]) continue;
         turn(new_.facets[f]);
-        if (!std::exchange(is_said[s], char{1})) shells_turned_.add(place(static_cast<std::int32_t>(f)));
+        if (!std::exchange(is_said[s], char{1})) shells_turned_.add(place(f));
     }
 }
 
 void Orienting::say() {
     RepairAction turned{"facet turned", "facets turned"}, one_sided{"one-sided shell", "one-sided shells"};
-    for (std::size_t f = 0; f < facets_.size(); ++f)
-        if (facets_[f] != new_.facets[f]) turned.add(place(static_cast<std::int32_t>(f)));
+    for (std::int32_t f = 0; f < count_of(facets_); ++f)
+        if (facets_[f] != new_.facets[f]) turned.add(place(f));
     for (const std::int32_t f : new_.contradictions) one_sided.add(place(f));
     one_sided.refused_because = "like a Moebius strip it has no inside, however its facets are turned";
     for (RepairAction* action : {&turned, &shells_turned_, &one_sided}) report_.actions.push_back(std::move(*action));

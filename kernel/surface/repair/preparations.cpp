@@ -10,6 +10,7 @@
 
 #include "base/core/elements.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "surface/diagnosis/open_loops.h"
 #include "surface/openings/hole_triangulation.h"
 #include "surface/regions/regions.h"
@@ -29,8 +30,7 @@ std::vector<OpenLoop> loops_of_ordinary_facets(const Soup& soup) {
 bool can_be_spanned(const Soup& soup, const OpenLoop& loop, double most_edges) {
     const bool is_finite = std::all_of(loop.vertices.begin(), loop.vertices.end(),
                                        [&](std::int32_t v) { return soup.vertices[v].allFinite(); });
-    return loop.closed && is_finite && loop.vertices.size() >= 3 &&
-           static_cast<double>(loop.vertices.size()) <= most_edges;
+    return loop.closed && is_finite && loop.vertices.size() >= 3 && loop.vertices.size() <= most_edges;
 }
 
 // Returns facets over positions in the loop, in its direction.
@@ -63,7 +63,7 @@ void largest_step(Soup& soup, const StepRequest& /*request*/, StepReport& report
 void span_step(Soup& soup, const StepRequest& request, StepReport& report) {
     if (!soup.sides.empty()) return;
     RepairAction filled{"hole filled", "holes filled"};
-    const auto patch = static_cast<std::int32_t>(soup.patch_names.size());
+    const auto patch = count_of(soup.patch_names);
     const auto next_polygon = soup.polygon.empty() ? 0 : soup.polygon.back() + 1;
     for (const OpenLoop& loop : loops_of_ordinary_facets(soup)) {
         if (!can_be_spanned(soup, loop, request.amount)) continue;
@@ -72,8 +72,7 @@ void span_step(Soup& soup, const StepRequest& request, StepReport& report) {
         for (const Triangle& t : facets) {
             soup.facets.push_back({loop.vertices[t[0]], loop.vertices[t[1]], loop.vertices[t[2]]});
             soup.patch.push_back(patch);
-            if (!soup.polygon.empty())
-                soup.polygon.push_back(next_polygon + static_cast<std::int32_t>(report.added_facets));
+            if (!soup.polygon.empty()) soup.polygon.push_back(next_polygon + report.added_facets);
             ++report.added_facets;
         }
     }

@@ -91,8 +91,7 @@ class SurfaceRenewal {
             const RimPiece& edges = rims.pieces[rims.piece_of[piece.front()]];
             double area = 0;
             for (const std::int32_t f : piece) area += triangle_area(soup_.vertices, soup_.facets[f]);
-            const bool is_mostly_closed =
-                static_cast<double>(edges.open_edges) < largest_share_of_a_rim * static_cast<double>(edges.facets);
+            const bool is_mostly_closed = edges.open_edges < largest_share_of_a_rim * edges.facets;
             if (edges.is_closed() || area > largest_share_of_loose * area_of_all || is_mostly_closed) continue;
             sum += area;
             loose.emplace_back(area, std::move(piece));

@@ -69,7 +69,7 @@ class PlanParser {
                              std::numeric_limits<double>::infinity(), false, true});
     }
     Length count(std::string_view key, std::string_view value) const {
-        return static_cast<double>(parse_number<std::int32_t>(named(key), value, {"a whole number of at least 3", 3}));
+        return parse_number<std::int32_t>(named(key), value, {"a whole number of at least 3", 3});
     }
     std::string named(std::string_view key) const { return fmt::format("{} {}", option_, key); }
 

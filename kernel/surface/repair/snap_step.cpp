@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "surface/arrange/arrangement.h"
 #include "surface/arrange/divided_soup.h"
@@ -85,8 +86,8 @@ class WallSnapping {
     }
     void refuse_all(const char* because) {
         refused_.refused_because = because;
-        for (std::size_t f = 0; f < walls_.is_wall.size(); ++f)
-            if (walls_.is_wall[f] && walls_.apart[f] > 0) refused_.add(place_of(static_cast<std::int32_t>(f)));
+        for (std::int32_t f = 0; f < count_of(walls_.is_wall); ++f)
+            if (walls_.is_wall[f] && walls_.apart[f] > 0) refused_.add(place_of(f));
     }
 
     bool stays_closed(const Arrangement& divided) const {
@@ -115,14 +116,14 @@ class WallSnapping {
                                      });
             if (!is_left_out) continue;
             walls_.is_wall[f] = 0;
-            if (walls_.apart[f] > 0) turned_.add(place_of(static_cast<std::int32_t>(f)));
+            if (walls_.apart[f] > 0) turned_.add(place_of(f));
         }
         return is_any;
     }
 
     void put(Arrangement divided) {
-        for (std::size_t f = 0; f < walls_.is_wall.size(); ++f)
-            if (walls_.is_wall[f] && walls_.apart[f] > 0) snapped_.add(place_of(static_cast<std::int32_t>(f)));
+        for (std::int32_t f = 0; f < count_of(walls_.is_wall); ++f)
+            if (walls_.is_wall[f] && walls_.apart[f] > 0) snapped_.add(place_of(f));
         report_.largest_move = std::max(report_.largest_move, divided.largest_move);
         unlike_.refused_because = "their facets could not be made alike; they are bent too much for the tolerance";
         for (const UnresolvedCrossing& left : divided.unresolved)

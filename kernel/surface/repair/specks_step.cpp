@@ -1,6 +1,7 @@
 // Pieces that hang together over vertices are measured by their boxes, closed ones by their volume for their area, too.
 #include <algorithm>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
@@ -37,12 +38,12 @@ Components hang_together(const Soup& soup) {
 
 std::vector<SpeckPiece> measure_pieces(const Soup& soup, const Components& of_vertices) {
     const Rims rims = find_rims(soup.facets);
-    std::vector<SpeckPiece> pieces(static_cast<std::size_t>(of_vertices.count));
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    std::vector<SpeckPiece> pieces(of_vertices.count);
+    for (std::int32_t f = 0; f < count_of(soup.facets); ++f) {
         const Triangle& t = soup.facets[f];
         SpeckPiece& piece = pieces[of_vertices.of[t[0]]];
         if (piece.first < 0) {
-            piece.first = static_cast<std::int32_t>(f);
+            piece.first = f;
             piece.origin = soup.vertices[t[0]];
         }
         const Vec3 area = area_vector(soup.vertices, t);
@@ -68,7 +69,7 @@ void specks_step(Soup& soup, const StepRequest& request, StepReport& report) {
     std::vector<char> is_speck(pieces.size(), 0);
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
         if (piece->first < 0 || piece == largest || !piece->is_speck(request.amount, request.diagonal)) continue;
-        is_speck[static_cast<std::size_t>(piece - pieces.begin())] = 1;
+        is_speck[piece - pieces.begin()] = 1;
         removed.add({piece->box.center(), soup.file_facets({piece->first}), piece->diagonal()});
     }
     const bool is_any = removed.count > 0;

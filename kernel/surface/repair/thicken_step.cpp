@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/symmetric_axes.h"
 #include "base/geometry/triangle.h"
@@ -77,7 +78,7 @@ class Thickener {
         for (std::size_t f = 0; f < facet_count_; ++f) {
             if (has_repeated_vertex(soup_.facets[f])) continue;
             proper_.push_back(soup_.facets[f]);
-            number.push_back(static_cast<std::int32_t>(f));
+            number.push_back(f);
         }
         number_ = std::move(number);
         find_sheets();
@@ -100,21 +101,21 @@ class Thickener {
             for (const auto& c : corners) together.join(corners[0].corner / 3, c.corner / 3);
         });
         const Components pieces = together.take();
-        std::vector<char> is_open(static_cast<std::size_t>(pieces.count), 0);
-        std::vector<char> is_finite(static_cast<std::size_t>(pieces.count), 1);
+        std::vector<char> is_open(pieces.count, 0);
+        std::vector<char> is_finite(pieces.count, 1);
         edges.for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
             if (corners.size() == 1) is_open[pieces.of[corners[0].corner / 3]] = 1;
         });
         for (std::size_t f = 0; f < proper_.size(); ++f)
             for (const std::int32_t v : proper_[f]) is_finite[pieces.of[f]] &= soup_.vertices[v].allFinite();
         done_.sheet_of.assign(facet_count_, -1);
-        std::vector<std::int32_t> sheet(static_cast<std::size_t>(pieces.count), -1);
+        std::vector<std::int32_t> sheet(pieces.count, -1);
         for (std::size_t f = 0; f < proper_.size(); ++f) {
             const std::int32_t piece = pieces.of[f];
             if (!is_open[piece]) continue;
             if (sheet[piece] < 0) {
                 std::vector<std::int32_t>& list = is_finite[piece] ? done_.sheets : done_.infinite;
-                sheet[piece] = static_cast<std::int32_t>(done_.sheets.size());
+                sheet[piece] = count_of(done_.sheets);
                 list.push_back(number_[f]);
             }
             if (is_finite[piece]) done_.sheet_of[number_[f]] = sheet[piece];
@@ -159,12 +160,12 @@ class Thickener {
         std::vector<MovedPlanes> planes;
         std::vector<std::int32_t> vertex_of_root(6 * proper_.size(), -1), planes_of(old_count, -1), at;
         wall_vertex_.assign(6 * proper_.size(), -1);
-        for (std::int32_t side = 0; side < static_cast<std::int32_t>(wall_vertex_.size()); ++side) {
+        for (std::int32_t side = 0; side < count_of(wall_vertex_); ++side) {
             const std::int32_t f = side / 6, i = side % 3, v = proper_[f][i];
             if (!is_of_sheet(3 * f)) continue;
             std::int32_t& mine = vertex_of_root[same_.root(side)];
             if (mine < 0) {
-                mine = static_cast<std::int32_t>(planes.size());
+                mine = count_of(planes);
                 planes.emplace_back();
                 const bool is_first = planes_of[v] < 0;
                 if (is_first) planes_of[v] = mine;
@@ -187,7 +188,7 @@ class Thickener {
                 next_number_ = 1 + *std::max_element(soup_.vertex_number.begin(), soup_.vertex_number.end());
             soup_.vertex_number.push_back(next_number_++);
         }
-        return static_cast<std::int32_t>(soup_.vertices.size()) - 1;
+        return count_of(soup_.vertices) - 1;
     }
     void add_plane(MovedPlanes& planes, std::int32_t f, std::int32_t i, bool is_back) const {
         const Triangle& t = proper_[f];
@@ -205,7 +206,7 @@ class Thickener {
     }
     void add_backs() {
         std::vector<std::int32_t> back_of(soup_.patch_names.size(), -1);
-        for (std::int32_t f = 0; f < static_cast<std::int32_t>(proper_.size()); ++f) {
+        for (std::int32_t f = 0; f < count_of(proper_); ++f) {
             if (!is_of_sheet(3 * f)) continue;
             const std::int32_t* const front = &wall_vertex_[6 * f];
             soup_.facets[number_[f]] = {front[0], front[1], front[2]};
@@ -242,14 +243,14 @@ class Thickener {
                 is_used[e] = 1;
                 polygon.push_back(open[e][1]);
                 const RimEnd next{open[e][0], open[e][2], -1};
-                e = static_cast<std::size_t>(std::lower_bound(open.begin(), open.end(), next) - open.begin());
+                e = std::lower_bound(open.begin(), open.end(), next) - open.begin();
                 if (e < open.size() && (open[e][0] != next[0] || open[e][1] != next[1])) break;
             }
             for (std::size_t i = 2; i < polygon.size(); ++i) add_facet({polygon[0], polygon[i - 1], polygon[i]}, patch);
         }
     }
     void find_turned_over(const std::vector<Vec3>& old) {
-        for (std::int32_t f = 0; f < static_cast<std::int32_t>(proper_.size()); ++f) {
+        for (std::int32_t f = 0; f < count_of(proper_); ++f) {
             if (!is_of_sheet(3 * f)) continue;
             const Vec3 before = doubled_area_vector(old, proper_[f]);
             const auto is_turned = [&](const std::int32_t* side) {

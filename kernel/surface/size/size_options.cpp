@@ -118,9 +118,9 @@ PatchSize parse_near(const std::string& text) {
 
 std::int32_t find_patch(const char* option, const std::string& name, const std::vector<std::string>& names) {
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return static_cast<std::int32_t>(found - names.begin());
+    if (found != names.end()) return found - names.begin();
     constexpr std::size_t most = 20;
-    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+    const auto end = names.begin() + std::min(most, names.size());
     throw Error(ErrorCode::usage,
                 fmt::format("--{} names the patch '{}', which the surface does not have. It has {}{}.", option, name,
                             fmt::join(names.begin(), end, ", "),
@@ -166,7 +166,7 @@ void SizeOptions::check() const {
     require_in(size_range::max_volume, "max-volume", max_volume);
     if (max_volume != 0 && !std::isnormal(max_volume))
         refuse_number("max-volume", fmt::format("{}", max_volume), "a number that double precision does not round off");
-    require_in(size_range::cells, "cells", static_cast<double>(cells));
+    require_in(size_range::cells, "cells", cells);
     const auto refuse_beside_cells = [&](const char* option, const std::string& text) {
         throw Error(ErrorCode::usage,
                     fmt::format("--cells is {} and --{} is {}, but each follows from the other. Leave "
@@ -245,7 +245,7 @@ std::vector<double> SizeOptions::max_volumes_of_regions(std::span<const std::str
                 fmt::format("--size-region names the region '{}', but {}.", name,
                             regions.empty() ? std::string("the input is one body without regions")
                                             : fmt::format("those of the input are {}", fmt::join(regions, ", "))));
-        double& volume = volumes[static_cast<std::size_t>(found - regions.begin())];
+        double& volume = volumes[found - regions.begin()];
         if (volume > 0) throw Error(ErrorCode::usage, fmt::format("--size-region names the region '{}' twice.", name));
         volume = regular_tet_volume(wanted.number());
     }

@@ -37,9 +37,7 @@ class Octree {
     Octree(const SizeField& field, const Box& box) : field_(field) {
         const double edge = std::max(std::cbrt(box.volume() / first_cells), box.sizes().maxCoeff() / most_first_splits);
         std::array<int, 3> count{};
-        for (int axis = 0; axis < 3; ++axis)
-            count[static_cast<std::size_t>(axis)] =
-                std::max(1, static_cast<int>(std::lround(box.sizes()[axis] / edge)));
+        for (int axis = 0; axis < 3; ++axis) count[axis] = std::max(1L, std::lround(box.sizes()[axis] / edge));
         split(box.min(), box.max(), count);
     }
 
@@ -126,7 +124,7 @@ std::vector<VolumeSample> sample_volume(const SizeField& field, const std::vecto
     for (const Triangle& t : facets)
         for (const std::int32_t v : t) {
             box.extend(vertices[v]);
-            mean += vertices[v] / (3 * static_cast<double>(facets.size()));
+            mean += vertices[v] / (3 * facets.size());
         }
     const InsideTest is_inside(vertices, facets);
     std::vector<VolumeSample> samples;

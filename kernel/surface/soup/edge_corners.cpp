@@ -19,11 +19,11 @@ constexpr std::ptrdiff_t short_bucket = 16;
 // Calls visit(corner, smaller end vertex, larger end vertex) for the corners without a partner, ascending.
 template <class Visit>
 void for_each_open_corner(const std::vector<Triangle>& facets, const std::vector<std::int32_t>& partner, Visit visit) {
-    for (std::size_t c = 0; c < 3 * facets.size(); ++c) {
+    for (std::int32_t c = 0; c < 3 * count_of(facets); ++c) {
         if (!partner.empty() && partner[c] >= 0) continue;
         const Triangle& t = facets[c / 3];
         const auto [low, high] = std::minmax(t[c % 3], t[(c + 1) % 3]);
-        visit(static_cast<std::int32_t>(c), low, high);
+        visit(c, low, high);
     }
 }
 
@@ -110,7 +110,7 @@ class PartnerSearch {
         return most_buckets / 4;
     }
     std::vector<Entry> entries_at(const IndexRange& range) const {
-        const auto first = static_cast<std::int32_t>(range.first), last = static_cast<std::int32_t>(range.last);
+        const std::int32_t first = range.first, last = range.last;
         const std::size_t first_bucket = range.first >> shift_, last_bucket = ((range.last - 1) >> shift_) + 1;
         std::vector<Entry> entries;
         entries.reserve(7 * (range.last - range.first));  // six of a closed surface

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/types.h"
 
 namespace kerf {
@@ -30,10 +31,10 @@ class EdgeCorners {
     /// edges.
     template <class Visit>
     void for_each_edge(Visit visit) const {
-        for (std::size_t v = 0; v + 1 < first_.size(); ++v)
+        for (std::int32_t v = 0; v + 1 < count_of(first_); ++v)
             for (std::int32_t i = first_[v], j = i; i < first_[v + 1]; i = j) {
                 while (j < first_[v + 1] && corners_[j].high == corners_[i].high) ++j;
-                visit(static_cast<std::int32_t>(v), std::span(corners_).subspan(i, j - i));
+                visit(v, std::span(corners_).subspan(i, j - i));
             }
     }
 

@@ -77,7 +77,7 @@ class Triangulator {
     std::optional<Vec3> insert_edges(const std::vector<Edge>& edges) {
         for (std::size_t i = 0; i < edges.size(); ++i)
             if (!delaunay_.insert_edge(number_of_.at(edges[i][0]), number_of_.at(edges[i][1])))
-                return crossing_with(edges[i], {edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(i)});
+                return crossing_with(edges[i], {edges.begin(), edges.begin() + i});
         return {};
     }
     bool has_faces() const { return delaunay_.has_triangles(); }
@@ -87,7 +87,7 @@ class Triangulator {
     std::vector<Triangle> triangles() const {
         std::vector<Triangle> found = delaunay_.triangles();
         for (Triangle& t : found) {
-            for (std::int32_t& corner : t) corner = static_cast<std::int32_t>(corner_[corner]);
+            for (std::int32_t& corner : t) corner = corner_[corner];
             std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
         }
         std::sort(found.begin(), found.end());
@@ -99,8 +99,8 @@ class Triangulator {
         for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
         std::sort(used.begin(), used.end());
         const auto is_outside = [&](std::int64_t v) {
-            const std::int64_t first = corner_[delaunay_.first_number(number_of_.at(v))];
-            return !std::binary_search(used.begin(), used.end(), static_cast<std::int32_t>(first));
+            const std::int32_t first = corner_[delaunay_.first_number(number_of_.at(v))];
+            return !std::binary_search(used.begin(), used.end(), first);
         };
         return std::count_if(facet.polygons.begin(), facet.polygons.end(), [&](const auto& corners) {
             return corners.size() < 3 && std::any_of(corners.begin(), corners.end(), is_outside);

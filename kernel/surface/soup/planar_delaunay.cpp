@@ -10,6 +10,8 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "base/core/ids.h"
+
 namespace kerf {
 
 namespace {
@@ -60,7 +62,7 @@ struct PlanarDelaunay::Cdt {
     }
     std::int32_t add(PlanarVertex vertex) {
         vertices.push_back(vertex);
-        return static_cast<std::int32_t>(vertices.size()) - 1;
+        return count_of(vertices) - 1;
     }
 };
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/core/unique_name.h"
 
 namespace kerf {
@@ -23,7 +24,7 @@ class PatchesOfFile {
         for (const std::string& name : soup.patch_names) is_region_.push_back(regions_.contains(name) ? 1 : 0);
     }
     bool keeps(std::size_t facet) const {
-        const std::size_t patch = patch_of(facet);
+        const std::int32_t patch = patch_of(facet);
         return is_region_[patch] == 0 && !(soup_.sides[facet].is_wall() && has_outer_[patch] != 0);
     }
     // The names of regions, and of patches that keep a facet.
@@ -35,7 +36,7 @@ class PatchesOfFile {
     }
 
  private:
-    std::size_t patch_of(std::size_t facet) const { return static_cast<std::size_t>(soup_.patch[facet]); }
+    std::int32_t patch_of(std::size_t facet) const { return soup_.patch[facet]; }
 
     const Soup& soup_;
     std::set<std::string> regions_;
@@ -46,7 +47,7 @@ class PatchesOfFile {
 
 std::string wall_name(const std::vector<std::string>& region_names, FacetSides sides) {
     const auto [first, second] = std::minmax(sides.front, sides.back);
-    return region_names[static_cast<std::size_t>(first)] + "_to_" + region_names[static_cast<std::size_t>(second)];
+    return region_names[first] + "_to_" + region_names[second];
 }
 
 void name_walls(Soup& soup) {
@@ -60,15 +61,14 @@ void name_walls(Soup& soup) {
     std::vector<std::int32_t> patch = soup.patch;
     for (const std::size_t f : others) {
         const FacetSides sides = soup.sides[f];
-        const auto next = static_cast<std::int32_t>(soup.patch_names.size());
+        const auto next = count_of(soup.patch_names);
         const auto [found, is_new] = patch_between.try_emplace(std::minmax(sides.front, sides.back), next);
         patch[f] = found->second;
         if (!is_new) continue;
-        const auto region = static_cast<std::size_t>(std::max(sides.front, sides.back));
+        const std::int32_t region = std::max(sides.front, sides.back);
         soup.patch_names.push_back(unique_name(
             sides.is_wall() ? wall_name(soup.region_names, sides) : soup.region_names[region] + "_outer", taken));
-        if (!soup.patch_colours.empty())
-            soup.patch_colours.push_back(soup.patch_colours[static_cast<std::size_t>(soup.patch[f])]);
+        if (!soup.patch_colours.empty()) soup.patch_colours.push_back(soup.patch_colours[soup.patch[f]]);
     }
     soup.patch = std::move(patch);
     drop_unused_patches(soup);
@@ -79,9 +79,9 @@ void drop_unused_patches(Soup& soup) {
     std::vector<std::string> names;
     auto colours = std::exchange(soup.patch_colours, {});
     for (std::int32_t& patch : soup.patch) {
-        const auto old = static_cast<std::size_t>(patch);
+        const std::int32_t old = patch;
         if (number[old] < 0) {
-            number[old] = static_cast<std::int32_t>(names.size());
+            number[old] = count_of(names);
             names.push_back(std::move(soup.patch_names[old]));
             if (!colours.empty()) soup.patch_colours.push_back(colours[old]);
         }

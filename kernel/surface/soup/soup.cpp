@@ -14,6 +14,7 @@
 #include "base/core/check.h"
 #include "base/core/drop_items.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "surface/soup/vertex_table.h"
 
 namespace kerf {
@@ -29,8 +30,7 @@ std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices
     for (std::size_t begin = 0; begin < vertices.size(); begin += block) {
         const std::size_t count = std::min(block, vertices.size() - begin);
         for (std::size_t i = 0; i < count; ++i) table.prefetch(hashes[i] = hash_of_point(vertices[begin + i]));
-        for (std::size_t i = 0; i < count; ++i)
-            representative[begin + i] = table.enter(static_cast<std::int32_t>(begin + i), hashes[i], vertices);
+        for (std::size_t i = 0; i < count; ++i) representative[begin + i] = table.enter(begin + i, hashes[i], vertices);
     }
     return representative;
 }
@@ -49,7 +49,7 @@ void renumber_edges(std::vector<ModelEdge>& edges, const std::vector<std::int32_
 std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
     std::vector<std::int32_t>& new_number = representative;
     std::int32_t kept = 0;
-    const auto loses = [&](std::size_t v) { return new_number[v] != static_cast<std::int32_t>(v); };
+    const auto loses = [&](std::int32_t v) { return new_number[v] != v; };
     const std::size_t count = soup.vertices.size();
     if (soup.vertex_number.empty()) {
         bool any = false;
@@ -58,8 +58,8 @@ std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
         soup.vertex_number.resize(count);
         std::iota(soup.vertex_number.begin(), soup.vertex_number.end(), 0);
     }
-    for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
-        if (new_number[v] == static_cast<std::int32_t>(v)) {
+    for (std::int32_t v = 0; v < count_of(soup.vertices); ++v) {
+        if (new_number[v] == v) {
             soup.vertices[kept] = soup.vertices[v];
             soup.vertex_number[kept] = soup.vertex_number[v];
             new_number[v] = kept++;
@@ -67,7 +67,7 @@ std::int64_t renumber(Soup& soup, std::vector<std::int32_t> representative) {
             new_number[v] = new_number[new_number[v]];  // an earlier vertex, whose new number is known
         }
     }
-    const auto removed = static_cast<std::int64_t>(soup.vertices.size()) - kept;
+    const auto removed = std::ssize(soup.vertices) - kept;
     const bool is_much = 2 * removed > kept;  // of separate corners, of which most are gone
     soup.vertices.resize(kept);
     soup.vertex_number.resize(kept);
@@ -134,11 +134,10 @@ std::int64_t weld_within(Soup& soup, double tolerance) {
     KERF_CHECK(tolerance > 0);
     WeldGrid grid(soup.vertices, tolerance);
     std::vector<std::int32_t> representative(soup.vertices.size());
-    for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
-        const auto own = static_cast<std::int32_t>(v);
-        const std::int32_t found = soup.vertices[v].allFinite() ? grid.find(own) : -1;
-        representative[v] = found < 0 ? own : found;
-        if (found < 0) grid.enter(own);
+    for (std::int32_t v = 0; v < count_of(soup.vertices); ++v) {
+        const std::int32_t found = soup.vertices[v].allFinite() ? grid.find(v) : -1;
+        representative[v] = found < 0 ? v : found;
+        if (found < 0) grid.enter(v);
     }
     return renumber(soup, std::move(representative));
 }

@@ -12,6 +12,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/geometry/closest_point.h"
 #include "base/geometry/triangle.h"
@@ -73,17 +74,17 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& vertices, const std::vector<
     : place_(facets.size()) {
     KERF_CHECK(are_in_range(facets, vertices.size()));
     Pieces pieces;
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         const Triangle& t = facets[f];
-        pieces.facet = static_cast<std::int32_t>(f);
+        pieces.facet = f;
         pieces.add({vertices[t[0]], vertices[t[1]], vertices[t[2]]}, most_halvings);
     }
     order_.resize(pieces.facets.size());
     std::iota(order_.begin(), order_.end(), 0);
     hierarchy_ = make_hierarchy(pieces.boxes, order_);
-    for (std::size_t i = 0; i < order_.size(); ++i) {
+    for (std::int32_t i = 0; i < count_of(order_); ++i) {
         order_[i] = pieces.facets[order_[i]];
-        place_[order_[i]] = static_cast<std::int32_t>(i);
+        place_[order_[i]] = i;
     }
     pieces = {};
     corners_.resize(order_.size());

@@ -35,10 +35,10 @@ class VertexTable {
     /// Enters vertices[v] with its hash_of_point(). Returns the first equal vertex that was entered, which is v if
     /// there was none.
     std::int32_t enter(std::int32_t v, std::uint64_t hash, const std::vector<Vec3>& vertices) {
-        const Vec3& p = vertices[static_cast<std::size_t>(v)];
+        const Vec3& p = vertices[v];
         if (p.hasNaN()) return v;  // many of them would only lengthen the probes
         std::size_t slot = hash & mask();
-        while (slots_[slot] >= 0 && vertices[static_cast<std::size_t>(slots_[slot])] != p) slot = (slot + 1) & mask();
+        while (slots_[slot] >= 0 && vertices[slots_[slot]] != p) slot = (slot + 1) & mask();
         if (slots_[slot] >= 0) return slots_[slot];
         slots_[slot] = v;
         if (2 * ++count_ > slots_.size()) grow(vertices);
@@ -51,7 +51,7 @@ class VertexTable {
         const std::vector<std::int32_t> old = std::exchange(slots_, std::vector<std::int32_t>(2 * slots_.size(), -1));
         for (const std::int32_t v : old) {
             if (v < 0) continue;
-            std::size_t slot = hash_of_point(vertices[static_cast<std::size_t>(v)]) & mask();
+            std::size_t slot = hash_of_point(vertices[v]) & mask();
             while (slots_[slot] >= 0) slot = (slot + 1) & mask();
             slots_[slot] = v;
         }

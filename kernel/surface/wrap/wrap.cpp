@@ -14,6 +14,7 @@
 
 #include "base/core/cancellation.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
@@ -49,12 +50,12 @@ double area_to_wrap(const Soup& soup) {
 std::vector<char> facets_seen(const TriangleSet& surface, const TriangleTree& tree, double diagonal,
                               const CancellationCheck& check_cancelled) {
     std::vector<char> is_seen(surface.facets.size(), 0);
-    for (std::size_t f = 0; f < is_seen.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(is_seen); ++f) {
         check_cancelled.at(f);
         const auto& [a, b, c] = surface.facets[f];
         const Vec3 from = (surface.vertices[a] + surface.vertices[b] + surface.vertices[c]) / 3;
         const Vec3 across = doubled_area_vector(surface.vertices, surface.facets[f]).normalized();
-        const auto is_other = [&](std::int32_t hit) { return static_cast<std::size_t>(hit) != f; };
+        const auto is_other = [&](std::int32_t hit) { return hit != f; };
         const auto is_free = [&](const Vec3& way) {
             return std::isinf(tree.first_hit(from, way, no_length_of_wrap * diagonal, 2 * diagonal, is_other));
         };
@@ -71,7 +72,7 @@ std::vector<std::int32_t> patches_of_wrap(const TriangleSet& wrap, const Triangl
     for (std::size_t f = 0; f < patch.size(); ++f) {
         const auto& [a, b, c] = wrap.facets[f];
         const Vec3 centre = (wrap.vertices[a] + wrap.vertices[b] + wrap.vertices[c]) / 3;
-        patch[f] = patch_before[static_cast<std::size_t>(tree.closest(centre).facet)];
+        patch[f] = patch_before[tree.closest(centre).facet];
     }
     const std::vector<std::int32_t> partner = edge_partners(wrap.facets);
     for (int sweep = 0; sweep < sweeps; ++sweep)
@@ -132,7 +133,7 @@ double estimated_wrap_distance(const Soup& soup, const WrapOptions& options) {
 
 WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void()>& check_cancelled) {
     const std::vector<char> is_none = facets_without_area(soup);
-    const auto facets_before = static_cast<std::int64_t>(soup.facets.size());
+    const auto facets_before = std::ssize(soup.facets);
     drop_facets(soup, is_none);
     drop_unused_vertices(soup);
     if (soup.facets.empty())
@@ -140,13 +141,13 @@ WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void
     const double diagonal = box_around_finite(soup.vertices).diagonal().norm();
     WrapReport report = wrap_lengths(soup, options);
     report.facets_before = facets_before;
-    report.left_out = facets_before - static_cast<std::int64_t>(soup.facets.size());
+    report.left_out = facets_before - std::ssize(soup.facets);
 
     const TriangleSet before = {std::move(soup.vertices), std::move(soup.facets)};
     const TriangleTree tree(before.vertices, before.facets);
     TriangleSet wrapped = pulled_back(alpha_wrap(before, report.gap / 2, report.offset, check_cancelled), tree,
                                       report.offset, check_cancelled);
-    report.facets = static_cast<std::int64_t>(wrapped.facets.size());
+    report.facets = std::ssize(wrapped.facets);
 
     report.distance_to_input = proven_distance(wrapped.vertices, wrapped.facets, {}, tree, before.facets,
                                                no_length_of_wrap * diagonal, check_cancelled);

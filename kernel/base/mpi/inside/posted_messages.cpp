@@ -1,5 +1,6 @@
 #include "base/mpi/inside/posted_messages.h"
 
+#include "base/core/ids.h"
 #include "base/mpi/mpi_ranks.h"
 
 namespace kerf {
@@ -15,7 +16,7 @@ std::list<OnTheWay>& abandoned_messages() {
     return *all;
 }
 
-PostedMessages::PostedMessages(MPI_Comm comm, int ranks) : comm_(comm), sent_to_(static_cast<std::size_t>(ranks), 0) {}
+PostedMessages::PostedMessages(MPI_Comm comm, int ranks) : comm_(comm), sent_to_(ranks, 0) {}
 
 PostedMessages::~PostedMessages() { abandoned_messages().splice(abandoned_messages().end(), posted_); }
 
@@ -26,16 +27,16 @@ void PostedMessages::post(int rank, const Bytes& message) {
         return left != 0;
     });
     OnTheWay& posted = posted_.emplace_back(OnTheWay{{message}, {MPI_REQUEST_NULL}});
-    check_mpi(MPI_Isend(posted.messages.front().data(), static_cast<int>(message.size()), MPI_BYTE, rank, post_tag,
-                        comm_, posted.requests.data()),
+    check_mpi(MPI_Isend(posted.messages.front().data(), count_of(message), MPI_BYTE, rank, post_tag, comm_,
+                        posted.requests.data()),
               "MPI_Isend");
-    ++sent_to_[static_cast<std::size_t>(rank)];
+    ++sent_to_[rank];
 }
 
 Bytes PostedMessages::receive(const MPI_Status& announced) {
     int size = 0;
     check_mpi(MPI_Get_count(&announced, MPI_BYTE, &size), "MPI_Get_count");
-    Bytes message(static_cast<std::size_t>(size));
+    Bytes message(size);
     check_mpi(MPI_Recv(message.data(), size, MPI_BYTE, announced.MPI_SOURCE, post_tag, comm_, MPI_STATUS_IGNORE),
               "MPI_Recv");
     ++received_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/core/ids.h"
 #include "base/geometry/box_hierarchy.h"
 #include "surface/diagnosis/intersections.h"
 
@@ -18,13 +19,13 @@ class CrossingSearch {
     CrossingSearch(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                    const std::vector<char>& changed, std::size_t most)
         : vertices_(vertices), facets_(facets), changed_(changed), most_(most) {
-        for (std::size_t f = 0; f < facets.size(); ++f)
-            if (changed[f]) order_.push_back(static_cast<std::int32_t>(f));
+        for (std::int32_t f = 0; f < count_of(facets); ++f)
+            if (changed[f]) order_.push_back(f);
         std::vector<std::int32_t> items(order_.size());
         std::vector<Box> boxes;
         boxes.reserve(order_.size());
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            items[i] = static_cast<std::int32_t>(i);
+        for (std::int32_t i = 0; i < count_of(order_); ++i) {
+            items[i] = i;
             boxes.push_back(box_around(vertices, facets[order_[i]]));
         }
         hierarchy_ = make_hierarchy(boxes, items);
@@ -40,8 +41,8 @@ class CrossingSearch {
         };
         for (const std::int32_t facet : order_) ask(facet);
         if (order_.size() < facets_.size())
-            for (std::size_t f = 0; f < facets_.size(); ++f)
-                if (!changed_[f]) ask(static_cast<std::int32_t>(f));
+            for (std::int32_t f = 0; f < count_of(facets_); ++f)
+                if (!changed_[f]) ask(f);
         std::sort(pairs_.begin(), pairs_.end());
         return std::move(pairs_);
     }

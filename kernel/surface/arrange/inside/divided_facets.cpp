@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 
 namespace kerf {
 
@@ -60,12 +61,11 @@ void share_points_of(std::span<const PointOnEdge> on_edge, std::int32_t facet, s
 }  // namespace
 
 DistinctPoints::DistinctPoints(std::vector<Vec3> points) : points_(std::move(points)), table_(points_.size()) {
-    for (std::size_t i = 0; i < points_.size(); ++i)
-        table_.enter(static_cast<std::int32_t>(i), hash_of_point(points_[i]), points_);
+    for (std::int32_t i = 0; i < count_of(points_); ++i) table_.enter(i, hash_of_point(points_[i]), points_);
 }
 
 std::int32_t DistinctPoints::number_of(const Vec3& p) {
-    const auto next = static_cast<std::int32_t>(points_.size());
+    const auto next = count_of(points_);
     points_.push_back(p);
     const std::int32_t number = table_.enter(next, hash_of_point(p), points_);
     if (number != next) points_.pop_back();
@@ -82,9 +82,8 @@ void DividedFacets::share_points(std::vector<FacetPiece>& pieces, std::vector<ch
         for (const std::int32_t v : point.edge) is_end[v] = 1;
     std::vector<FacetPiece> shared, own;
     auto piece = pieces.begin();
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        const auto facet = static_cast<std::int32_t>(f);
-        const Triangle& t = facets[f];
+    for (std::int32_t facet = 0; facet < count_of(facets); ++facet) {
+        const Triangle& t = facets[facet];
         own.clear();
         for (; piece != pieces.end() && piece->facet == facet; ++piece) own.push_back(*piece);
         for (int i = 0; i < 3; ++i) {
@@ -93,8 +92,8 @@ void DividedFacets::share_points(std::vector<FacetPiece>& pieces, std::vector<ch
                 on_edges.begin(), on_edges.end(), PointOnEdge{undirected(t[i], t[(i + 1) % 3]), 0, 0, 0},
                 [](const PointOnEdge& a, const PointOnEdge& b) { return a.edge < b.edge; });
             if (of_edge.first == of_edge.second) continue;
-            if (!is_divided[f]) own.push_back({facet, t});
-            is_divided[f] = 1;
+            if (!is_divided[facet]) own.push_back({facet, t});
+            is_divided[facet] = 1;
             share_points_of({of_edge.first, of_edge.second}, facet, own);
         }
         shared.insert(shared.end(), own.begin(), own.end());
@@ -115,9 +114,9 @@ void DividedFacets::replace(std::vector<FacetPiece>& pieces, const std::vector<c
         next.changed.push_back(is_changed);
     };
     auto piece = pieces.begin();
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         if (!is_divided[f]) add(facets[f], f, changed[f]);
-        for (; piece != pieces.end() && piece->facet == static_cast<std::int32_t>(f); ++piece)
+        for (; piece != pieces.end() && piece->facet == f; ++piece)
             if (has_area(piece->corners)) add(piece->corners, f, 1);
     }
     facets = std::move(next.facets);

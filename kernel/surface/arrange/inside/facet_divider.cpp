@@ -19,6 +19,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/predicates.h"
 #include "surface/arrange/inside/facet_contact.h"
 
@@ -344,9 +345,9 @@ bool PlaneDivision::collect_member(std::int32_t member, std::vector<FacetPiece>&
 // Collects the pieces of all facets. Where corners fall upon each other in the projection, so that edges are not found,
 // a facet stays whole in this round.
 void PlaneDivision::collect(std::vector<FacetPiece>& pieces, std::vector<PointOnEdge>& on_edges) {
-    for (std::size_t m = 0; m < members_.size(); ++m) {
+    for (std::int32_t m = 0; m < count_of(members_); ++m) {
         const std::size_t piece_count = pieces.size(), point_count = on_edges.size();
-        if (collect_member(static_cast<std::int32_t>(m), pieces, on_edges)) continue;
+        if (collect_member(m, pieces, on_edges)) continue;
         pieces.resize(piece_count);
         on_edges.resize(point_count);
         pieces.push_back({members_[m].facet, facets_[members_[m].facet]});

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/box_hierarchy.h"
 #include "base/geometry/closest_point.h"
 #include "base/geometry/union_find.h"
@@ -33,7 +34,7 @@ struct EdgeSplit {
 class NearItems {
  public:
     explicit NearItems(const std::vector<Box>& boxes) : order_(boxes.size()) {
-        for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::int32_t>(i);
+        for (std::int32_t i = 0; i < count_of(order_); ++i) order_[i] = i;
         hierarchy_ = make_hierarchy(boxes, order_);
     }
     template <class Visit>
@@ -117,16 +118,15 @@ bool NearFeatures::join_vertices() {
     const std::vector<Box> boxes = vertex_boxes();
     const NearItems near_vertices(boxes);
     UnionFind joined(vertices_.size());
-    for (std::size_t i = 0; i < vertices_.size(); ++i)
+    for (std::int32_t i = 0; i < count_of(vertices_); ++i)
         near_vertices.visit(boxes[i], tolerance_, [&](std::int32_t j) {
-            if ((at(vertices_[i]) - at(vertices_[j])).norm() <= tolerance_)
-                joined.join(static_cast<std::int32_t>(i), j);
+            if ((at(vertices_[i]) - at(vertices_[j])).norm() <= tolerance_) joined.join(i, j);
         });
     std::vector<std::int32_t> becomes(divided_.points.all().size());
-    for (std::size_t v = 0; v < becomes.size(); ++v) becomes[v] = static_cast<std::int32_t>(v);
+    for (std::int32_t v = 0; v < count_of(becomes); ++v) becomes[v] = v;
     bool is_any = false;
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-        const std::int32_t v = vertices_[i], to = vertices_[joined.root(static_cast<std::int32_t>(i))];
+    for (std::int32_t i = 0; i < count_of(vertices_); ++i) {
+        const std::int32_t v = vertices_[i], to = vertices_[joined.root(i)];
         if (v == to) continue;
         becomes[v] = to;
         is_any = true;
@@ -135,12 +135,12 @@ bool NearFeatures::join_vertices() {
     if (!is_any) return false;
     std::vector<FacetPiece> pieces;
     std::vector<char> is_divided(divided_.facets.size(), 0);
-    for (std::size_t f = 0; f < divided_.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(divided_.facets); ++f) {
         Triangle t = divided_.facets[f];
         for (std::int32_t& v : t) v = becomes[v];
         if (t == divided_.facets[f]) continue;
         is_divided[f] = 1;
-        pieces.push_back({static_cast<std::int32_t>(f), t});
+        pieces.push_back({f, t});
     }
     replace(pieces, is_divided);
     return true;
@@ -171,7 +171,7 @@ bool NearFeatures::split_edges(std::vector<EdgeSplit> splits) {
         for (const std::int32_t v : split.edge) is_end[v] = 1;
     std::vector<FacetPiece> pieces;
     std::vector<char> is_divided(divided_.facets.size(), 0);
-    for (std::size_t f = 0; f < divided_.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(divided_.facets); ++f) {
         const Triangle t = divided_.facets[f];
         if (is_end[t[0]] + is_end[t[1]] + is_end[t[2]] < 2) continue;
         std::vector<Triangle> parts = {t};
@@ -190,7 +190,7 @@ bool NearFeatures::split_edges(std::vector<EdgeSplit> splits) {
         }
         if (parts.size() == 1) continue;
         is_divided[f] = 1;
-        for (const Triangle& part : parts) pieces.push_back({static_cast<std::int32_t>(f), part});
+        for (const Triangle& part : parts) pieces.push_back({f, part});
     }
     replace(pieces, is_divided);
     return true;
@@ -199,7 +199,7 @@ bool NearFeatures::split_edges(std::vector<EdgeSplit> splits) {
 bool NearFeatures::split_facets(const NearItems& near_vertices) {
     std::vector<FacetPiece> pieces;
     std::vector<char> is_divided(divided_.facets.size(), 0);
-    for (std::size_t f = 0; f < divided_.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(divided_.facets); ++f) {
         if (!is_near_[f]) continue;
         const Triangle& t = divided_.facets[f];
         const Corners p = divided_.corners(t);
@@ -211,7 +211,7 @@ bool NearFeatures::split_facets(const NearItems& near_vertices) {
         });
         if (least < 0) continue;
         is_divided[f] = 1;
-        for (int i = 0; i < 3; ++i) pieces.push_back({static_cast<std::int32_t>(f), {t[i], t[(i + 1) % 3], least}});
+        for (int i = 0; i < 3; ++i) pieces.push_back({f, {t[i], t[(i + 1) % 3], least}});
     }
     if (pieces.empty()) return false;
     replace(pieces, is_divided);
@@ -224,9 +224,9 @@ void NearFeatures::replace(std::vector<FacetPiece>& pieces, const std::vector<ch
     std::stable_sort(pieces.begin(), pieces.end(),
                      [](const FacetPiece& a, const FacetPiece& b) { return a.facet < b.facet; });
     auto piece = pieces.begin();
-    for (std::size_t f = 0; f < is_near_.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(is_near_); ++f) {
         if (!is_divided[f]) is_near.push_back(is_near_[f]);
-        for (; piece != pieces.end() && piece->facet == static_cast<std::int32_t>(f); ++piece)
+        for (; piece != pieces.end() && piece->facet == f; ++piece)
             if (divided_.has_area(piece->corners)) is_near.push_back(is_near_[f]);
     }
     divided_.replace(pieces, is_divided);

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/box_hierarchy.h"
 #include "base/geometry/union_find.h"
 
@@ -59,8 +60,8 @@ std::vector<FacetPair> plane_overlaps(const DividedFacets& divided, std::vector<
     std::vector<std::int32_t> order(boxes.size()), open;
     std::iota(order.begin(), order.end(), 0);
     const BoxHierarchy<> hierarchy = make_hierarchy(boxes, order);
-    for (std::size_t f = 0; f < is_near.size(); ++f)
-        if (is_near[f]) open.push_back(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(is_near); ++f)
+        if (is_near[f]) open.push_back(f);
     std::vector<FacetPair> pairs;
     std::vector<char> is_done(is_near.size(), 0);
     while (!open.empty()) {
@@ -105,8 +106,8 @@ PlaneGroups group_planes(const DividedFacets& divided, std::span<const std::int3
         });
         while (begin != end) {
             const auto next = gather_plane(divided, begin, end, allowed_tolerances * tolerance);
-            for (; begin != next; ++begin) groups.of[*begin] = static_cast<std::int32_t>(groups.count());
-            groups.first.push_back(static_cast<std::size_t>(next - facets.begin()));
+            for (; begin != next; ++begin) groups.of[*begin] = groups.count();
+            groups.first.push_back(next - facets.begin());
         }
     }
     return groups;

@@ -18,7 +18,7 @@ namespace {
 std::string list(const char* one, const char* many, const std::vector<std::int32_t>& numbers) {
     constexpr std::size_t limit = 4;
     if (numbers.size() == 1) return fmt::format("{} {}", one, numbers[0]);
-    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(std::min(limit, numbers.size()));
+    const auto end = numbers.begin() + std::min(limit, numbers.size());
     return fmt::format("{} {}{}", many, fmt::join(numbers.begin(), end, ", "), numbers.size() > limit ? ", ..." : "");
 }
 
@@ -141,8 +141,7 @@ std::vector<ErrorElements> elements_of(const Defect& defect, const Soup& soup) {
     if (!defect.facets.empty()) {
         ErrorElements& facets =
             elements.emplace_back(elements_at(defect, ElementKind::facet, soup.file_facets(defect.facets)));
-        for (const std::int32_t f : defect.facets)
-            facets.names.push_back(soup.patch_names[static_cast<std::size_t>(soup.patch[static_cast<std::size_t>(f)])]);
+        for (const std::int32_t f : defect.facets) facets.names.push_back(soup.patch_names[soup.patch[f]]);
         std::sort(facets.names.begin(), facets.names.end());
         facets.names.erase(std::unique(facets.names.begin(), facets.names.end()), facets.names.end());
     }

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/core/ids.h"
+
 namespace kerf {
 
 namespace {
@@ -57,7 +59,7 @@ ViewCone::ViewCone(const std::vector<Vec3>& vertices, const Triangle& facet, std
 }
 
 bool ViewCone::misses(const Box& directions) const {
-    return std::any_of(inward_.begin(), inward_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const Vec3& inward) {
+    return std::any_of(inward_.begin(), inward_.begin() + count_, [&](const Vec3& inward) {
         const Vec3 farthest = inward.cwiseProduct(directions.min()).cwiseMax(inward.cwiseProduct(directions.max()));
         return farthest.sum() < -least_sure;
     });
@@ -74,7 +76,7 @@ FanTree::FanTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
         const auto centre_of = [&](std::int32_t i) { return Vec3(directions[i].center()); };
         const auto middle =
             halve_by_centre(order.begin() + first, order.begin() + last, centre_of, [](std::int32_t i) { return i; });
-        return static_cast<std::int32_t>(middle - order.begin());
+        return middle - order.begin();
     };
     tree_ = BoxHierarchy<Node>(fan_.size(), halve, [&](std::int32_t i) {
         Node node;
@@ -121,7 +123,7 @@ void FacetTree::make_fans(std::vector<std::int32_t>& chosen) {
         const std::int32_t apex = apex_of(f);
         if (apex < 0) continue;
         if (number[apex] < 0) {
-            number[apex] = static_cast<std::int32_t>(fans.size());
+            number[apex] = count_of(fans);
             apexes.push_back(apex);
             fans.emplace_back();
         }

@@ -97,7 +97,7 @@ class FacetTree {
                                                    [&](auto i, auto j) { return visit(plain(i), plain(j)); }))
             return true;
         for (std::size_t unit = std::max(units.first, leaves); unit < units.last; ++unit) {
-            const auto g = static_cast<std::int32_t>(unit - leaves);
+            const std::int32_t g = unit - leaves;
             const std::int32_t own = fan_of_[g];
             const bool was_visited = any_fan_near(g, [&](std::int32_t fan) {
                 return (own < 0 || fan <= own) &&

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/geometry/box_tree.h"
 #include "base/geometry/triangle.h"
 #include "surface/diagnosis/intersections.h"
@@ -180,10 +181,10 @@ class DepthGauge {
 std::vector<std::int32_t> different_facets(const std::vector<Triangle>& facets) {
     std::set<Triangle> seen;
     std::vector<std::int32_t> different;
-    for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         Triangle sorted = facets[f];
         std::sort(sorted.begin(), sorted.end());
-        if (seen.insert(sorted).second) different.push_back(static_cast<std::int32_t>(f));
+        if (seen.insert(sorted).second) different.push_back(f);
     }
     return different;
 }
@@ -195,8 +196,7 @@ std::vector<WallMismatch> find_gaps(const std::vector<Vec3>& vertices, const std
     Mismatches found;
     if (facets.empty()) return {};
     const BoxTree tree(boxes_around(vertices, facets));
-    for (std::size_t i = 0; i < facets.size(); ++i) {
-        const auto f = static_cast<std::int32_t>(i);
+    for (std::int32_t f = 0; f < count_of(facets); ++f) {
         const FacetCorners corners = corners_of(vertices, facets[f]);
         const double longest = longest_edge(corners);
         const Vec3 reach = Vec3::Constant(share * longest);

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/triangle.h"
 #include "surface/diagnosis/open_loops.h"
@@ -29,8 +30,8 @@ struct RimOutline {
 
     RimOutline(const Soup& soup, const std::vector<const Rim*>& rims) {
         for (const Rim* rim : rims) {
-            const auto first = static_cast<std::int32_t>(points.size());
-            const auto count = static_cast<std::int32_t>(rim->vertices.size());
+            const auto first = count_of(points);
+            const auto count = count_of(rim->vertices);
             for (std::int32_t i = 0; i < count; ++i) successor.push_back(first + (i + 1) % count);
             for (const std::int32_t v : rim->vertices) points.push_back(soup.vertices[v]);
             vertices.insert(vertices.end(), rim->vertices.begin(), rim->vertices.end());
@@ -60,17 +61,16 @@ double mean_bend(const RimOutline& outline, const std::vector<Triangle>& triangl
 // Returns the edges of the surface between vertices of the rims that are not edges of a rim.
 std::vector<UndirectedEdge> taken_edges(const OpenRims& all, const RimOutline& outline) {
     std::vector<std::pair<std::int32_t, std::int32_t>> place;  // of vertices of the soup
-    for (std::size_t i = 0; i < outline.vertices.size(); ++i)
-        place.emplace_back(outline.vertices[i], static_cast<std::int32_t>(i));
+    for (std::int32_t i = 0; i < count_of(outline.vertices); ++i) place.emplace_back(outline.vertices[i], i);
     std::sort(place.begin(), place.end());
     std::vector<UndirectedEdge> taken;
-    for (std::size_t i = 0; i < outline.vertices.size(); ++i)
+    for (std::int32_t i = 0; i < count_of(outline.vertices); ++i)
         for (const std::int32_t f : all.facets_at(outline.vertices[i]))
             for (const std::int32_t v : all.soup().facets[f]) {
                 const auto found = std::lower_bound(place.begin(), place.end(), std::pair(v, -1));
                 if (found == place.end() || found->first != v) continue;
-                const auto a = static_cast<std::int32_t>(i), b = found->second;
-                if (a < b && outline.successor[a] != b && outline.successor[b] != a) taken.push_back({a, b});
+                const std::int32_t j = found->second;
+                if (i < j && outline.successor[i] != j && outline.successor[j] != i) taken.push_back({i, j});
             }
     std::sort(taken.begin(), taken.end());
     taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
@@ -88,13 +88,12 @@ PatchSurroundings surroundings(const OpenRims& all, const RimOutline& outline) {
     std::sort(facets.begin(), facets.end());
     facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
     std::vector<std::pair<std::int32_t, std::int32_t>> place;  // of vertices of the soup: of the rims, then others
-    for (std::size_t i = 0; i < outline.vertices.size(); ++i)
-        place.emplace_back(outline.vertices[i], static_cast<std::int32_t>(i));
+    for (std::int32_t i = 0; i < count_of(outline.vertices); ++i) place.emplace_back(outline.vertices[i], i);
     std::sort(place.begin(), place.end());
     const std::size_t on_rims = place.size();
     std::vector<std::int32_t> beside;
     const auto find = [&](std::int32_t v) {
-        const auto end = place.begin() + static_cast<std::ptrdiff_t>(on_rims);
+        const auto end = place.begin() + on_rims;
         const auto found = std::lower_bound(place.begin(), end, std::pair(v, -1));
         return found != end && found->first == v ? found->second : -1;
     };
@@ -112,8 +111,8 @@ PatchSurroundings surroundings(const OpenRims& all, const RimOutline& outline) {
             is_finite &= all.soup().vertices[v].allFinite();
             own[i] = find(v);
             if (own[i] < 0)
-                own[i] = static_cast<std::int32_t>(outline.vertices.size()) +
-                         static_cast<std::int32_t>(std::lower_bound(beside.begin(), beside.end(), v) - beside.begin());
+                own[i] =
+                    count_of(outline.vertices) + (std::lower_bound(beside.begin(), beside.end(), v) - beside.begin());
         }
         if (is_finite) around.facets.push_back(own);
     }
@@ -130,22 +129,22 @@ std::vector<Vec3> Rim::points(const Soup& soup) const {
 
 Vec3 Rim::centre(const Soup& soup) const {
     Vec3 sum = Vec3::Zero();
-    for (const std::int32_t v : vertices) sum += soup.vertices[v] / static_cast<double>(vertices.size());
+    for (const std::int32_t v : vertices) sum += soup.vertices[v] / vertices.size();
     return sum;
 }
 
 OpenRims::OpenRims(const Soup& soup) : soup_(soup), passes_(soup.vertices.size(), 0) {
     std::vector<Triangle> proper;
     std::vector<std::int32_t> number;  // in the soup
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(soup.facets); ++f) {
         if (has_repeated_vertex(soup.facets[f])) continue;
         proper.push_back(soup.facets[f]);
-        number.push_back(static_cast<std::int32_t>(f));
+        number.push_back(f);
     }
     const std::vector<std::int32_t> partners = edge_partners(proper);
     if (std::find(partners.begin(), partners.end(), -1) == partners.end()) return;
     const ConsistentFacets consistent = make_consistent(proper);
-    std::vector<char> is_one_sided(static_cast<std::size_t>(consistent.shell_count), 0);
+    std::vector<char> is_one_sided(consistent.shell_count, 0);
     for (const std::int32_t f : consistent.contradictions) is_one_sided[consistent.shell[f]] = 1;
     for (OpenLoop& loop : find_open_loops(soup.vertices, consistent.facets)) {
         Rim& rim = rims_.emplace_back();
@@ -173,14 +172,14 @@ OpenRims::OpenRims(const Soup& soup) : soup_(soup), passes_(soup.vertices.size()
 void OpenRims::find_facets() {
     first_.assign(passes_.size() + 1, 0);
     const auto for_each = [&](auto visit) {
-        for (std::size_t f = 0; f < soup_.facets.size(); ++f)
+        for (std::int32_t f = 0; f < count_of(soup_.facets); ++f)
             if (!has_repeated_vertex(soup_.facets[f]))
                 for (const std::int32_t v : soup_.facets[f])
-                    if (passes_[v] > 0) visit(v, static_cast<std::int32_t>(f));
+                    if (passes_[v] > 0) visit(v, f);
     };
     for_each([&](std::int32_t v, std::int32_t) { ++first_[v + 1]; });
     for (std::size_t v = 0; v < passes_.size(); ++v) first_[v + 1] += first_[v];
-    facets_.resize(static_cast<std::size_t>(first_.back()));
+    facets_.resize(first_.back());
     std::vector<std::int32_t> end(first_.begin(), first_.end() - 1);
     for_each([&](std::int32_t v, std::int32_t f) { facets_[end[v]++] = f; });
 }
@@ -191,9 +190,9 @@ std::span<const std::int32_t> OpenRims::facets_at(std::int32_t vertex) const {
 }
 
 std::int32_t RimOpening::edges() const {
-    std::size_t sum = 0;
-    for (const Rim* rim : rims) sum += rim->vertices.size();
-    return static_cast<std::int32_t>(sum);
+    std::int32_t sum = 0;
+    for (const Rim* rim : rims) sum += count_of(rim->vertices);
+    return sum;
 }
 
 double RimOpening::length() const {

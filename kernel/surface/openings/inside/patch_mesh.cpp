@@ -37,7 +37,7 @@ PatchMesh::PatchMesh(std::vector<Vec3> points, std::vector<Triangle> triangles,
     : points_(std::move(points)),
       triangles_(std::move(triangles)),
       taken_(std::move(taken)),
-      rim_count_(static_cast<std::int32_t>(points_.size())) {
+      rim_count_(count_of(points_)) {
     find_partners();
     find_sizes(rim_sizes);
 }
@@ -63,7 +63,7 @@ void PatchMesh::find_sizes(const std::vector<std::int32_t>& rim_sizes) {
 
 bool PatchMesh::is_within_rims() const {
     std::int32_t open = 0;
-    for (std::int32_t c = 0; c < static_cast<std::int32_t>(partner_.size()); ++c) {
+    for (std::int32_t c = 0; c < count_of(partner_); ++c) {
         const std::int32_t a = start(c), b = start(next_corner(c)), partner = partner_[c];
         const bool is_of_rim = a < rim_count_ && b < rim_count_ && next_[a] == b;
         if ((partner < 0) != is_of_rim || (partner >= 0 && start(partner) != b)) return false;
@@ -81,7 +81,7 @@ bool PatchMesh::spans_rims() const {
 
 std::vector<UndirectedEdge> PatchMesh::chords() const {
     std::vector<UndirectedEdge> found;
-    for (std::int32_t c = 0; c < static_cast<std::int32_t>(partner_.size()); ++c)
+    for (std::int32_t c = 0; c < count_of(partner_); ++c)
         if (c < partner_[c] && start(c) < rim_count_ && start(partner_[c]) < rim_count_)
             found.push_back(undirected(start(c), start(partner_[c])));
     return found;
@@ -99,7 +99,7 @@ void PatchMesh::refine(double growth) {
 
 bool PatchMesh::split_long(double growth) {
     constexpr double too_long = 4.0 / 3;
-    const auto before = static_cast<std::int32_t>(partner_.size());
+    const auto before = count_of(partner_);
     for (std::int32_t corner = 0; corner < before && count() < most_patch_points; ++corner) {
         if (corner > partner_[corner]) continue;  // of a rim, or looked at from the other side
         const std::int32_t a = start(corner), b = start(partner_[corner]);
@@ -107,7 +107,7 @@ bool PatchMesh::split_long(double growth) {
         const double length = along.norm(), size = (size_[a] + size_[b] + growth * length) / 2;
         if (length > too_long * size) split(corner, points_[a] + along / 2, size);
     }
-    return static_cast<std::int32_t>(partner_.size()) > before;
+    return count_of(partner_) > before;
 }
 
 void PatchMesh::link(std::int32_t a, std::int32_t b) {
@@ -121,7 +121,7 @@ void PatchMesh::split(std::int32_t corner, const Vec3& at, double size) {
     const std::int32_t p = start(previous_corner(corner)), q = start(previous_corner(other));
     const std::int32_t pa = partner_[previous_corner(corner)], aq = partner_[next_corner(other)];
     const std::int32_t qb = partner_[previous_corner(other)], bp = partner_[next_corner(corner)];
-    const auto w = static_cast<std::int32_t>(triangles_.size()), x = w + 1;
+    const auto w = count_of(triangles_), x = w + 1;
     points_.push_back(at);
     size_.push_back(size);
     triangles_[t] = {p, a, v};
@@ -138,7 +138,7 @@ void PatchMesh::split(std::int32_t corner, const Vec3& at, double size) {
 
 void PatchMesh::relax() {
     std::vector<std::int32_t> open(partner_.size());
-    for (std::size_t i = 0; i < open.size(); ++i) open[i] = static_cast<std::int32_t>(open.size() - 1 - i);
+    for (std::size_t i = 0; i < open.size(); ++i) open[i] = open.size() - 1 - i;
     // Flips in space may go round in circles, hence the limit.
     for (std::size_t left = 10 * open.size(); !open.empty() && left > 0;) {
         const std::int32_t corner = open.back();
@@ -203,14 +203,13 @@ void PatchMesh::smooth() {
         for (const std::int32_t v : t) ++first[v + 1];
     for (std::size_t v = 0; v < points_.size(); ++v) first[v + 1] += first[v];
     std::vector<std::int32_t> end(first.begin(), first.end() - 1);
-    for (std::size_t c = 0; c < partner_.size(); ++c)
-        around[end[start(static_cast<std::int32_t>(c))]++] = static_cast<std::int32_t>(c / 3);
+    for (std::int32_t c = 0; c < count_of(partner_); ++c) around[end[start(c)]++] = c / 3;
     for (std::int32_t v = rim_count_; v < count(); ++v) {
         const std::span<const std::int32_t> mine(around.data() + first[v], around.data() + first[v + 1]);
         Vec3 sum = Vec3::Zero();  // each neighbour twice
         for (const std::int32_t t : mine)
             for (const std::int32_t w : triangles_[t]) sum += points_[w] - points_[v];
-        const Vec3 to = points_[v] + sum / (2.0 * static_cast<double>(mine.size()));
+        const Vec3 to = points_[v] + sum / (2.0 * mine.size());
         if (keeps_sides(v, to, mine)) points_[v] = to;
     }
 }

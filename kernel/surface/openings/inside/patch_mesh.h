@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/types.h"
 
 namespace kerf {
@@ -39,7 +40,7 @@ class PatchMesh {
     const std::vector<Vec3>& points() const { return points_; }
     const std::vector<Triangle>& triangles() const { return triangles_; }
     std::int32_t rim_count() const { return rim_count_; }  ///< the number of points of rims, which come first
-    std::int32_t count() const { return static_cast<std::int32_t>(points_.size()); }
+    std::int32_t count() const { return count_of(points_); }
     void move(std::int32_t point, const Vec3& to) { points_[point] = to; }
 
     /// Returns the edges of triangles between two points of rims that are not edges of a rim.

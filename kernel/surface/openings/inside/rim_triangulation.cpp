@@ -24,7 +24,7 @@ std::vector<Triangle> span_in_plane(const std::vector<Vec3>& rim, const RimPlane
     std::vector<Vec3> flat;
     PolygonalFacet facet{{{}}, {}};
     for (const Vec3& p : rim) {
-        facet.polygons[0].push_back(static_cast<std::int64_t>(flat.size()));
+        facet.polygons[0].push_back(std::ssize(flat));
         flat.emplace_back(x.dot(p - plane.centre), y.dot(p - plane.centre), 0);
     }
     std::vector<Triangle> triangles = triangulate_facet(flat, facet).triangles;
@@ -57,10 +57,10 @@ std::vector<Triangle> span_divided(const std::vector<Vec3>& rim, const std::vect
         for (std::size_t k = from; k <= to; ++k) half.push_back(rim[k % n]);
         for (std::size_t k = from; k < to; ++k) beside.push_back(apexes[k % n]);
         beside.push_back(rim[((to + n / 8) % n)]);  // beyond the chord: a vertex of the other half
-        for (const Triangle& t : triangulate_rim(half, beside))
-            triangles.push_back({static_cast<std::int32_t>((from + static_cast<std::size_t>(t[0])) % n),
-                                 static_cast<std::int32_t>((from + static_cast<std::size_t>(t[1])) % n),
-                                 static_cast<std::int32_t>((from + static_cast<std::size_t>(t[2])) % n)});
+        for (Triangle t : triangulate_rim(half, beside)) {
+            for (std::int32_t& v : t) v = (from + v) % n;
+            triangles.push_back(t);
+        }
     }
     return triangles;
 }
@@ -69,7 +69,7 @@ std::vector<Triangle> span_divided(const std::vector<Vec3>& rim, const std::vect
 
 RimPlane rim_plane(const std::vector<Vec3>& rim) {
     RimPlane plane;
-    for (const Vec3& p : rim) plane.centre += p / static_cast<double>(rim.size());
+    for (const Vec3& p : rim) plane.centre += p / rim.size();
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < rim.size(); ++i)
         sum += (rim[i] - plane.centre).cross(rim[(i + 1) % rim.size()] - plane.centre);
@@ -111,11 +111,8 @@ std::vector<Triangle> triangulate_band(const std::vector<Vec3>& first, const std
         const double by_first = (first[next_a] - second[b]).squaredNorm();
         const double by_second = (first[a] - second[next_b]).squaredNorm();
         const bool goes_on_first = j == m || (i < n && by_first <= by_second);
-        const auto at_a = static_cast<std::int32_t>(a), at_b = static_cast<std::int32_t>(n + b);
-        if (goes_on_first)
-            triangles.push_back({at_a, static_cast<std::int32_t>(next_a), at_b});
-        else
-            triangles.push_back({at_a, static_cast<std::int32_t>(n + next_b), at_b});
+        const std::int32_t at_a = a, at_b = n + b, next = goes_on_first ? next_a : n + next_b;
+        triangles.push_back({at_a, next, at_b});
         (goes_on_first ? i : j) += 1;
     }
     return triangles;

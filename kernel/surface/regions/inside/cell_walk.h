@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "surface/regions/cells.h"
 
 namespace kerf {
@@ -19,9 +20,8 @@ class CellWalk {
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
         facets_.resize(2 * cells.sides.size());
         std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-        for (std::size_t f = 0; f < cells.sides.size(); ++f)
-            for (const std::int32_t cell : {cells.sides[f].front, cells.sides[f].back})
-                facets_[next[cell + 1]++] = static_cast<std::int32_t>(f);
+        for (std::int32_t f = 0; f < count_of(cells.sides); ++f)
+            for (const std::int32_t cell : {cells.sides[f].front, cells.sides[f].back}) facets_[next[cell + 1]++] = f;
     }
 
     /// Calls enter(from, facet, to) once for each bounded cell `to`, breadth first; `from` is the unbounded cell, -1,

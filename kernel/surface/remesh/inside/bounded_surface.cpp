@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "base/core/ids.h"
 #include "surface/remesh/remesh.h"
 #include "surface/soup/edge_corners.h"
 
@@ -28,19 +29,18 @@ BoundedSurface::BoundedSurface(const InputShape& input, const std::vector<char>&
         mesh_.data(v).tolerance = input.vertex_tolerance(v.idx());
         mesh_.data(v).input = v.idx();
     }
-    for (std::size_t f = 0; f < input.facets().size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(input.facets()); ++f) {
         const Triangle& t = input.facets()[f];
-        const auto number = static_cast<std::int32_t>(f);
         auto& data = mesh_.data(mesh_.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])));
-        data.patch = input.patch(number);
+        data.patch = input.patch(f);
         data.region = input.regions().of[f];
-        data.near = number;
-        data.is_wall = input.is_wall(number);
+        data.near = f;
+        data.is_wall = input.is_wall(f);
         data.is_kept = !kept.empty() && kept[f] != 0;
         if (data.is_kept)
             for (const std::int32_t v : t) mesh_.data(Vertex(v)).is_fixed = true;
         for (int i = 0; i < 3; ++i)
-            if (input.is_feature(3 * number + i))
+            if (input.is_feature(3 * f + i))
                 mesh_.data(mesh_.edge_between(Vertex(t[i]), Vertex(t[(i + 1) % 3]))).is_feature = true;
     }
     if (input.vertices().size() > input.sheets().vertices_before) find_seams();
@@ -59,8 +59,7 @@ void BoundedSurface::find_seams() {
         if (edges.size() > 1) mesh_.make_seam(std::move(edges));
     });
     std::vector<std::vector<Vertex>> copies(sheets.vertices_before);
-    for (std::size_t v = 0; v < sheets.original.size(); ++v)
-        copies[sheets.original[v]].push_back(Vertex(static_cast<int>(v)));
+    for (std::int32_t v = 0; v < count_of(sheets.original); ++v) copies[sheets.original[v]].push_back(Vertex(v));
     for (const std::vector<Vertex>& vertices : copies) {
         if (vertices.size() < 2) continue;
         const bool is_end = !is_on_line(vertices);
@@ -118,7 +117,7 @@ bool BoundedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
     for (std::size_t i = 0; i < along_.size(); ++i) {
         const Vertex end = mesh_.to_vertex_handle(along_[i]);
         const auto has_end = [&](HalfEdge other) { return mesh_.to_vertex_handle(other) == end; };
-        if (std::any_of(along_.begin(), along_.begin() + static_cast<std::ptrdiff_t>(i), has_end)) return false;
+        if (std::any_of(along_.begin(), along_.begin() + i, has_end)) return false;
         if (!may_collapse(along_[i], rules, stars_[i])) return false;
     }
     for (std::size_t i = 0; i < along_.size(); ++i) commit_collapse(along_[i], stars_[i]);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "surface/soup/edge_corners.h"
 
@@ -38,7 +39,7 @@ class RegionGrowth {
     void grow(std::int32_t seed) {
         FlatRegion plane = {twice_area_[seed].normalized(), 0, options_.tolerance(seed)};
         for (const std::int32_t v : facets_[seed]) plane.offset += plane.normal.dot(vertices_[v]) / 3;
-        const auto number = static_cast<std::int32_t>(regions_.planes.size());
+        const auto number = count_of(regions_.planes);
         regions_.of[seed] = number;
         open_ = {seed};
         while (!open_.empty()) {

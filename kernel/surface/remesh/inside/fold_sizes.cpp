@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/closest_point.h"
 
@@ -108,7 +109,7 @@ FoldSizes::FoldSizes(BoundedSurface& surface, const FoldSizeOptions& options) : 
                 sizes[v.idx()].shorten(std::max({chord_[fold], straight_length(e), options.shortest}),
                                        rule_of(chord_[fold], 0));
     for (const auto v : mesh.vertices()) {
-        options.check_cancelled.at(static_cast<std::size_t>(v.idx()));
+        options.check_cancelled.at(v.idx());
         double own_chord = infinite;
         for (const auto e : mesh.ve_range(v))
             if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);
@@ -140,7 +141,7 @@ void FoldSizes::find_folds(BoundedSurface& surface) {
     for (const auto e : surface.mesh().edges()) {
         const double chord = chord_over(surface.mesh(), e);
         if (chord >= options_.longest) continue;
-        const auto number = static_cast<std::int32_t>(segments.size());
+        const auto number = count_of(segments);
         surface.set_fold(e, number);
         chord_.push_back(chord);
         for (const auto v : {e.v0(), e.v1()}) ends_.push_back(surface.mesh().point(v));

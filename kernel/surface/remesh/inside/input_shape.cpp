@@ -14,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "surface/remesh/thickness.h"
@@ -63,7 +64,7 @@ void InputShape::find_features(double feature_angle_deg, std::vector<UndirectedE
     regions_ =
         find_flat_regions(vertices(), facets(), {.tolerance = flatness, .noise = noise_, .is_border = is_border});
     const double least_cosine = std::cos(feature_angle_deg * std::numbers::pi / 180);
-    for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(partner.size()); ++corner)
+    for (std::int32_t corner = 0; corner < count_of(partner); ++corner)
         feature_.push_back(is_border(corner) || normal(corner / 3).dot(normal(partner[corner] / 3)) < least_cosine);
 }
 
@@ -130,8 +131,8 @@ Tolerances find_tolerances(const SurfaceArrays& surface, const TriangleTree& tre
                            const std::vector<char>& walls, const CancellationCheck& check_cancelled) {
     const ToleranceFinder finder(surface, tree, rules, walls);
     Tolerances found;
-    for (std::int32_t f = 0; f < static_cast<std::int32_t>(surface.facets.size()); ++f) {
-        check_cancelled.at(static_cast<std::size_t>(f));
+    for (std::int32_t f = 0; f < count_of(surface.facets); ++f) {
+        check_cancelled.at(f);
         found.by_thickness.push_back(finder.by_thickness(f));
         found.of_facet.push_back(std::min(finder.by_gap(f), found.by_thickness.back()));
     }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "surface/remesh/remesh.h"
 
 namespace kerf {
@@ -25,12 +26,12 @@ double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c) {
 Vec3 area_normal(const SheetMesh::Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
 void SheetMesh::make_copies(std::vector<VertexHandle> vertices) {
-    for (const VertexHandle v : vertices) data(v).place = static_cast<std::int32_t>(places_.size());
+    for (const VertexHandle v : vertices) data(v).place = count_of(places_);
     places_.push_back(std::move(vertices));
 }
 
 void SheetMesh::make_seam(std::vector<EdgeHandle> edges) {
-    for (const EdgeHandle e : edges) data(e).seam = static_cast<std::int32_t>(seams_.size());
+    for (const EdgeHandle e : edges) data(e).seam = count_of(seams_);
     seams_.push_back(std::move(edges));
 }
 

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "base/core/ids.h"
 #include "base/geometry/union_find.h"
 #include "surface/soup/edge_corners.h"
 
@@ -12,11 +13,10 @@ namespace {
 // A fan is a set of corners at one vertex.
 UnionFind find_fans(const std::vector<std::int32_t>& partner) {
     UnionFind fans(partner.size());
-    for (std::size_t i = 0; i < partner.size(); ++i) {
-        const auto corner = static_cast<std::int32_t>(i);
-        if (partner[i] > corner) {
-            fans.join(corner, next_corner(partner[i]));
-            fans.join(next_corner(corner), partner[i]);
+    for (std::int32_t corner = 0; corner < count_of(partner); ++corner) {
+        if (partner[corner] > corner) {
+            fans.join(corner, next_corner(partner[corner]));
+            fans.join(next_corner(corner), partner[corner]);
         }
     }
     return fans;
@@ -43,20 +43,19 @@ Sheets take_apart(const SurfaceArrays& surface) {
     UnionFind fans = find_fans(sheets.partner);
     std::vector<char> has_fan(surface.vertices.size(), 0);
     std::vector<std::int32_t> vertex_of(sheets.partner.size());  // of a fan, by its smallest corner
-    for (std::size_t i = 0; i < vertex_of.size(); ++i) {
-        const auto corner = static_cast<std::int32_t>(i);
+    for (std::int32_t corner = 0; corner < count_of(vertex_of); ++corner) {
         const std::int32_t first = fans.root(corner), v = start_vertex(surface.facets, corner);
         if (first == corner) {
-            vertex_of[i] = v;
+            vertex_of[corner] = v;
             if (has_fan[v] != 0) {
-                vertex_of[i] = static_cast<std::int32_t>(sheets.original.size());
+                vertex_of[corner] = count_of(sheets.original);
                 sheets.surface.vertices.push_back(surface.vertices[v]);
                 sheets.surface.vertex_key.push_back(surface.vertex_key[v]);
                 sheets.original.push_back(v);
             }
             has_fan[v] = 1;
         }
-        sheets.surface.facets[i / 3][i % 3] = vertex_of[first];
+        sheets.surface.facets[corner / 3][corner % 3] = vertex_of[first];
     }
     return sheets;
 }

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "surface/remesh/inside/fold_sizes.h"
 
 namespace kerf {
@@ -105,10 +106,10 @@ void merge_features(BoundedSurface& surface, const std::function<void()>& check_
 class Refusals {
  public:
     bool knows(int element, std::int64_t last_change) const {
-        return element < static_cast<int>(changes_.size()) && last_change <= changes_[element];
+        return element < count_of(changes_) && last_change <= changes_[element];
     }
     void note(int element, std::int64_t changes) {
-        if (element >= static_cast<int>(changes_.size())) changes_.resize(element + 1, -1);
+        if (element >= count_of(changes_)) changes_.resize(element + 1, -1);
         changes_[element] = changes;
     }
     void clear() { changes_.clear(); }

@@ -33,7 +33,7 @@ constexpr double flat_share_of_diagonal = 1e-8;
 std::vector<FacetSides> sides_of_facets(const SurfaceArrays& surface, const std::vector<FacetSides>& sides) {
     std::vector<FacetSides> of_facets;
     if (sides.empty()) return of_facets;
-    for (const std::int32_t patch : surface.patch) of_facets.push_back(sides[static_cast<std::size_t>(patch)]);
+    for (const std::int32_t patch : surface.patch) of_facets.push_back(sides[patch]);
     return of_facets;
 }
 
@@ -41,7 +41,7 @@ std::vector<double> volumes_of(const SurfaceArrays& surface, const std::vector<F
     std::int32_t regions = 1;
     for (const FacetSides& s : sides) regions = std::max({regions, s.front + 1, s.back + 1});
     const std::vector<FacetSides> of_facets = sides_of_facets(surface, sides);
-    return region_volumes(surface.vertices, {surface.facets, {}, {}, {}, of_facets}, static_cast<std::size_t>(regions));
+    return region_volumes(surface.vertices, {surface.facets, {}, {}, {}, of_facets}, regions);
 }
 
 // The facets of a result with their faces, planes and heights as the input over them tells.

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
 #include "surface/arrange/winding_number.h"
@@ -124,7 +125,7 @@ class RegionMaker {
         std::vector<Triangle> counted;
         for (std::size_t i = 0; i < facets.size(); ++i) {
             if (times[i] < 0) std::swap(facets[i][1], facets[i][2]);
-            counted.insert(counted.end(), static_cast<std::size_t>(std::abs(times[i])), facets[i]);
+            counted.insert(counted.end(), std::abs(times[i]), facets[i]);
         }
         return counted.empty() ? 0 : enclosed_volume(soup_.vertices, counted);
     }
@@ -135,23 +136,23 @@ class RegionMaker {
         const auto found =
             std::lower_bound(begin, end, facet, [](const Member& m, std::int32_t f) { return m.facet < f; });
         if (found == end || found->facet != facet) return bodies_[body].winding.at(centroid);
-        return bodies_[body].winding.beside(static_cast<std::int32_t>(found - begin)) + sign * found->times / 2.0;
+        return bodies_[body].winding.beside(found - begin) + sign * found->times / 2.0;
     }
 
     // Returns the largest facets of each cell, which lies behind them or in front.
     std::vector<std::vector<std::int32_t>> samples_of_cells() const {
         constexpr std::size_t most_samples = 8;
         std::vector<std::vector<std::int32_t>> of(space_.cells.count);
-        for (std::size_t u = 0; u < space_.single.facets.size(); ++u) {
+        for (std::int32_t u = 0; u < count_of(space_.single.facets); ++u) {
             const auto [front, back] = space_.cells.sides[u];
             if (front == back) continue;
             for (const std::int32_t cell : {front, back})
-                if (cell >= 0) of[cell].push_back(static_cast<std::int32_t>(u));
+                if (cell >= 0) of[cell].push_back(u);
         }
         std::vector<double> area;
         for (const Triangle& t : space_.single.facets) area.push_back(triangle_area(soup_.vertices, t));
         for (std::vector<std::int32_t>& own : of) {
-            const auto last = own.begin() + static_cast<std::ptrdiff_t>(std::min(most_samples, own.size()));
+            const auto last = own.begin() + std::min(most_samples, own.size());
             std::partial_sort(own.begin(), last, own.end(), [&](std::int32_t f, std::int32_t g) {
                 return area[f] != area[g] ? area[f] > area[g] : f < g;
             });
@@ -239,7 +240,7 @@ GivenBodies find_bodies(const Soup& soup, const std::function<void()>& check_can
     std::vector<std::int32_t> number(pieces.count, -1);
     for (const std::int32_t piece : pieces.of) {
         if (number[piece] < 0) {
-            number[piece] = static_cast<std::int32_t>(bodies.names.size());
+            number[piece] = count_of(bodies.names);
             bodies.names.push_back(fmt::format("body_{}", bodies.names.size() + 1));
         }
         bodies.of_facet.push_back(number[piece]);

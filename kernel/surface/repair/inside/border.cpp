@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "surface/soup/edge_corners.h"
 
 namespace kerf {
@@ -28,10 +29,10 @@ Border::Border(const std::vector<Vec3>& vertices, const std::vector<Triangle>& f
     std::sort(corners_.begin(), corners_.end());
     for (const std::int32_t c : corners_)
         place_[start_vertex(facets, c)] = place_[start_vertex(facets, next_corner(c))] = 0;
-    for (std::size_t v = 0; v < place_.size(); ++v)
+    for (std::int32_t v = 0; v < count_of(place_); ++v)
         if (place_[v] == 0) {
-            place_[v] = static_cast<std::int32_t>(vertices_.size());
-            vertices_.push_back(static_cast<std::int32_t>(v));
+            place_[v] = count_of(vertices_);
+            vertices_.push_back(v);
         }
     collect_facets(is_left_out);
     collect_neighbours();
@@ -44,11 +45,11 @@ void Border::collect_facets(const std::vector<char>& is_left_out) {
         for (const std::int32_t v : facets_[f])
             if (place_[v] >= 0 && is_in(f)) ++first_facet_[place_[v] + 1];
     for (std::size_t i = 1; i < first_facet_.size(); ++i) first_facet_[i] += first_facet_[i - 1];
-    facets_at_.resize(static_cast<std::size_t>(first_facet_.back()));
+    facets_at_.resize(first_facet_.back());
     std::vector<std::int32_t> next(first_facet_.begin(), first_facet_.end() - 1);
-    for (std::size_t f = 0; f < facets_.size(); ++f)
+    for (std::int32_t f = 0; f < count_of(facets_); ++f)
         for (const std::int32_t v : facets_[f])
-            if (place_[v] >= 0 && is_in(f)) facets_at_[next[place_[v]]++] = static_cast<std::int32_t>(f);
+            if (place_[v] >= 0 && is_in(f)) facets_at_[next[place_[v]]++] = f;
 }
 
 void Border::collect_neighbours() {
@@ -62,7 +63,7 @@ void Border::collect_neighbours() {
     first_neighbour_.assign(vertices_.size() + 1, 0);
     for (const auto& [place, other] : ends) {
         neighbours_.push_back(other);
-        first_neighbour_[place + 1] = static_cast<std::int32_t>(neighbours_.size());
+        first_neighbour_[place + 1] = count_of(neighbours_);
     }
 }
 

@@ -13,6 +13,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/core/ids.h"
 #include "base/geometry/box_tree.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
@@ -200,13 +201,11 @@ void undo_useless(const std::vector<Triangle>& before, const std::vector<std::in
                           origin_of(end, old(c.corner / 3), representative));
     });
     std::vector<char> is_undone(representative.size(), 0);
-    for (std::size_t v = 0; v < representative.size(); ++v)
-        is_undone[v] = used.root(static_cast<std::int32_t>(v)) != used.root(representative[v]);
-    for (std::size_t f = 0; f < now.size(); ++f)
+    for (std::int32_t v = 0; v < count_of(representative); ++v)
+        is_undone[v] = used.root(v) != used.root(representative[v]);
+    for (std::int32_t f = 0; f < count_of(now); ++f)
         for (std::int32_t& v : now[f])
-            if (const std::int32_t origin = origin_of(v, old(static_cast<std::int32_t>(f)), representative);
-                is_undone[origin])
-                v = origin;
+            if (const std::int32_t origin = origin_of(v, old(f), representative); is_undone[origin]) v = origin;
     std::erase_if(merging.merged, [&](const VertexPair& pair) { return is_undone[pair.gone] != 0; });
 }
 

@@ -113,7 +113,7 @@ void BorderPointSearch::sort_points() {
 bool BorderPointSearch::turns(std::span<const SidePoint> points) const {
     const Triangle& facet = facets_[points[0].corner / 3];
     std::array<std::vector<std::int32_t>, 3> chains;
-    for (const SidePoint& point : points) chains[static_cast<std::size_t>(point.corner % 3)].push_back(point.vertex);
+    for (const SidePoint& point : points) chains[point.corner % 3].push_back(point.vertex);
     const auto corners = [&](const Triangle& t) {
         return std::array<Vec3, 3>{vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
     };
@@ -176,7 +176,7 @@ bool BorderPointSearch::drop_useless() {
     for (std::size_t i = 0, j = 0; i < all.size(); i = j) {
         while (j < all.size() && all[j].ends == all[i].ends) ++j;
         const bool is_point = all[i].ends[0] == all[i].ends[1];
-        const std::int64_t facets = static_cast<std::int64_t>(j - i) + (is_point ? 3 : count_facets(all[i].ends));
+        const std::int64_t facets = j - i + (is_point ? 3 : count_facets(all[i].ends));
         for (std::size_t k = i; k < j; ++k)
             for (const std::size_t point : {all[k].left, all[k].right})
                 if (point != no_point) (facets > 2 ? is_bad : is_useful)[point] |= facets >= 2;
@@ -203,7 +203,7 @@ bool BorderPointSearch::drop_folded() {
     for (std::size_t i = 0, j = 0; i < points_.size(); i = j) {
         std::array<std::vector<std::int32_t>, 3> chains;
         for (; j < points_.size() && points_[j].corner / 3 == points_[i].corner / 3; ++j)
-            chains[static_cast<std::size_t>(points_[j].corner % 3)].push_back(points_[j].vertex);
+            chains[points_[j].corner % 3].push_back(points_[j].vertex);
         for (const Triangle& piece : pieces_of(facets_[points_[i].corner / 3], chains)) add(piece, i, j);
         for (std::size_t k = i; k < j; ++k) {
             const auto at = border_.facets_at(points_[k].vertex);
@@ -223,8 +223,7 @@ bool BorderPointSearch::drop_folded() {
     for (std::size_t i = 1; i < faces.size(); ++i) {
         if (faces[i].sorted != faces[i - 1].sorted) continue;
         for (const Face& face : {faces[i - 1], faces[i]})
-            std::fill(drop.begin() + static_cast<std::ptrdiff_t>(face.first),
-                      drop.begin() + static_cast<std::ptrdiff_t>(face.last), char{1});
+            std::fill(drop.begin() + face.first, drop.begin() + face.last, char{1});
     }
     const bool is_any = std::find(drop.begin(), drop.end(), 1) != drop.end();
     drop_items(points_, drop);

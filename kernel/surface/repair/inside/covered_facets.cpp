@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "surface/arrange/winding_number.h"
 #include "surface/diagnosis/intersections.h"
 #include "surface/regions/divided_space.h"
@@ -36,8 +37,8 @@ std::optional<std::vector<SingleFate>> find_fates(const std::vector<Vec3>& verti
     const WindingNumber winding(vertices, single.facets, times);
     std::vector<SingleFate> fates(single.facets.size(), SingleFate::goes);
     bool is_any = false;
-    for (std::size_t u = 0; u < fates.size(); ++u) {
-        const double beside = winding.beside(static_cast<std::int32_t>(u));
+    for (std::int32_t u = 0; u < count_of(fates); ++u) {
+        const double beside = winding.beside(u);
         const double in_front = beside - times[u] / 2.0, behind = beside + times[u] / 2.0;
         if (std::min(in_front, behind) < -0.5) return {};
         if ((in_front > 0.5) == (behind > 0.5)) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "base/core/ids.h"
 #include "base/geometry/union_find.h"
 #include "surface/soup/edge_corners.h"
 #include "surface/soup/radial_order.h"
@@ -72,14 +73,13 @@ EdgePairs pair_facets(const std::vector<Vec3>& vertices, const std::vector<Trian
 
 std::vector<std::int32_t> find_fans(const std::vector<Triangle>& facets, const EdgePairs& pairs) {
     UnionFind fans(3 * facets.size());
-    for (std::size_t c = 0; c < pairs.partner.size(); ++c)
-        if (pairs.partner[c] > static_cast<std::int32_t>(c))
-            join_ends(facets, static_cast<std::int32_t>(c), pairs.partner[c], fans);
+    for (std::int32_t c = 0; c < count_of(pairs.partner); ++c)
+        if (pairs.partner[c] > c) join_ends(facets, c, pairs.partner[c], fans);
     for (const CrowdedEdge& edge : pairs.crowded)
         for (std::size_t i = 1; !edge.is_paired && i < edge.corners.size(); ++i)
             join_ends(facets, edge.corners[0], edge.corners[i], fans);
     std::vector<std::int32_t> root(3 * facets.size());
-    for (std::size_t c = 0; c < root.size(); ++c) root[c] = fans.root(static_cast<std::int32_t>(c));
+    for (std::int32_t c = 0; c < count_of(root); ++c) root[c] = fans.root(c);
     return root;
 }
 

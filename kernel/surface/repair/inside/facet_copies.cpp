@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <span>
 
+#include "base/core/ids.h"
 #include "base/geometry/union_find.h"
 #include "surface/diagnosis/superfluous_facets.h"
 #include "surface/soup/edge_corners.h"
@@ -18,7 +19,7 @@ namespace {
 
 // Whether both put the same three vertices in the same sense of rotation.
 bool have_same_turn(const Triangle& s, const Triangle& t) {
-    const auto first = static_cast<std::size_t>(std::find(t.begin(), t.end(), s[0]) - t.begin());
+    const auto first = std::find(t.begin(), t.end(), s[0]) - t.begin();
     return t[(first + 1) % 3] == s[1];
 }
 
@@ -40,14 +41,14 @@ class CopyJudge {
     CopyJudge(const std::vector<Triangle>& facets, const std::vector<FacetCopies>& copies, bool with_walls)
         : facets_(facets), copies_(copies), with_walls_(with_walls), group_of_(facets.size(), -1) {
         std::vector<char> is_surplus(facets.size(), 0);
-        for (std::size_t g = 0; g < copies.size(); ++g) {
-            group_of_[copies[g].facets[0]] = static_cast<std::int32_t>(g);
+        for (std::int32_t g = 0; g < count_of(copies); ++g) {
+            group_of_[copies[g].facets[0]] = g;
             for (std::size_t i = 1; i < copies[g].facets.size(); ++i) is_surplus[copies[g].facets[i]] = 1;
         }
-        for (std::size_t f = 0; f < facets.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(facets); ++f) {
             if (is_surplus[f]) continue;
             single_.push_back(facets[f]);
-            number_.push_back(static_cast<std::int32_t>(f));
+            number_.push_back(f);
         }
     }
 
@@ -91,7 +92,7 @@ class CopyJudge {
             const std::vector<std::int32_t>& all = copies_[g].facets;
             const auto same = std::count_if(
                 all.begin(), all.end(), [&](std::int32_t f) { return have_same_turn(facets_[all[0]], facets_[f]); });
-            cancels[g] = 2 * same == static_cast<std::ptrdiff_t>(all.size());
+            cancels[g] = 2 * same == std::ssize(all);
             for (const std::int32_t f : all) is_cancelling[f] = cancels[g];
         }
         const EdgeCorners edges(facets_);
@@ -115,7 +116,7 @@ class CopyJudge {
         return cancels;
     }
     std::vector<CopySheet> measure(const EdgeCorners& edges, const Components& sheet_of) const {
-        std::vector<CopySheet> sheets(static_cast<std::size_t>(sheet_of.count));
+        std::vector<CopySheet> sheets(sheet_of.count);
         for (std::size_t g = 0; g < copies_.size(); ++g) {
             CopySheet& sheet = sheets[sheet_of.of[g]];
             ++sheet.groups;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 
 namespace kerf {
 
@@ -27,8 +28,8 @@ void divide_piece(std::vector<Triangle>& pieces, std::size_t piece, const std::v
         last = v;
     }
     fan.push_back({last, b, apex});
-    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(piece));
-    pieces.insert(pieces.begin() + static_cast<std::ptrdiff_t>(piece), fan.begin(), fan.end());
+    pieces.erase(pieces.begin() + piece);
+    pieces.insert(pieces.begin() + piece, fan.begin(), fan.end());
 }
 
 }  // namespace
@@ -72,16 +73,16 @@ std::vector<std::int32_t> divide_at(Soup& soup, std::vector<SidePoint> points) {
     patch.reserve(facets.capacity());
     polygon.reserve(facets.capacity());
     auto point = points.begin();
-    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(soup.facets); ++f) {
         std::array<std::vector<std::int32_t>, 3> chains;
-        const auto corner = static_cast<std::int32_t>(3 * f);
+        const std::int32_t corner = 3 * f;
         for (; point != points.end() && point->corner < corner + 3; ++point)
-            chains[static_cast<std::size_t>(point->corner - corner)].push_back(point->vertex);
+            chains[point->corner - corner].push_back(point->vertex);
         for (const Triangle& piece : pieces_of(soup.facets[f], chains)) {
             facets.push_back(piece);
             patch.push_back(soup.patch[f]);
             polygon.push_back(soup.polygon[f]);
-            parent.push_back(static_cast<std::int32_t>(f));
+            parent.push_back(f);
         }
     }
     soup.facets = std::move(facets);

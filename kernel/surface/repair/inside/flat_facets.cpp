@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/core/ids.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/union_find.h"
 #include "surface/soup/edge_corners.h"
@@ -18,11 +19,11 @@ class FlatLines {
  public:
     FlatLines(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets)
         : vertices_(vertices), facets_(facets), place_(facets.size(), -1) {
-        for (std::size_t f = 0; f < facets.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(facets); ++f) {
             const auto [a, b, c] = facets[f];
             if (!are_collinear(vertices[a], vertices[b], vertices[c])) continue;
-            place_[f] = static_cast<std::int32_t>(found_.facets.size());
-            found_.facets.push_back(static_cast<std::int32_t>(f));
+            place_[f] = count_of(found_.facets);
+            found_.facets.push_back(f);
         }
     }
 
@@ -49,7 +50,7 @@ class FlatLines {
     // The vertices of each line, each once.
     void collect(const Components& lines) {
         line_of_ = lines.of;
-        on_line_.resize(static_cast<std::size_t>(lines.count));
+        on_line_.resize(lines.count);
         for (std::size_t i = 0; i < found_.facets.size(); ++i)
             for (const std::int32_t v : facets_[found_.facets[i]]) on_line_[line_of_[i]].push_back(v);
         for (std::vector<std::int32_t>& all : on_line_) {

@@ -9,7 +9,7 @@ namespace {
 bool can_be_taken_out(const Defect& defect, double most_edges) {
     switch (defect.kind) {
         case DefectKind::open_edge:
-            return static_cast<double>(defect.vertices.size()) <= most_edges;
+            return defect.vertices.size() <= most_edges;
         case DefectKind::degenerate_facet:
         case DefectKind::duplicate_facet:
         case DefectKind::non_manifold_edge:

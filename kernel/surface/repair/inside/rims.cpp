@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/union_find.h"
 #include "surface/regions/region_finder.h"
 #include "surface/soup/edge_corners.h"
@@ -12,8 +13,8 @@ namespace kerf {
 
 std::vector<std::vector<std::int32_t>> Rims::facets_of_pieces() const {
     std::vector<std::vector<std::int32_t>> facets(pieces.size());
-    for (std::size_t p = 0; p < pieces.size(); ++p) facets[p].reserve(static_cast<std::size_t>(pieces[p].facets));
-    for (std::size_t f = 0; f < piece_of.size(); ++f) facets[piece_of[f]].push_back(static_cast<std::int32_t>(f));
+    for (std::size_t p = 0; p < pieces.size(); ++p) facets[p].reserve(pieces[p].facets);
+    for (std::int32_t f = 0; f < count_of(piece_of); ++f) facets[piece_of[f]].push_back(f);
     return facets;
 }
 
@@ -27,7 +28,7 @@ Rims find_rims(const std::vector<Triangle>& facets) {
     });
     Components components = sets.take();
     rims.piece_of = std::move(components.of);
-    rims.pieces.resize(static_cast<std::size_t>(components.count));
+    rims.pieces.resize(components.count);
     for (const std::int32_t piece : rims.piece_of) ++rims.pieces[piece].facets;
     edges.for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
         RimPiece& piece = rims.pieces[rims.piece_of[corners[0].corner / 3]];
@@ -63,8 +64,7 @@ CompactFacets make_compact(const std::vector<Vec3>& vertices, const std::vector<
     compact.facets = facets;
     for (Triangle& t : compact.facets)
         for (std::int32_t& v : t)
-            v = static_cast<std::int32_t>(std::lower_bound(compact.vertex.begin(), compact.vertex.end(), v) -
-                                          compact.vertex.begin());
+            v = std::lower_bound(compact.vertex.begin(), compact.vertex.end(), v) - compact.vertex.begin();
     return compact;
 }
 

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "base/core/drop_items.h"
+#include "base/core/ids.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/predicates.h"
 #include "surface/diagnosis/intersections.h"
@@ -109,7 +110,7 @@ class FanSeparator {
     std::int32_t add_vertex(const Vec3& point, std::int32_t number) {
         soup_.vertices.push_back(point);
         soup_.vertex_number.push_back(number);
-        return static_cast<std::int32_t>(soup_.vertices.size()) - 1;
+        return count_of(soup_.vertices) - 1;
     }
 
     Soup& soup_;
@@ -132,18 +133,16 @@ void FanSeparator::find_fans_to_copy() {
     const std::vector<std::int32_t> root = find_fans(soup_.facets, pairs_);
     std::vector<std::int32_t> first(soup_.vertices.size(), -1);
     std::vector<char> has_many(soup_.vertices.size(), 0), is_open(soup_.vertices.size(), 0);
-    for (std::size_t c = 0; c < root.size(); ++c) {
-        const auto corner = static_cast<std::int32_t>(c);
+    for (std::int32_t corner = 0; corner < count_of(root); ++corner) {
         const std::int32_t v = vertex(corner);
-        if (first[v] < 0) first[v] = root[c];
-        has_many[v] |= first[v] != root[c];
-        if (pairs_.is_open[c]) is_open[v] = is_open[vertex(next_corner(corner))] = 1;
+        if (first[v] < 0) first[v] = root[corner];
+        has_many[v] |= first[v] != root[corner];
+        if (pairs_.is_open[corner]) is_open[v] = is_open[vertex(next_corner(corner))] = 1;
     }
     for (std::size_t v = 0; at_openings_ && v < has_many.size(); ++v) has_many[v] &= is_open[v];
     std::vector<std::array<std::int32_t, 3>> corners;
-    for (std::size_t c = 0; c < root.size(); ++c)
-        if (const std::int32_t v = vertex(static_cast<std::int32_t>(c)); has_many[v])
-            corners.push_back({v, root[c], static_cast<std::int32_t>(c)});
+    for (std::int32_t c = 0; c < count_of(root); ++c)
+        if (const std::int32_t v = vertex(c); has_many[v]) corners.push_back({v, root[c], c});
     std::sort(corners.begin(), corners.end());
     std::vector<TouchingFan> at_vertex;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -324,13 +323,12 @@ void FanSeparator::divide(std::vector<EdgeMiddle> middles) {
     });
     number_vertices(soup_);
     const std::int32_t number = *std::max_element(soup_.vertex_number.begin(), soup_.vertex_number.end()) + 1;
-    const auto old_count = static_cast<std::int32_t>(soup_.vertices.size());
+    const auto old_count = count_of(soup_.vertices);
     for (int attempt = 0; attempt < most_separation_rounds && !middles.empty(); ++attempt) {
         Soup trial{soup_.vertices, soup_.facets, soup_.patch, {}};
         std::vector<SidePoint> points;
         for (const EdgeMiddle& middle : middles) {
-            for (const std::int32_t c : middle.corners)
-                points.push_back({c, 0, static_cast<std::int32_t>(trial.vertices.size())});
+            for (const std::int32_t c : middle.corners) points.push_back({c, 0, count_of(trial.vertices)});
             trial.vertices.push_back(middle.point);
         }
         divide_at(trial, points);
@@ -344,8 +342,7 @@ void FanSeparator::divide(std::vector<EdgeMiddle> middles) {
                     if (v >= old_count) crosses[v - old_count] = 1;
         if (std::find(crosses.begin(), crosses.end(), 1) == crosses.end()) {
             for (const EdgeMiddle& middle : middles) opened_.add(place(middle.corners[0], middle.move));
-            for (std::size_t i = 0; i < middles.size(); ++i)
-                add_vertex(middles[i].point, number + static_cast<std::int32_t>(i));
+            for (std::int32_t i = 0; i < count_of(middles); ++i) add_vertex(middles[i].point, number + i);
             divide_at(soup_, points);
             return;
         }

@@ -77,7 +77,7 @@ std::int32_t SizedTriangles::middle(std::int32_t first, std::int32_t last) const
     const auto [low, high] =
         std::equal_range(begin + first, begin + last, triangles_[half],
                          [](const SizedTriangle& s, const SizedTriangle& t) { return s.reach < t.reach; });
-    const auto below = static_cast<std::int32_t>(low - begin), above = static_cast<std::int32_t>(high - begin);
+    const std::int32_t below = low - begin, above = high - begin;
     return above == last || (below > first && half - below <= above - half) ? below : above;
 }
 

@@ -7,6 +7,7 @@
 #include <CGAL/alpha_wrap_3.h>
 
 #include "base/core/cancellation.h"
+#include "base/core/ids.h"
 
 namespace kerf {
 
@@ -54,7 +55,7 @@ TriangleSet alpha_wrap(const TriangleSet& input, double radius, double offset,
     wrap.facets.reserve(mesh.number_of_faces());
     std::vector<std::int32_t> number(mesh.num_vertices(), -1);
     for (const auto v : mesh.vertices()) {
-        number[v] = static_cast<std::int32_t>(wrap.vertices.size());
+        number[v] = count_of(wrap.vertices);
         const WrapKernel::Point_3& p = mesh.point(v);
         wrap.vertices.emplace_back(p.x(), p.y(), p.z());
     }

@@ -16,6 +16,7 @@
 #include <Eigen/LU>
 
 #include "base/core/cancellation.h"
+#include "base/core/ids.h"
 #include "base/core/mixed_bits.h"
 #include "base/geometry/triangle.h"
 #include "surface/diagnosis/intersections.h"
@@ -88,9 +89,8 @@ class WrapPullback {
         const Vec3 way = to - start;
         const double length = way.norm(), least = least_thickness * offset_, far = 3 * length + least;
         const Vec3 direction = length > 0 ? Vec3(way / length) : Vec3::Zero();
-        const double thickness = wrap_.first_hit(start, direction, beside * offset_, far, [&](std::int32_t f) {
-            return wrap_normal_[static_cast<std::size_t>(f)].dot(direction) > 0;
-        });
+        const double thickness = wrap_.first_hit(start, direction, beside * offset_, far,
+                                                 [&](std::int32_t f) { return wrap_normal_[f].dot(direction) > 0; });
         const double most = std::max(0.0, (std::min(thickness, far) - least) / 2);
         is_free_.push_back(most >= length);
         target_.push_back(most >= length ? to : Vec3(start + most * direction));
@@ -100,11 +100,11 @@ class WrapPullback {
     template <std::size_t count>
     static Vec3 common_point(const std::array<Vec3, count>& normals, const std::array<Vec3, count>& points,
                              const Vec3& centre) {
-        Eigen::Matrix<double, static_cast<int>(count), 3> planes;
-        Eigen::Matrix<double, static_cast<int>(count), 1> heights;
+        Eigen::Matrix<double, count, 3> planes;
+        Eigen::Matrix<double, count, 1> heights;
         for (std::size_t i = 0; i < count; ++i) {
-            planes.row(static_cast<int>(i)) = normals[i].transpose();
-            heights[static_cast<int>(i)] = normals[i].dot(points[i] - centre);
+            planes.row(i) = normals[i].transpose();
+            heights[i] = normals[i].dot(points[i] - centre);
         }
         return centre + planes.transpose() * (planes * planes.transpose()).inverse() * heights;
     }
@@ -144,7 +144,7 @@ class WrapPullback {
         start_.push_back(start);
         normal_.push_back(normal.normalized());
         add_target(start, target);
-        return static_cast<std::int32_t>(start_.size()) - 1;
+        return count_of(start_) - 1;
     }
 
     void divide_edges() {
@@ -216,8 +216,7 @@ class WrapPullback {
         std::vector<char> is_flipped(facets_.size(), 0);
         const std::vector<std::int32_t> partner = edge_partners(facets_);
         std::vector<UndirectedEdge> edges;
-        for (std::size_t c = 0; c < partner.size(); ++c) {
-            const auto corner = static_cast<std::int32_t>(c);
+        for (std::int32_t corner = 0; corner < count_of(partner); ++corner) {
             edges.push_back(undirected(start_vertex(facets_, corner), start_vertex(facets_, next_corner(corner))));
         }
         std::sort(edges.begin(), edges.end());
@@ -239,7 +238,7 @@ class WrapPullback {
             if (!is_better(t, facets_[g], first, second)) continue;
             facets_[f] = first;
             facets_[g] = second;
-            is_flipped[f] = is_flipped[static_cast<std::size_t>(g)] = 1;
+            is_flipped[f] = is_flipped[g] = 1;
         }
         return is_flipped;
     }
@@ -267,7 +266,7 @@ class WrapPullback {
 
     std::vector<Vec3> positions() const {
         std::vector<Vec3> all(start_.size());
-        for (std::size_t v = 0; v < all.size(); ++v) all[v] = position(static_cast<std::int32_t>(v));
+        for (std::int32_t v = 0; v < count_of(all); ++v) all[v] = position(v);
         return all;
     }
 
@@ -312,7 +311,7 @@ class WrapPullback {
             for (const std::int32_t v : facets_[f]) changed[v] = held_[v] < held_back;
         }
         for (std::size_t v = 0; v < changed.size(); ++v)
-            if (changed[v]) held_[v] = static_cast<char>(std::min<int>(held_back, held_[v] + steps));
+            if (changed[v]) held_[v] = std::min<int>(held_back, held_[v] + steps);
         return changed;
     }
 
@@ -335,14 +334,14 @@ class WrapPullback {
                 for (const std::int32_t v : facets_[f]) {
                     if (!is_released[v]) continue;
                     is_released[v] = 0;
-                    held_[v] = held[static_cast<std::size_t>(v)];
+                    held_[v] = held[v];
                     is_good = false;
                 }
             };
             const std::vector<Vec3> now = positions();
             for (const auto& [f, g] : find_intersections_of(chosen, now, facets_, most_pairs)) {
-                hold_again(static_cast<std::size_t>(f));
-                hold_again(static_cast<std::size_t>(g));
+                hold_again(f);
+                hold_again(g);
             }
             for (std::size_t f = 0; f < facets_.size(); ++f)
                 if (chosen[f] && has_any(facets_[f], is_released) && is_spoilt(now, facets_[f])) hold_again(f);
@@ -356,7 +355,7 @@ class WrapPullback {
     // Leaves no two on one facet, by an order that is another one each round.
     void keep_independent(std::vector<char>& is_chosen, std::uint64_t round) const {
         const auto rank = [&](std::int32_t v) {
-            return held_[v] > 0 ? std::pair(mixed_bits(static_cast<std::uint64_t>(v) ^ (round << 40)), v)
+            return held_[v] > 0 ? std::pair(mixed_bits(v ^ (round << 40)), v)
                                 : std::pair(std::numeric_limits<std::uint64_t>::max(), v);
         };
         for (const Triangle& t : facets_)
