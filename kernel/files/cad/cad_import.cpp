@@ -20,6 +20,7 @@
 #include <Standard_Failure.hxx>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "files/cad/inside/assembly_mesher.h"
 #include "files/cad/inside/body_mesher.h"
 #include "files/cad/inside/contact.h"
@@ -91,12 +92,12 @@ using cad::Tessellation;
 }
 
 void select_solid(Model& model, std::int32_t number, const std::string& path) {
-    const auto count = static_cast<std::int32_t>(model.bodies.size());
+    const auto count = count_of(model.bodies);
     if (number > std::max(count, 1))
-        throw Error(ErrorCode::usage, fmt::format("--solid is {}, but {} has {}.", number, path,
-                                                  counted(static_cast<std::size_t>(count), "solid", "solids")));
+        throw Error(ErrorCode::usage,
+                    fmt::format("--solid is {}, but {} has {}.", number, path, counted(count, "solid", "solids")));
     if (count == 0) return;
-    Body chosen = std::move(model.bodies[static_cast<std::size_t>(number) - 1]);
+    Body chosen = std::move(model.bodies[number - 1]);
     model.notes.push_back(fmt::format("Solid {} of {}: {}.", number, count, chosen.name));
     model.bodies.clear();
     model.bodies.push_back(std::move(chosen));
@@ -117,8 +118,8 @@ void close_body(Body& body, Model& model, const std::string& path) {
         refuse(path,
                fmt::format("'{}' is open: {} of one face only, of {}, the first at {}. Close it in the CAD program "
                            "and export a solid.",
-                           body.name, counted(static_cast<std::size_t>(free.count), "edge", "edges"),
-                           names_of(free.patches, model.patches), place_text(free.where)),
+                           body.name, counted(free.count, "edge", "edges"), names_of(free.patches, model.patches),
+                           place_text(free.where)),
                SolidDefect::open);
     model.notes.push_back(
         fmt::format("The faces of '{}' were sewn within {:.3g} mm.", body.name, *share * cad::diagonal_of(body.shape)));
@@ -129,9 +130,8 @@ void make_bodies(Model& model, const CadOptions& options, const std::string& pat
     if (model.bodies.empty()) {
         model.bodies.push_back(std::move(model.loose));
     } else if (const int loose = model.loose.patch_of.Extent(); loose > 0 && options.solid == 0) {
-        model.notes.push_back(fmt::format("{} of no solid {} ignored.",
-                                          counted(static_cast<std::size_t>(loose), "face", "faces"),
-                                          loose == 1 ? "was" : "were"));
+        model.notes.push_back(
+            fmt::format("{} of no solid {} ignored.", counted(loose, "face", "faces"), loose == 1 ? "was" : "were"));
     }
     for (Body& body : model.bodies) close_body(body, model, path);
     if (!options.unite || model.bodies.size() < 2) return;
@@ -144,7 +144,7 @@ void make_bodies(Model& model, const CadOptions& options, const std::string& pat
 }
 
 void append(Soup& soup, const Tessellation& mesh) {
-    const auto shift = static_cast<std::int32_t>(soup.vertices.size());
+    const auto shift = count_of(soup.vertices);
     soup.vertices.insert(soup.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const Triangle& t : mesh.facets) soup.facets.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
     soup.patch.insert(soup.patch.end(), mesh.patch.begin(), mesh.patch.end());
@@ -165,7 +165,7 @@ Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::str
     Bodies all;
     for (Body& body : model.bodies) {
         const MeshedBody meshed = cad::mesh_body(body, model, path, options, may_balance);
-        all.first_facet.push_back(static_cast<std::int32_t>(all.soup.facets.size()));
+        all.first_facet.push_back(count_of(all.soup.facets));
         append(all.soup, meshed.facets);
         all.volume += meshed.facets.volume;
         all.exact_volume += meshed.exact_volume;
@@ -198,7 +198,7 @@ Bodies to_bodies(const Assembly& assembly, cad::MeshedAssembly meshed, Model& mo
         all.exact_volume += assembly.volumes[r];
     }
     model.notes.push_back(fmt::format("Solids touch: they are {} regions that share {}.", assembly.volumes.size(),
-                                      counted(static_cast<std::size_t>(assembly.wall_faces), "face", "faces")));
+                                      counted(assembly.wall_faces, "face", "faces")));
     if (assembly.tolerance > 0)
         model.notes.push_back(fmt::format("Faces within {:.3g} mm were taken as one.", assembly.tolerance));
     model.patches = assembly.patches;
@@ -224,9 +224,9 @@ std::optional<cad::Contact> contact_of(const Bodies& all) {
     if (all.first_facet.size() < 2) return {};
     const auto pairs = find_self_intersections(all.soup.vertices, all.soup.facets, 1);
     if (pairs.empty()) return {};
-    const auto body_of = [&](std::int32_t facet) {
+    const auto body_of = [&](std::int32_t facet) -> std::size_t {
         const auto next = std::upper_bound(all.first_facet.begin(), all.first_facet.end(), facet);
-        return static_cast<std::size_t>(next - all.first_facet.begin() - 1);
+        return next - all.first_facet.begin() - 1;
     };
     const auto [f, g] = pairs.front();
     return cad::Contact{{body_of(f), body_of(g)}, all.soup.vertices[all.soup.facets[f][0]]};
@@ -236,8 +236,8 @@ std::optional<cad::Contact> contact_of(const Bodies& all) {
 void take_nested(Bodies& all, Model& model) {
     if (all.volumes.size() < 2) return;
     std::vector<std::int32_t> body_of_facet(all.soup.facets.size());
-    for (std::size_t b = 0; b < all.first_facet.size(); ++b)
-        std::fill(body_of_facet.begin() + all.first_facet[b], body_of_facet.end(), static_cast<std::int32_t>(b));
+    for (std::int32_t b = 0; b < count_of(all.first_facet); ++b)
+        std::fill(body_of_facet.begin() + all.first_facet[b], body_of_facet.end(), b);
     std::vector<std::string> names;
     for (const Body& body : model.bodies) names.push_back(body.name);
     Soup bodies = all.soup;
@@ -284,7 +284,7 @@ void set_patches(Soup& soup, const std::vector<cad::Patch>& patches) {
     std::map<std::string, std::int32_t> number_of_name;
     for (std::size_t p = 0; p < patches.size(); ++p) {
         if (number[p] < 0) continue;
-        const auto next = static_cast<std::int32_t>(soup.patch_names.size());
+        const auto next = count_of(soup.patch_names);
         number[p] = number_of_name.try_emplace(patches[p].name, next).first->second;
         if (number[p] != next) continue;
         soup.patch_names.push_back(patches[p].name);
@@ -309,8 +309,7 @@ std::string description(const CadBody& body) {
     const std::string unit =
         body.file_unit.empty() ? "no unit" : fmt::format("unit {} -> {}", body.file_unit, body.unit);
     return fmt::format("{}: {}, {}, {}; volume {:.6g}, the facets hold {:+.2g} %.", body.format, unit,
-                       counted(static_cast<std::size_t>(body.solids), "solid", "solids"),
-                       counted(static_cast<std::size_t>(body.faces), "face", "faces"), body.exact_volume,
+                       counted(body.solids, "solid", "solids"), counted(body.faces, "face", "faces"), body.exact_volume,
                        100 * (body.volume - body.exact_volume) / body.exact_volume);
 }
 
@@ -335,8 +334,8 @@ ImportedModel import_model(Model model, const CadOptions& options, const std::st
     set_patches(result.soup, model.patches);
     drop_unused_vertices(result.soup);
     result.soup.vertex_number.clear();  // the file has no vertices of facets
-    result.solids = static_cast<std::int32_t>(model.bodies.size());
-    result.faces = static_cast<std::int32_t>(result.soup.patch_names.size());
+    result.solids = count_of(model.bodies);
+    result.faces = count_of(result.soup.patch_names);
     convert(result, options.unit);
     result.soup.is_of_model = true;
     result.soup.notes = {description(result)};

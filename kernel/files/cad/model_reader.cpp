@@ -38,6 +38,7 @@
 #include <XCAFDoc_ShapeTool.hxx>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 
 namespace kerf::cad {
 
@@ -51,7 +52,7 @@ class FileInMemory {
         while (!content.empty()) {
             const ssize_t n = ::write(descriptor_, content.data(), content.size());
             if (n <= 0) throw Error(ErrorCode::io, "A copy of the CAD file in memory cannot be made.");
-            content.remove_prefix(static_cast<std::size_t>(n));
+            content.remove_prefix(n);
         }
     }
     FileInMemory(const FileInMemory&) = delete;
@@ -97,7 +98,7 @@ std::string name_of(const TDF_Label& label) {
     Handle(TDataStd_Name) attribute;
     if (label.IsNull() || !label.FindAttribute(TDataStd_Name::GetID(), attribute)) return "";
     const TCollection_ExtendedString& wide = attribute->Get();
-    std::string text(static_cast<std::size_t>(wide.LengthOfCString()) + 1, '\0');
+    std::string text(wide.LengthOfCString() + 1, '\0');
     Standard_PCharacter begin = text.data();
     wide.ToUTF8CString(begin);
     text.resize(text.find('\0'));
@@ -116,7 +117,7 @@ Colour colour_of(const Quantity_Color& linear) {
     double rgb[3];
     linear.Values(rgb[0], rgb[1], rgb[2], Quantity_TOC_sRGB);
     Colour colour = {0, 0, 0, 255};
-    for (std::size_t i = 0; i < 3; ++i) colour[i] = static_cast<std::uint8_t>(std::lround(255 * rgb[i]));
+    for (std::size_t i = 0; i < 3; ++i) colour[i] = std::lround(255 * rgb[i]);
     return colour;
 }
 
@@ -156,7 +157,7 @@ class ModelBuilder {
         TopExp::MapShapes(solid, TopAbs_FACE, faces);
         TopExp::MapShapes(body.shape, TopAbs_FACE, placed);
         for (int i = 1; i <= faces.Extent(); ++i) {
-            body.patch_of.Bind(placed(i), static_cast<std::int32_t>(model_.patches.size()));
+            body.patch_of.Bind(placed(i), count_of(model_.patches));
             model_.patches.push_back({fmt::format("{}/face {}", name, i), colour(faces(i), solid)});
         }
         return body;
@@ -178,7 +179,7 @@ class ModelBuilder {
             const TopoDS_Shape face = faces(i).Moved(place);
             if (model_.loose.patch_of.IsBound(face)) continue;
             BRep_Builder().Add(model_.loose.shape, face);
-            model_.loose.patch_of.Bind(face, static_cast<std::int32_t>(model_.patches.size()));
+            model_.loose.patch_of.Bind(face, count_of(model_.patches));
             model_.patches.push_back({fmt::format("{}/face {}", model_.loose.name, model_.loose.patch_of.Extent()),
                                       colour(faces(i), shape)});
         }

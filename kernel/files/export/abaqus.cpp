@@ -62,7 +62,7 @@ void write_coordinate(ExportFile& file, double x) {
     char* end = std::to_chars(begin, begin + text.size(), x).ptr;
     for (int precision = 15; end - begin > most_digits; --precision)
         end = std::to_chars(begin, begin + text.size(), x, std::chars_format::scientific, precision).ptr;
-    file.write({begin, static_cast<std::size_t>(end - begin)});
+    file.write(std::string_view(begin, end));
 }
 
 void write_nodes(const PartSource& parts, ExportFile& file) {

@@ -125,7 +125,7 @@ class Hdf5Piece {
             for (const std::int32_t v : cell) corners.put(v);
             types.put(type);
             offsets.put(offset);
-            offset += static_cast<Index>(cell.size());
+            offset += cell.size();
         };
         const bool is_linear = part_.order() == 1;
         for (std::int64_t t = 0; t < part_.tet_count(); ++t)
@@ -204,16 +204,16 @@ class Hdf5Piece {
         Hdf5Rows<Id> cells(file_, "viz/topology/cells", outline_.first_tet(index_));
         Hdf5Rows<Id> facets(file_, "viz/topology/facets", outline_.first_patch_facet(index_));
         for (const Tetrahedron& tet : part_.mesh.tets)
-            for (const std::int64_t id : global_corners(part_, tet)) cells.put(static_cast<Id>(id));
+            for (const std::int64_t id : global_corners(part_, tet)) cells.put(id);
         for_each_patch_facet(part_, [&](std::size_t f) {
-            for (const std::int64_t id : nodes_of_facet(part_, f)) facets.put(static_cast<Id>(id));
+            for (const std::int64_t id : nodes_of_facet(part_, f)) facets.put(id);
         });
         cells.flush();
         facets.flush();
         if (part_.order() == 1) return;
         Hdf5Rows<Id> nodes(file_, nodes_array(outline_), outline_.first_tet(index_));
         for (std::int64_t t = 0; t < part_.tet_count(); ++t)
-            for (const std::int64_t id : nodes_of_tet(part_, t)) nodes.put(static_cast<Id>(id));
+            for (const std::int64_t id : nodes_of_tet(part_, t)) nodes.put(id);
         nodes.flush();
     }
 

@@ -144,7 +144,7 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
                       written_parts.outline().nodes()};
     for (std::size_t i = 0; i < written.size(); ++i) {
         move_to(fs::path(beside.path()) / written[i].path, places[i]);
-        merged.bytes += static_cast<std::int64_t>(fs::file_size(places[i]));
+        merged.bytes += fs::file_size(places[i]);
     }
     return merged;
 }

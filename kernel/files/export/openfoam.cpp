@@ -60,7 +60,7 @@ void write_zones(const std::vector<std::string>& names, const std::vector<std::i
                  const MeshPlace& place, ExportFiles& files) {
     const std::vector<std::string> words = word_names(names, word_rules("region"));
     std::vector<std::vector<Label>> cells(words.size());
-    for (std::size_t t = 0; t < of_tets.size(); ++t) cells[of_tets[t]].push_back(static_cast<Label>(t));
+    for (std::size_t t = 0; t < of_tets.size(); ++t) cells[of_tets[t]].push_back(t);
     ExportFile file = files.create(place.folder + "cellZones");
     file.write(header("regIOobject", "cellZones", place.location, false));
     file.write(fmt::format("{}\n(\n", words.size()));

@@ -56,9 +56,7 @@ void write_of_facets(const PartSource& parts, std::vector<std::int32_t> Part::*v
 
 void write_regions(const PartSource& parts, ExportFile& file) {
     for_each_part(parts, PartContent::cells, [&](PartIndex, const Part& part) {
-        write_computed<std::int32_t>(file, part.tet_count(), [&](std::int64_t t) {
-            return part.region_of(static_cast<std::int32_t>(t)).value();
-        });
+        write_computed<std::int32_t>(file, part.tet_count(), [&](std::int64_t t) { return part.region_of(t).value(); });
     });
     for_each_part(parts, PartContent::surface, [&](PartIndex, const Part& part) {
         for (std::size_t f = 0; f < part.facets.size(); ++f)
@@ -74,14 +72,14 @@ GridArray connectivity(const PartSource& parts) {
         nodes_of_tets(outline.order) * outline.tets() + nodes_of_triangles(outline.order) * outline.patch_facets();
     return GridArray::of<Id>("Cells", "connectivity", 1, nodes, [&parts](ExportFile& file) {
         const auto write_cell = [&](const CellNodes& cell) {
-            for (const std::int64_t id : cell) file.value(static_cast<Id>(id));
+            for (const Id id : cell) file.value(id);
         };
         for_each_part(parts, PartContent::cells, [&](PartIndex, const Part& part) {
             for (std::int64_t t = 0; t < part.tet_count(); ++t) write_cell(nodes_of_tet(part, t));
         });
         for_each_part(parts, patch_content(parts.outline()), [&](PartIndex, const Part& part) {
             for (std::size_t f = 0; f < part.facets.size(); ++f)
-                if (part.is_listed(f)) write_cell(nodes_of_facet(part, static_cast<std::int64_t>(f)));
+                if (part.is_listed(f)) write_cell(nodes_of_facet(part, f));
         });
     });
 }
@@ -91,7 +89,7 @@ template <class T>
 void write_cell_values(const PartSource& parts, std::size_t k, ExportFile& file) {
     const auto write_row = [&](const PartValues& values, std::int32_t tet) {
         for (int i = 0; i < values.components; ++i)
-            file.value(static_cast<T>(tet < 0 ? NAN : values.number(std::int64_t{values.components} * tet + i)));
+            file.value<T>(tet < 0 ? NAN : values.number(std::int64_t{values.components} * tet + i));
     };
     for_each_part(parts, PartContent::all, [&](PartIndex, const Part& part) {
         for (std::int32_t tet = 0; tet < part.tet_count(); ++tet) write_row(part.values[k], tet);
@@ -110,7 +108,7 @@ void add_values_of(const PartSource& parts, std::size_t k, Grid& grid) {
                                          [&parts, k](ExportFile& file) { write_cell_values<T>(parts, k, file); }));
     grid.add(GridArray::of<T>("PointData", values.name, values.components, grid.points, [&parts, k](ExportFile& file) {
         for_each_node_value(parts, k, [&](std::int64_t, std::span<const double> rows) {
-            for (const double number : rows) file.value(static_cast<T>(number));
+            for (const T number : rows) file.value(number);
         });
     }));
 }

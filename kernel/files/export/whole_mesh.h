@@ -65,8 +65,7 @@ void for_each_shared_group(const Part& part, const Visit& visit) {
     for (const SharedEdgeGroup& group : part.shared_edges) {
         std::vector<std::int32_t> nodes;
         for (const auto& [a, b] : group.edges)
-            nodes.push_back(static_cast<std::int32_t>(part.vertex_count()) +
-                            part.edge_nodes.edges.find(undirected(a, b)));
+            nodes.push_back(part.vertex_count() + part.edge_nodes.edges.find(undirected(a, b)));
         visit(group.parts, nodes);
     }
 }

@@ -61,7 +61,7 @@ class CheckedFile {
     std::uint64_t size() const {
         struct stat told {};
         check(::fstat(::fileno(file_.get()), &told) == 0, "read");
-        return static_cast<std::uint64_t>(told.st_size);
+        return told.st_size;
     }
     void seek(std::int64_t position) { check(::fseeko(file_.get(), position, SEEK_SET) == 0, "read"); }
 

@@ -69,7 +69,7 @@ std::string inflate_whole(std::string_view block, std::size_t size, int window, 
     std::size_t unread = block.size(), unwritten = size;
     const auto give = [](std::size_t& left, uInt& available) {  // zlib counts with 32 bits
         if (available > 0) return;
-        available = static_cast<uInt>(std::min<std::size_t>(left, std::numeric_limits<uInt>::max()));
+        available = std::min<std::size_t>(left, std::numeric_limits<uInt>::max());
         left -= available;
     };
     int status = Z_OK;
@@ -100,12 +100,12 @@ class GzipStream {
     /// that was the last of an archive.
     std::size_t next(std::string_view& archive, Content& content) {
         constexpr std::size_t most = std::numeric_limits<uInt>::max();
-        const auto offered = static_cast<uInt>(std::min(archive.size(), most));
+        const uInt offered = std::min(archive.size(), most);
         std::string& block = content.block();
         stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(archive.data()));
         stream_.avail_in = offered;
         stream_.next_out = reinterpret_cast<Bytef*>(block.data());
-        stream_.avail_out = static_cast<uInt>(block.size());
+        stream_.avail_out = block.size();
         status_ = inflate(&stream_, Z_NO_FLUSH);
         if (status_ == Z_MEM_ERROR) throw std::bad_alloc();
         if (status_ == Z_BUF_ERROR) content.fail_truncated();
@@ -177,10 +177,10 @@ std::string inflate_raw_block(std::string_view block, std::size_t size, const st
 }
 
 std::string deflate_block(std::string_view content) {
-    auto written = compressBound(static_cast<uLong>(content.size()));
+    uLong written = compressBound(content.size());
     std::string block(written, '\0');
     if (compress2(reinterpret_cast<Bytef*>(block.data()), &written, reinterpret_cast<const Bytef*>(content.data()),
-                  static_cast<uLong>(content.size()), Z_BEST_COMPRESSION) != Z_OK)
+                  content.size(), Z_BEST_COMPRESSION) != Z_OK)
         throw std::bad_alloc();  // the only reason that is left
     block.resize(written);
     return block;

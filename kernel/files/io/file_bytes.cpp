@@ -34,8 +34,7 @@ FileReader::FileReader(const std::string& path) : path_(path) {
 }
 
 void FileReader::read(std::span<char> bytes) {
-    if (!file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        fail(path_, "it ends before its size is reached");
+    if (!file_.read(bytes.data(), bytes.size())) fail(path_, "it ends before its size is reached");
 }
 
 std::string read_file(const std::string& path) {

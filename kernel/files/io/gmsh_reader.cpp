@@ -209,15 +209,14 @@ void read_node_data(Source& source, SoupBuilder& builder, const Model& model) {
     const std::int64_t integers = text.next_count();
     for (std::int64_t i = 0; i < integers; ++i) {
         const std::int64_t number = text.next_integer();
-        if (i < 3) numbers[static_cast<std::size_t>(i)] = number;
+        if (i < 3) numbers[i] = number;
     }
     if (numbers[1] != 1) return;
     std::vector<double>& values = builder.tets().scalar(name);
     for (std::int64_t i = 0; i < numbers[2]; ++i) {
         const std::int64_t tag = source.next_int();
         const double value = source.next_real();
-        if (const std::int64_t* vertex = find(model.vertex_of_node, tag))
-            values[static_cast<std::size_t>(*vertex)] = value;
+        if (const std::int64_t* vertex = find(model.vertex_of_node, tag)) values[*vertex] = value;
     }
 }
 

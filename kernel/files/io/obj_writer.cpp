@@ -27,7 +27,7 @@ void write_obj(const std::string& path, const std::vector<Vec3>& vertices, const
     std::string text = "# Surface of Kerf\n";
     for (const Vec3& p : vertices) fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p.x(), p.y(), p.z());
     std::vector<std::vector<std::int32_t>> of_patch(patch_names.size());
-    for (std::size_t f = 0; f < facets.size(); ++f) of_patch[patch[f]].push_back(static_cast<std::int32_t>(f));
+    for (std::size_t f = 0; f < facets.size(); ++f) of_patch[patch[f]].push_back(f);
     for (std::size_t p = 0; p < of_patch.size(); ++p) {
         if (!of_patch[p].empty()) text += "g " + group_name(patch_names[p]) + "\n";
         for (const std::int32_t f : of_patch[p])

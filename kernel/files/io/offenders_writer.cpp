@@ -33,7 +33,7 @@ class OffendersGrid {
             add_cell(vtk_poly_line, line, defect, number, -1);
         }
         points_.push_back(defect.where);
-        end_cell(vtk_vertex, {static_cast<std::int64_t>(points_.size()) - 1}, defect, number, -1);
+        end_cell(vtk_vertex, {std::ssize(points_) - 1}, defect, number, -1);
     }
 
     std::string xml() const {
@@ -74,7 +74,7 @@ class OffendersGrid {
         std::vector<std::int64_t> points;
         for (const std::int32_t v : vertices) {
             if (point_of_vertex_[v] < 0) {
-                point_of_vertex_[v] = static_cast<std::int64_t>(points_.size());
+                point_of_vertex_[v] = std::ssize(points_);
                 points_.push_back(soup_.vertices[v]);
             }
             points.push_back(point_of_vertex_[v]);
@@ -84,7 +84,7 @@ class OffendersGrid {
     void end_cell(int type, const std::vector<std::int64_t>& points, const Defect& defect, std::size_t number,
                   std::int32_t facet) {
         connectivity_.insert(connectivity_.end(), points.begin(), points.end());
-        offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
+        offsets_.push_back(std::ssize(connectivity_));
         types_.push_back(type);
         kinds_.push_back(static_cast<int>(defect.kind));
         severities_.push_back(static_cast<int>(defect.severity));

@@ -206,8 +206,7 @@ void RunFolderLocks::take(const std::string& final_path) {
                                                final_path));
     ::close(std::exchange(ranks_, -1));  // now those of this run may hold it
     const std::string who = fmt::format("process {} on {}\n", ::getpid(), host_name());
-    if (::ftruncate(creator_, 0) != 0 ||
-        ::pwrite(creator_, who.data(), who.size(), 0) != static_cast<ssize_t>(who.size()))
+    if (::ftruncate(creator_, 0) != 0 || ::pwrite(creator_, who.data(), who.size(), 0) != std::ssize(who))
         fail("write the output folder", partial_, last_error());
 }
 

@@ -131,7 +131,7 @@ RunFile describe_file(const std::string& folder, const std::string& path) {
     std::string chunk(std::size_t{1} << 17, '\0');  // that the processor's own memory holds
     while (const std::size_t size = file.read_into(chunk.data(), chunk.size())) {
         hasher.add_bytes(chunk.data(), size);
-        bytes += static_cast<std::int64_t>(size);
+        bytes += size;
     }
     return {path, bytes, hash_text(hasher.digest())};
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "files/io/inside/polygon_fan.h"
 #include "files/io/inside/tet_collector.h"
 #include "surface/soup/facet_triangulation.h"
@@ -35,7 +36,7 @@ class SoupBuilder {
     /// runs, unless other cells fill a part of the space: see count_other_cells().
     TetCollector& tets() { return tets_; }
 
-    std::int64_t vertex_count() const { return static_cast<std::int64_t>(soup_.vertices.size()); }
+    std::int64_t vertex_count() const { return std::ssize(soup_.vertices); }
     const Soup& soup() const { return soup_; }
 
     void add_vertex(const Vec3& p) {
@@ -46,7 +47,7 @@ class SoupBuilder {
     /// Takes the number of facets that the file claims, before they come. Throws Error(input) if a surface cannot have
     /// so many.
     void announce_facets(std::int64_t count) const {
-        if (count > most_facets - static_cast<std::int64_t>(soup_.facets.size()))
+        if (count > most_facets - std::ssize(soup_.facets))
             throw Error(ErrorCode::input, path_ + ": the file claims to hold " + std::to_string(count) +
                                               " facets, but a surface can have " + std::to_string(most_facets) +
                                               " at most. Split it, or export it again if there are fewer.");
@@ -176,23 +177,20 @@ class SoupBuilder {
     void add_fan(std::span<const std::int64_t> corners, const PolygonFan& fan) {
         if (fan.obstacle) soup_.unfit_polygons.push_back(polygon_count_);
         if (corners.size() > 3) number_polygons();
-        const auto corner = [&](std::size_t i) {
-            return static_cast<std::int32_t>(corners[(fan.apex + i) % corners.size()]);
-        };
+        const auto corner = [&](std::size_t i) -> std::int32_t { return corners[(fan.apex + i) % corners.size()]; };
         for (std::size_t i = 2; i < corners.size(); ++i) add_facet({corner(0), corner(i - 1), corner(i)});
         ++polygon_count_;
     }
     std::int32_t welded(const Vec3& p, std::uint64_t hash) {
         add_vertex(p);
-        const auto last = static_cast<std::int32_t>(vertex_count() - 1),
-                   vertex = table_.enter(last, hash, soup_.vertices);
+        const std::int32_t last = vertex_count() - 1, vertex = table_.enter(last, hash, soup_.vertices);
         if (vertex != last) soup_.vertices.pop_back();
         return vertex;
     }
     void take_regions() {
         const std::vector<RegionFace> faces = tets_.faces_of_regions();
-        if (faces.size() > static_cast<std::size_t>(most_facets)) refuse_facets();
-        if (!has_facets() && tets_.volume_count() < 2) note(tell_skin(static_cast<std::size_t>(tets_.count())));
+        if (std::ssize(faces) > most_facets) refuse_facets();
+        if (!has_facets() && tets_.volume_count() < 2) note(tell_skin(tets_.count()));
         if (tets_.region_names().size() == 1 && tets_.volume_count() > 1)
             note(tell_joined_volumes(tets_.volume_count(), tets_.region_names().front()));
         take_region_faces(soup_, faces, tets_.region_names(), {polygon_count_, unnamed_patch_}, path_);
@@ -207,12 +205,10 @@ class SoupBuilder {
                                           " facets, which is the most that a surface can have. Split it.");
     }
     void add_facet(const Triangle& facet) {
-        if (soup_.facets.size() == static_cast<std::size_t>(most_facets)) refuse_facets();
+        if (std::ssize(soup_.facets) == most_facets) refuse_facets();
         if (patch_ < 0) {
-            patch_ = patch_of_name_.try_emplace(patch_name_, static_cast<std::int32_t>(soup_.patch_names.size()))
-                         .first->second;
-            if (patch_ == static_cast<std::int32_t>(soup_.patch_names.size()))
-                soup_.patch_names.push_back(patch_name_.substr(0, longest_name));
+            patch_ = patch_of_name_.try_emplace(patch_name_, count_of(soup_.patch_names)).first->second;
+            if (patch_ == count_of(soup_.patch_names)) soup_.patch_names.push_back(patch_name_.substr(0, longest_name));
         }
         if (is_unnamed_) unnamed_patch_ = patch_;
         soup_.facets.push_back(facet);

@@ -93,12 +93,12 @@ void add_facets(std::string_view bytes, SoupBuilder& builder) {
 
 void read_binary(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
     const std::size_t count = claimed_stl_facets(bytes), size = stl_facet_size * count;
-    builder.announce_facets(static_cast<std::int64_t>(count));
+    builder.announce_facets(count);
     if (!holds_claimed_facets(bytes)) refuse_size(bytes, path);
     refuse_shifted_records(bytes, path);
     builder.reserve_separate_facets(count);
     add_facets(bytes.substr(stl_header_size, size), builder);
-    builder.note_ignored(static_cast<std::int64_t>(bytes.size() - stl_header_size - size), "byte behind the last facet",
+    builder.note_ignored(bytes.size() - stl_header_size - size, "byte behind the last facet",
                          "bytes behind the last facet");
 }
 
@@ -186,7 +186,7 @@ std::optional<HashedSoup> read_binary_stl_file(const std::string& path) {
         return {};
     const std::size_t count = claimed_stl_facets(block);
     SoupBuilder builder(path);
-    builder.announce_facets(static_cast<std::int64_t>(count));
+    builder.announce_facets(count);
     builder.reserve_separate_facets(count);
     Hasher hasher;
     hasher.add_bytes(block.data(), block.size());

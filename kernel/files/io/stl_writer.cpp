@@ -23,9 +23,7 @@ void append(std::string& bytes, const T& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-void append_point(std::string& bytes, const Vec3& p) {
-    append(bytes, std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
-}
+void append_point(std::string& bytes, const Vec3& p) { append(bytes, Eigen::Vector3f(p.cast<float>())); }
 
 }  // namespace
 

@@ -77,8 +77,7 @@ std::optional<std::size_t> find_nul_in_text(std::string_view bytes) {
     const std::string_view text = without_padding(bytes);
     const std::size_t nul = text.find('\0');
     if (nul == text.npos || nul <= stl_header_size) return {};
-    const bool is_text = std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul),
-                                     [](char c) { return c >= '\t' && c < '\x7f'; });
+    const bool is_text = std::all_of(text.begin(), text.begin() + nul, [](char c) { return c >= '\t' && c < '\x7f'; });
     return is_text ? std::optional(nul) : std::nullopt;
 }
 

@@ -108,7 +108,7 @@ RegionSeed read_region(TextScanner& scanner) {
     const std::int64_t number = scanner.next_integer();
     RegionSeed seed;
     seed.point = read_coordinates(scanner);
-    seed.name = name_of_region(scanner.at_line_end() ? static_cast<double>(number) : scanner.next_real());
+    seed.name = name_of_region(scanner.at_line_end() ? number : scanner.next_real());
     const double bound = scanner.at_line_end() ? 0 : scanner.next_real();
     if (bound > 0 && std::isfinite(bound)) seed.largest_cell = bound;
     scanner.skip_line();
@@ -119,14 +119,13 @@ void read_poly_facet(TextScanner& scanner, bool has_marker, std::int64_t first_n
                      PolygonalFacet& facet) {
     const FacetLine line = read_facet_line(scanner, has_marker, builder);
     for (std::int64_t i = 0; i < line.polygons; ++i) {
-        const auto place = static_cast<std::size_t>(i);
-        if (place == facet.polygons.size()) facet.polygons.emplace_back();
-        read_corners(scanner, first_node, facet.polygons[place]);
-        if (facet.polygons[place].empty())
+        if (i == std::ssize(facet.polygons)) facet.polygons.emplace_back();
+        read_corners(scanner, first_node, facet.polygons[i]);
+        if (facet.polygons[i].empty())
             scanner.fail("a polygon has no vertices. Remove it or export the surface again.");
         scanner.skip_line();
     }
-    facet.polygons.resize(static_cast<std::size_t>(line.polygons));
+    facet.polygons.resize(line.polygons);
     facet.holes.clear();
     for (std::int64_t i = 0; i < line.holes; ++i) facet.holes.push_back(read_hole(scanner));
 }

@@ -48,7 +48,7 @@ Cells read_cells(const Decoder& decoder, const Piece& piece, const std::string& 
     }
     std::int64_t begin = 0;
     for (const std::int64_t end : cells.ends) {
-        if (end < begin || end > static_cast<std::int64_t>(cells.corners.size()))
+        if (end < begin || end > std::ssize(cells.corners))
             fail(path, "the offsets of its cells do not rise. Save it again.");
         begin = end;
     }
@@ -143,7 +143,7 @@ void scan_piece(const Decoder& decoder, const Piece& piece, const std::string& r
     for (const auto& [name, array] : piece.scalars) {
         if (!builder.wants_scalars()) break;
         const std::vector<double> values = decoder.values_of<double>(array);
-        if (static_cast<std::int64_t>(values.size()) != piece.points)
+        if (std::ssize(values) != piece.points)
             fail(path, "its array " + name + " has not one value for each point. Save or copy it again.");
         std::copy(values.begin(), values.end(), builder.tets().scalar(name).begin() + first_vertex);
     }
@@ -180,7 +180,7 @@ void set_sides(const FileSides& file_sides, const RegionNames& names, SoupBuilde
     const VolumeRegions found =
         regions_of(regions, [&](const VolumeKey& key) { return region_name(names, key.second); });
     const auto region = [&](std::int64_t number) {
-        return number < 0 ? -1 : found.region_of_volume[static_cast<std::size_t>(regions.at({0, number}))];
+        return number < 0 ? -1 : found.region_of_volume[regions.at({0, number})];
     };
     std::vector<FacetSides> sides;
     for (const auto& [front, back] : file_sides) sides.push_back({region(front), region(back)});

@@ -118,7 +118,7 @@ void write_computed(File& file, std::int64_t count, const Value& value) {
     std::vector<T> chunk(std::min(count, most));
     for (std::int64_t begin = 0; begin < count; begin += most) {
         const std::int64_t size = std::min(most, count - begin);
-        for (std::int64_t i = 0; i < size; ++i) chunk[i] = static_cast<T>(value(begin + i));
+        for (std::int64_t i = 0; i < size; ++i) chunk[i] = value(begin + i);
         file.write(chunk.data(), size * sizeof(T));
     }
 }

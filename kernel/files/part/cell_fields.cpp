@@ -25,8 +25,7 @@ void measure_fields(const std::vector<Vec3>& points, CellFieldSet fields, std::i
     if (fields == default_cell_fields) {  // the smallest dihedral angle, as most often
         std::array<double, cells_at_once> degrees;
         measure_min_dihedrals(points, cells, std::span(degrees).first(cells.size()));
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            values[i] = cells[i] == nothing ? unknown : static_cast<float>(degrees[i]);
+        for (std::size_t i = 0; i < cells.size(); ++i) values[i] = cells[i] == nothing ? unknown : degrees[i];
         return take(0, first, column_values);
     }
     std::array<TetQuality, cells_at_once> quality;
@@ -34,7 +33,7 @@ void measure_fields(const std::vector<Vec3>& points, CellFieldSet fields, std::i
     for (std::size_t field = 0, column = 0; field < cell_fields.size(); ++field) {
         if (!fields[field]) continue;
         for (std::size_t i = 0; i < cells.size(); ++i)
-            values[i] = cells[i] == nothing ? unknown : static_cast<float>(quality[i].*cell_fields[field].measure);
+            values[i] = cells[i] == nothing ? unknown : quality[i].*cell_fields[field].measure;
         take(column++, first, column_values);
     }
 }

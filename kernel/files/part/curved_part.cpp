@@ -30,8 +30,8 @@ class PartCurving {
                 const std::vector<CurvedEdge>& wanted)
         : mesh_(mesh), edges_(edges), inside_(inside), has_curved_(mesh.vertices.size()) {
         for (const auto& [edge, node] : wanted) nodes_.emplace(edge, node);
-        edges.for_all([&](std::int64_t e, const UndirectedEdge& ends) {
-            if (nodes_.contains(static_cast<std::int32_t>(e)))
+        edges.for_all([&](std::int32_t e, const UndirectedEdge& ends) {
+            if (nodes_.contains(e))
                 for (const std::int32_t v : ends) has_curved_[v] = 1;
         });
     }
@@ -139,8 +139,8 @@ class PartCurving {
             for (const std::int32_t e : edges_of(t))
                 if (const auto found = cells_at.find(e); found != cells_at.end()) found->second.push_back(t);
         std::map<std::int32_t, UndirectedEdge> ends;
-        edges_.for_all([&](std::int64_t e, const UndirectedEdge& of_edge) {
-            if (cells_at.contains(static_cast<std::int32_t>(e))) ends[static_cast<std::int32_t>(e)] = of_edge;
+        edges_.for_all([&](std::int32_t e, const UndirectedEdge& of_edge) {
+            if (cells_at.contains(e)) ends[e] = of_edge;
         });
         for (const auto& [edge, cells] : cells_at) move_node(edge, ends.at(edge), cells);
     }

@@ -134,8 +134,7 @@ PartValues join_values(const std::vector<Part>& parts, std::size_t k, const Node
                 for (std::int64_t n = 0; n < parts[p].node_count(); ++n) {
                     const std::size_t to = width * node(p, n);
                     if (numbers.size() < to + width) numbers.resize(to + width);
-                    std::copy_n(own_of(parts[p]).begin() + static_cast<std::ptrdiff_t>(width * n), width,
-                                numbers.begin() + static_cast<std::ptrdiff_t>(to));
+                    std::copy_n(own_of(parts[p]).begin() + width * n, width, numbers.begin() + to);
                 }
         },
         joined.numbers);
@@ -290,8 +289,7 @@ Part JoinedParts::load(PartIndex index) const {
     if (outline_.order == 2) edges_of_parts = join_edge_nodes(parts, vertex, piece);
     const auto node = [&](std::size_t p, std::int64_t n) -> std::int64_t {
         const std::int64_t on_edge = n - parts[p].first_edge_node();
-        return on_edge < 0 ? vertex(p, static_cast<std::int32_t>(n))
-                           : piece.first_edge_node() + edges_of_parts[p][on_edge];
+        return on_edge < 0 ? vertex(p, n) : piece.first_edge_node() + edges_of_parts[p][on_edge];
     };
     for (std::size_t k = 0; k < outline_.values.size(); ++k) piece.values.push_back(join_values(parts, k, node));
     return piece;

@@ -44,7 +44,7 @@ namespace {
 // Returns a number that ascends in the order of the tree among nodes of which none lies below another: the way from the
 // root, a bit a step.
 std::uint32_t way_from_root(NodeId id) {
-    const auto bits = static_cast<std::uint32_t>(id);
+    const std::uint32_t bits = id;
     return id > 0 ? bits << std::countl_zero(bits) : 0;
 }
 

@@ -53,7 +53,7 @@ struct PartValues {
 
     bool is_double() const { return std::holds_alternative<std::vector<double>>(numbers); }
     double number(std::size_t i) const {
-        return std::visit([i](const auto& all) { return static_cast<double>(all[i]); }, numbers);
+        return std::visit([i](const auto& all) -> double { return all[i]; }, numbers);
     }
 };
 
@@ -141,7 +141,7 @@ struct Part : PartBoundary {
                                                const std::array<std::array<int, 2>, M>& edges) const {
         std::array<std::int32_t, N + M> nodes;
         std::copy(corners.begin(), corners.end(), nodes.begin());
-        const auto first = static_cast<std::int32_t>(first_edge_node());
+        const std::int32_t first = first_edge_node();
         for (std::size_t e = 0; e < M; ++e)
             nodes[N + e] = first + edge_nodes.edges.find(undirected(corners[edges[e][0]], corners[edges[e][1]]));
         return nodes;

@@ -108,7 +108,7 @@ void read_pieces(CheckedFile& file, const std::string& path, std::uint64_t count
 
 void number_vertices(Part& part, std::vector<std::int64_t> boundary_ids, std::uint64_t vertices,
                      std::int64_t first_interior_id) {
-    const auto boundary = static_cast<std::ptrdiff_t>(boundary_ids.size());
+    const auto boundary = std::ssize(boundary_ids);
     part.global_id = std::move(boundary_ids);
     part.global_id.resize(vertices);
     std::iota(part.global_id.begin() + boundary, part.global_id.end(), first_interior_id);
@@ -117,7 +117,7 @@ void number_vertices(Part& part, std::vector<std::int64_t> boundary_ids, std::ui
 }  // namespace
 
 FileHash write_stored_part(const std::string& path, const Part& part, bool durable) {
-    const auto boundary_count = static_cast<std::ptrdiff_t>(part.mesh.boundary_vertex_count);
+    const std::ptrdiff_t boundary_count = part.mesh.boundary_vertex_count;
     const Bytes boundary =
         to_bytes(Boundary{const_cast<Part&>(part), {part.global_id.begin(), part.global_id.begin() + boundary_count}});
     const Head head{magic, boundary.size(), part.mesh.vertices.size(), part.mesh.tets.size()};

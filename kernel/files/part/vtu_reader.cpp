@@ -143,10 +143,10 @@ void read_regions(PartArraysFile& file, std::int64_t tet_count, Part& part) {
 void read_contacts(PartArraysFile& file, Part& part) {
     if (!file.header().find("ContactVertices")) return;
     const std::uint64_t vertices = file.open("ContactVertices");
-    part.contact_vertices = file.take<std::int32_t>(static_cast<std::int64_t>(vertices / sizeof(std::int32_t)));
+    part.contact_vertices = file.take<std::int32_t>(vertices / sizeof(std::int32_t));
     const std::uint64_t edges = file.open("ContactEdges");
-    part.contact_edges = file.take<UndirectedEdge>(static_cast<std::int64_t>(edges / sizeof(UndirectedEdge)));
-    const auto boundary = static_cast<std::size_t>(file.header().boundary_vertex_count);
+    part.contact_edges = file.take<UndirectedEdge>(edges / sizeof(UndirectedEdge));
+    const std::size_t boundary = file.header().boundary_vertex_count;
     const auto is_boundary = [&](std::int32_t v) { return v >= 0 && std::cmp_less(v, boundary); };
     if (!std::all_of(part.contact_vertices.begin(), part.contact_vertices.end(), is_boundary) ||
         !are_in_range(part.contact_edges, boundary))
@@ -211,8 +211,8 @@ Part read_part(const std::string& path, PartContent content) {
 bool is_complete_part_file(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string end(closing_tag.size(), '\0');
-    file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
-    return file.read(end.data(), static_cast<std::streamsize>(end.size())) && end == closing_tag;
+    file.seekg(-std::ssize(end), std::ios::end);
+    return file.read(end.data(), end.size()) && end == closing_tag;
 }
 
 bool has_cell_values(const std::string& path, const std::string& array) {

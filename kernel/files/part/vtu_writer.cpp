@@ -159,11 +159,9 @@ class GridMaker {
 
     // Triangles have the values of the tetrahedra behind them.
     void add_regions(int bytes) {
-        const auto of_tet = [&part = part_](std::int64_t t) {
-            return part.region_of(static_cast<std::int32_t>(t)).value();
-        };
+        const auto of_tet = [&part = part_](std::int64_t t) { return part.region_of(t).value(); };
         add_integers(bytes, "Region", of_tet, [&part = part_](std::int64_t f) {
-            return part.region_of(std::max(0, part.tet_at_facet[static_cast<std::size_t>(f)])).value();
+            return part.region_of(std::max(0, part.tet_at_facet[f])).value();
         });
     }
 

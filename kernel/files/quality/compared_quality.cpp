@@ -87,7 +87,7 @@ std::string region_of_worst(const MeshQuality& quality, const Measure& measure, 
     const auto found = std::find_if(quality_measures.begin(), quality_measures.end(),
                                     [&](const Measure& each) { return &each == &measure; });
     if (found == quality_measures.end()) return "";
-    const auto i = static_cast<std::size_t>(found - quality_measures.begin());
+    const std::size_t i = found - quality_measures.begin();
     for (const RegionQuality& region : quality.regions)
         if ((measure.small_is_bad ? region.measures[i].front() : region.measures[i].back()) == worst)
             return fmt::format(" It is in the region '{}'.", region.name);

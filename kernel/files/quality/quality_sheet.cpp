@@ -127,7 +127,7 @@ std::vector<double> logarithmic_ticks(double low, double high) {
     const std::vector<double>& factors = decades < 0.8 ? fine : decades < 1.6 ? middle : decades < 3 ? coarse : powers;
     const int stride = 1 + static_cast<int>(decades / 9);
     std::vector<double> ticks;
-    for (int power = static_cast<int>(std::floor(std::log10(low))); power <= std::log10(high); power += stride)
+    for (int power = std::floor(std::log10(low)); power <= std::log10(high); power += stride)
         for (const double factor : factors) {
             const double tick = factor * std::pow(10, power);
             if (tick >= low && tick <= high) ticks.push_back(tick);
@@ -163,14 +163,14 @@ struct Percentages {
 
 Percentages percentages(const Distribution& distribution, const HistogramRows& rows) {
     const Distribution::Histogram histogram = distribution.histogram(rows.first, rows.group, rows.groups);
-    const double percent = 100 / static_cast<double>(distribution.count());
+    const double percent = 100.0 / distribution.count();
     Percentages result{histogram.edges, {}, {}};
     std::int64_t below = rows.first > 0 ? distribution.histogram(0, rows.first, 1).counts.front() : 0;
-    result.accumulated.push_back(percent * static_cast<double>(below));
+    result.accumulated.push_back(percent * below);
     for (const std::int64_t count : histogram.counts) {
         below += count;
-        result.in_interval.push_back(percent * static_cast<double>(count));
-        result.accumulated.push_back(percent * static_cast<double>(below));
+        result.in_interval.push_back(percent * count);
+        result.accumulated.push_back(percent * below);
     }
     return result;
 }
@@ -276,12 +276,12 @@ std::string draw(const std::string& title, const std::vector<LegendEntry>& legen
     constexpr double margin = 70, plot_width = 520, upper_height = 190, lower_height = 110, gap = 18,
                      panel_height = 430;
     constexpr std::size_t columns = 2;
-    const double head_height = 90 + 22 * static_cast<double>(legend.size());
-    const auto lines = static_cast<double>((panels.size() + columns - 1) / columns);
+    const double head_height = 90 + 22 * legend.size();
+    const double lines = (panels.size() + columns - 1) / columns;
     Drawing drawing;
     drawing.text(margin, 44, title, "font-size='22' font-weight='bold'");
     for (std::size_t i = 0; i < legend.size(); ++i) {
-        const double y = 70 + 22 * static_cast<double>(i);
+        const double y = 70 + 22 * i;
         drawing.swatch(margin, y - 9, legend[i].colour);
         drawing.text(margin + 32, y, xml_text(legend[i].text), "font-size='13'");
     }
@@ -289,7 +289,7 @@ std::string draw(const std::string& title, const std::vector<LegendEntry>& legen
                  "Above: how many in each interval. Below: how many have less. Each curve is of its own 100 %.",
                  "fill='#777777'");
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        const auto column = static_cast<double>(i % columns), line = static_cast<double>(i / columns);
+        const double column = i % columns, line = i / columns;
         const double left = margin + column * (plot_width + margin + 20), top = head_height + line * panel_height + 50;
         const Frame upper{left, top, plot_width, upper_height};
         draw_panel(drawing, panels[i], upper, {left, upper.bottom() + gap, plot_width, lower_height});

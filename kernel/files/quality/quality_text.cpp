@@ -29,7 +29,7 @@ std::string title_of(const Measure& measure) {
 }
 
 std::string percent(std::int64_t count, std::int64_t of) {
-    return fmt::format("{:.2f} %", of ? 100.0 * static_cast<double>(count) / static_cast<double>(of) : 0.0);
+    return fmt::format("{:.2f} %", of ? 100.0 * count / of : 0.0);
 }
 
 std::string percentile_head(const std::string& title) {
@@ -152,8 +152,7 @@ std::string side_by_side_text(const Measure& measure, const Distribution& first,
     std::string text =
         fmt::format("\n{}\n{:<21}  |{:>12}{:>12}  |{:>12}{:>12}\n", title_of(measure), "", "A", "B", "A", "B");
     std::array<std::int64_t, 2> below = {0, 0};
-    for (int i = 0; i < rows.groups; ++i) {
-        const auto row = static_cast<std::size_t>(i);
+    for (int row = 0; row < rows.groups; ++row) {
         for (std::size_t k = 0; k < below.size(); ++k) below[k] += histograms[k].counts[row];
         text += fmt::format(
             "{}  |{:>12}{:>12}  |{:>12}{:>12}\n", interval_text(histograms[0].edges[row], histograms[0].edges[row + 1]),

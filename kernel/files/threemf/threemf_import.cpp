@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "files/io/soup_builder.h"
 #include "files/io/threemf_file.h"
 #include "files/io/zip_archive.h"
@@ -49,8 +50,7 @@ class Handle {
 Eigen::Affine3d placement_of(const NMR::MODELTRANSFORM& transform) {
     Eigen::Affine3d placement = Eigen::Affine3d::Identity();
     for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            placement(row, column) = static_cast<double>(transform.m_fFields[row][column]);
+        for (int column = 0; column < 4; ++column) placement(row, column) = transform.m_fFields[row][column];
     return placement;
 }
 
@@ -74,7 +74,7 @@ class ThreemfReader {
         body.file_unit = unit_.name;
         body.unit = length_unit_names()[static_cast<std::size_t>(options_.unit)];
         body.solids = items_;
-        body.faces = static_cast<std::int32_t>(body.soup.patch_names.size());
+        body.faces = count_of(body.soup.patch_names);
         body.soup.notes.insert(
             body.soup.notes.begin(),
             fmt::format("3MF: unit {} -> {}, {} build item{}, {} object{}.", body.file_unit, body.unit, items_,
@@ -181,7 +181,7 @@ class ThreemfReader {
         ULONG size = 0;  // with the zero at the end
         require(NMR::lib3mf_object_getnameutf8(object.get(), nullptr, 0, &size));
         std::string name(size + std::size_t{1}, '\0');
-        require(NMR::lib3mf_object_getnameutf8(object.get(), name.data(), static_cast<ULONG>(name.size()), &size));
+        require(NMR::lib3mf_object_getnameutf8(object.get(), name.data(), name.size(), &size));
         name.resize(name.find('\0'));
         return name.empty() ? fmt::format("object {}", id) : name;
     }
@@ -224,8 +224,7 @@ class ThreemfReader {
         require(NMR::lib3mf_meshobject_gettriangleindices(mesh.get(), facets.data(), facet_count, &written));
         const std::int64_t first = builder_.vertex_count();
         for (const NMR::MODELMESHVERTEX& vertex : vertices) {
-            const Vec3 p(static_cast<double>(vertex.m_fPosition[0]), static_cast<double>(vertex.m_fPosition[1]),
-                         static_cast<double>(vertex.m_fPosition[2]));
+            const Vec3 p(vertex.m_fPosition[0], vertex.m_fPosition[1], vertex.m_fPosition[2]);
             builder_.add_vertex(scale_ * (placement * p));
         }
         const int placed = ++placed_[name];

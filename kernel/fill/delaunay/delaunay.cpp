@@ -25,8 +25,8 @@ bool put_tetrahedron_first(std::vector<std::int32_t>& order, const std::vector<V
     };
     for (std::size_t i = 0; i < order.size() && found < 4; ++i) {
         if (!fits(points[order[i]])) continue;
-        const auto start = order.begin() + static_cast<std::ptrdiff_t>(found++);
-        const auto here = order.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto start = order.begin() + found++;
+        const auto here = order.begin() + i;
         std::rotate(start, here, here + 1);
     }
     if (found < 4) return false;
@@ -75,7 +75,7 @@ Delaunay delaunay(std::vector<Vec3> points) {
     result.representative.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::int32_t& first = number[vertex[i]];
-        if (first == SpatialTriangulation::none) first = static_cast<std::int32_t>(i);
+        if (first == SpatialTriangulation::none) first = i;
         result.representative[i] = first;
     }
     result.triangulation.renumber(number, std::move(points));

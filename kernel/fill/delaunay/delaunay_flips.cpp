@@ -99,7 +99,7 @@ class DelaunayFlips {
 }  // namespace
 
 std::int64_t flip_to_delaunay(EditableTets& tets) {
-    std::vector<std::int32_t> all(static_cast<std::size_t>(tets.cell_count()));
+    std::vector<std::int32_t> all(tets.cell_count());
     std::iota(all.rbegin(), all.rend(), 0);
     return flip_to_delaunay(tets, all, [](std::int32_t) {});
 }

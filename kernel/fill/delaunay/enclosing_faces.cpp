@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 
 namespace kerf {
 
@@ -38,9 +39,9 @@ TrianglesByVertex by_smallest_vertex(const std::vector<Triangle>& triangles, std
     for (const auto& [a, b, c] : triangles) ++sorted.start[std::min({a, b, c})];
     std::int32_t end = 0;
     for (std::int32_t& start : sorted.start) start = end += start;
-    for (std::size_t t = triangles.size(); t-- > 0;) {
+    for (std::int32_t t = count_of(triangles); t-- > 0;) {
         const Triangle turned = smallest_first(triangles[t]);
-        sorted.list[--sorted.start[turned[0]]] = {other_vertices(turned[1], turned[2]), static_cast<std::int32_t>(t)};
+        sorted.list[--sorted.start[turned[0]]] = {other_vertices(turned[1], turned[2]), t};
     }
     return sorted;
 }
@@ -66,7 +67,7 @@ std::vector<CellFace> find_faces(const SpatialTriangulation& triangulation, cons
 
 std::optional<std::vector<bool>> cells_behind(const SpatialTriangulation& triangulation,
                                               const std::vector<CellFace>& faces) {
-    std::vector<bool> is_behind(static_cast<std::size_t>(triangulation.cell_count()));
+    std::vector<bool> is_behind(triangulation.cell_count());
     std::vector<std::int32_t> found;
     const auto reach = [&](std::int32_t cell) {
         if (is_behind[cell]) return;

@@ -50,7 +50,7 @@ std::int32_t walk(const EditableTets& tets, const Vec3& p, std::int32_t hint) {
     int came_from = 4;
     while (!tets.is_ghost(cell)) {
         random = random * 1664525 + 1013904223;
-        const int i = face_towards(tets, p, cell, came_from, static_cast<int>(random >> 30));
+        const int i = face_towards(tets, p, cell, came_from, random >> 30);
         if (i == 4) break;
         if (stops_at_constraints && tets.is_constrained(cell_face(cell, i))) return EditableTets::none;
         const CellFace behind = tets.mirror(cell_face(cell, i));
@@ -246,7 +246,7 @@ void SpatialTriangulation::place_cells() {
     new_cells_.resize(cavity_faces_.size());
     made_.resize(cavity_faces_.size());
     if (const std::size_t count = cavity_faces_.size(); count < cavity_.size())
-        std::nth_element(cavity_.begin(), cavity_.begin() + static_cast<std::ptrdiff_t>(count), cavity_.end());
+        std::nth_element(cavity_.begin(), cavity_.begin() + count, cavity_.end());
     std::int32_t next_cell = cell_count();
     for (std::size_t k = 0; k < cavity_faces_.size(); ++k) {
         const auto [inside, outside] = cavity_faces_[k];
@@ -263,7 +263,7 @@ void SpatialTriangulation::place_cells() {
             if (is_new) cell_at_vertex_[v] = cell;
         }
     }
-    cells_.resize(static_cast<std::size_t>(next_cell));
+    cells_.resize(next_cell);
 }
 
 // Sets vertices and outer links of the new cells; their links to each other follow.

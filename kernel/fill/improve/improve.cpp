@@ -59,8 +59,8 @@ class Improver {
             const std::int64_t before = waiting_count();
             if (!run_round()) break;
             if (options_->adds_vertices && result_->rounds < first_round_with_vertices) continue;
-            const auto gained = static_cast<double>(before - waiting_count());
-            if (gained < least_share_of_a_round * static_cast<double>(before)) break;
+            const std::int64_t gained = before - waiting_count();
+            if (gained < least_share_of_a_round * before) break;
         }
         for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell) result_->bad_cells_after += is_bad(cell);
     }
@@ -80,15 +80,14 @@ class Improver {
         return options.max_size.is_constant() ? angle_for_a_vertex_deg : angle_where_sizes_differ_deg;
     }
     static std::int64_t evaluation_budget_of(const TetMesh& mesh, const ImproveOptions& options) {
-        const auto cells = static_cast<std::int64_t>(mesh.tets.size()) - options.frozen_cells;
-        return evaluations_of_any_mesh +
-               static_cast<std::int64_t>(options.evaluation_budget * static_cast<double>(cells));
+        const auto cells = std::ssize(mesh.tets) - options.frozen_cells;
+        return evaluations_of_any_mesh + static_cast<std::int64_t>(options.evaluation_budget * cells);
     }
     bool is_spent() const { return mesh_.evaluations() >= evaluation_budget_; }
     bool is_bad(std::int32_t cell) const {
         return !mesh_.is_removed(cell) && !mesh_.is_frozen(cell) && mesh_.badness(cell) > bad_;
     }
-    std::int64_t waiting_count() const { return static_cast<std::int64_t>(waiting_.size()); }
+    std::int64_t waiting_count() const { return std::ssize(waiting_); }
     void push(std::int32_t cell) {
         if (is_bad(cell)) queue_.push({mesh_.badness(cell), cell});
     }

@@ -30,7 +30,7 @@ class PolygonTriangulation {
                     const double all = std::max(parts, badness_of(i, j, k, best));
                     if (all >= best) continue;
                     best = all;
-                    middle_[i][k] = static_cast<std::uint8_t>(j);
+                    middle_[i][k] = j;
                 }
                 best_[i][k] = best < limit ? best : infinity;
             }

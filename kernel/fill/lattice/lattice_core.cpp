@@ -193,8 +193,8 @@ void LatticeCore::find_boundary_sites(SiteBits kept) {
             }
             std::uint8_t beside = 0;
             for (const SiteStep& step : neighbour_steps[parity]) beside |= rows.row(step, y, z);
-            boundary_[block][row_number(parity, y, z)] = static_cast<std::uint8_t>(beside & ~deep);
-            free = static_cast<std::uint8_t>(free & ~beside & ~deep);
+            boundary_[block][row_number(parity, y, z)] = beside & ~deep;
+            free &= ~beside & ~deep;
         });
     }
 }
@@ -203,9 +203,8 @@ void LatticeCore::count_cells() {
     BlockSurroundings around(blocks_);
     for (std::int32_t block = 0; block < blocks_.size(); ++block) {
         around.move_to(block);
-        for_each_core_cell(PaddedRows(deep_, around), PaddedRows(boundary_, around), [&](int, int, int, unsigned mask) {
-            cell_count_ += bit_count(static_cast<std::uint8_t>(mask));
-        });
+        for_each_core_cell(PaddedRows(deep_, around), PaddedRows(boundary_, around),
+                           [&](int, int, int, unsigned mask) { cell_count_ += bit_count(mask); });
     }
 }
 

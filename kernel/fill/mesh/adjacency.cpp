@@ -10,8 +10,8 @@ TetNeighbours find_neighbours(const TetMesh& mesh) {
     KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
     TetNeighbours neighbours(mesh.tets.size(), {-1, -1, -1, -1});
     const auto join = [&](FaceSide a, FaceSide b) {
-        neighbours[static_cast<std::size_t>(a.tet())][a.corner()] = b.tet();
-        neighbours[static_cast<std::size_t>(b.tet())][b.corner()] = a.tet();
+        neighbours[a.tet()][a.corner()] = b.tet();
+        neighbours[b.tet()][b.corner()] = a.tet();
     };
     match_faces(mesh, join, [](FaceSide) {});
     return neighbours;

@@ -25,9 +25,8 @@ void visit_buckets(std::size_t bucket_count, std::size_t most_items, const ForEa
     items.reserve(std::min(end.back(), most_items));  // a vector that grows needs its old room beside the new one
     for (std::size_t first = 0; first < bucket_count;) {
         const std::size_t begin = end[first];
-        const auto beyond =
-            std::upper_bound(end.begin() + static_cast<std::ptrdiff_t>(first) + 2, end.end(), begin + most_items);
-        const auto last = static_cast<std::size_t>(beyond - end.begin()) - 1;
+        const auto beyond = std::upper_bound(end.begin() + first + 2, end.end(), begin + most_items);
+        const std::size_t last = beyond - end.begin() - 1;
         items.resize(end[last] - begin);
         // end[bucket] runs from the beginning of the bucket to its end, which is the beginning of the next one.
         for_each_item([&](std::size_t bucket, const Item& item) {

@@ -125,7 +125,7 @@ CurvedTetJacobian::CurvedTetJacobian(const TetNodes& nodes) {
     std::array<std::array<Vec3, 4>, 4> control;  // points, from corner 0
     for (std::size_t i = 0; i < 4; ++i) control[i][i] = nodes[i] - nodes[0];
     for (std::size_t e = 0; e < tet_edges.size(); ++e) {
-        const auto i = static_cast<std::size_t>(tet_edges[e][0]), j = static_cast<std::size_t>(tet_edges[e][1]);
+        const auto& [i, j] = tet_edges[e];
         control[i][j] = control[j][i] = 2 * (nodes[4 + e] - nodes[0]) - (control[i][i] + control[j][j]) / 2;
     }
     std::array<std::array<Vec3, 4>, 4> slope;  // slope[k][j]: the derivative towards corner k at corner j

@@ -16,6 +16,7 @@
 
 #include "base/core/check.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "fill/mesh/adjacency.h"
 
 namespace kerf {
@@ -41,7 +42,7 @@ EditableTets::EditableTets(TetMesh mesh, std::int32_t most)
     require_room(mesh.tets.size());
     if (mesh.neighbours.empty()) connect_tets(mesh);
     cells_.reserve(mesh.tets.size());
-    for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(mesh.tets.size()); ++cell) {
+    for (std::int32_t cell = 0; cell < count_of(mesh.tets); ++cell) {
         Cell& made = cells_.emplace_back(Cell{mesh.tets[cell], {none, none, none, none}});
         for (int i = 0; i < 4; ++i) {
             cell_at_vertex_[made.vertex[i]] = cell;
@@ -61,7 +62,7 @@ TetMesh EditableTets::take_mesh(bool with_neighbours) {
     for (std::int32_t cell = 0; cell < cell_count(); ++cell)
         if (is_taken(cell)) {
             mesh.tets.push_back(cells_[cell].vertex);
-            cells_[cell].vertex[0] = static_cast<std::int32_t>(mesh.tets.size()) - 1;  // its new number
+            cells_[cell].vertex[0] = count_of(mesh.tets) - 1;  // its new number
         } else {
             cells_[cell].vertex[0] = none;
         }
@@ -108,7 +109,7 @@ void EditableTets::constrain(CellFace face) {
 // Throws Error(memory) if so many more cells cannot be numbered; called before anything is changed.
 void EditableTets::require_room(std::size_t more_cells) const {
     const std::size_t cells = cells_.size() + more_cells;
-    if (cells > static_cast<std::size_t>(most_))
+    if (std::cmp_greater(cells, most_))
         throw Error(ErrorCode::memory, fmt::format("A mesh of {} points has {} tetrahedra; more than {} cannot be "
                                                    "numbered. Divide the surface into more parts.",
                                                    cell_at_vertex_.size(), cells, most_));
@@ -194,7 +195,7 @@ void EditableTets::keep_cells(const std::vector<bool>& is_kept) {
         }
         for (const std::int32_t v : kept.vertex) cell_at_vertex_[v] = number[cell];
     }
-    cells_.resize(static_cast<std::size_t>(count));
+    cells_.resize(count);
     gaps_.clear();
 }
 
@@ -219,7 +220,7 @@ void EditableTets::add_cells(std::span<const Tetrahedron> cells) {
 std::int32_t EditableTets::add_vertex(const Vec3& p) {
     points_.push_back(p);
     cell_at_vertex_.push_back(none);
-    return static_cast<std::int32_t>(points_.size()) - 1;
+    return count_of(points_) - 1;
 }
 
 void EditableTets::remove_unused_vertices(std::size_t count) {
@@ -229,7 +230,7 @@ void EditableTets::remove_unused_vertices(std::size_t count) {
 }
 
 std::size_t EdgeRing::place_of(std::int32_t vertex) const {
-    return static_cast<std::size_t>(std::find(ring.begin(), ring.end(), vertex) - ring.begin());
+    return std::find(ring.begin(), ring.end(), vertex) - ring.begin();
 }
 
 bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRing& ring, std::size_t most) {

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "fill/mesh/tet_mesh.h"
 
 namespace kerf {
@@ -68,7 +69,7 @@ class EditableTets {
 
     const std::vector<Vec3>& points() const { return points_; }
     /// Returns the number of cells, ghosts and gaps included.
-    std::int32_t cell_count() const { return static_cast<std::int32_t>(cells_.size()); }
+    std::int32_t cell_count() const { return count_of(cells_); }
     bool is_ghost(std::int32_t cell) const { return cells_[cell].vertex[3] < 0; }
     /// Returns the vertices of a cell. The ghost is always vertex 3, and would see the others counter-clockwise. In a
     /// gap the first vertex is below 0.

@@ -21,7 +21,7 @@ namespace kerf {
 struct FaceSide {
     std::uint64_t code;  ///< 8 x tetrahedron + 2 x opposite corner + 1 if turned
 
-    std::int32_t tet() const { return static_cast<std::int32_t>(code >> 3); }
+    std::int32_t tet() const { return code >> 3; }
     std::size_t corner() const { return code >> 1 & 3; }  ///< corner of the tetrahedron that is opposite to the face
     /// Returns whether the vertices in ascending order run clockwise, seen from outside of the tetrahedron as tet_faces
     /// has it. The two sides of a face between positive tetrahedra differ in this.
@@ -76,13 +76,12 @@ void match_sides(std::span<KeyedSide> sides, std::vector<std::int32_t>& table, c
     table.assign(mask + 1, nobody);
     for (std::size_t i = 0; i < sides.size(); ++i) {
         std::size_t place = (sides[i].others * golden_ratio) >> 32 & mask;
-        while (table[place] != nobody && sides[static_cast<std::size_t>(table[place])].others != sides[i].others)
-            place = (place + 1) & mask;
+        while (table[place] != nobody && sides[table[place]].others != sides[i].others) place = (place + 1) & mask;
         if (table[place] == nobody) {
-            table[place] = static_cast<std::int32_t>(i);
+            table[place] = i;
             continue;
         }
-        KeyedSide& first = sides[static_cast<std::size_t>(table[place])];
+        KeyedSide& first = sides[table[place]];
         if (first.side.code == KeyedSide::taken) continue;
         pair(first.side, sides[i].side);
         first.side.code = sides[i].side.code = KeyedSide::taken;

@@ -236,13 +236,13 @@ double Distribution::percentile(double fraction) const {
     KERF_CHECK(fraction >= 0 && fraction <= 1);
     if (fraction <= 0) return min();
     if (!count_ || fraction >= 1) return max();
-    const double rank = fraction * static_cast<double>(count_);
+    const double rank = fraction * count_;
     std::int64_t below = 0;
     for (int k = 0; k < bin_count; ++k) {
         if (!bins_[k]) continue;
         const std::int64_t upto = below + bins_[k];
-        if (static_cast<double>(upto) >= rank) {
-            const double part_of_bin = (rank - static_cast<double>(below)) / static_cast<double>(bins_[k]);
+        if (upto >= rank) {
+            const double part_of_bin = (rank - below) / bins_[k];
             return std::clamp(value_at(k + part_of_bin), min_, max_);
         }
         below = upto;
@@ -262,7 +262,7 @@ Distribution::Histogram Distribution::histogram(int first, int group, int groups
     Histogram histogram;
     for (int i = 0; i <= groups; ++i) histogram.edges.push_back(value_at(first + i * group));
     if (bins_.empty()) {
-        histogram.counts.assign(static_cast<std::size_t>(groups), 0);
+        histogram.counts.assign(groups, 0);
         return histogram;
     }
     for (auto bin = bins_.begin() + first; bin != bins_.begin() + first + group * groups; bin += group)

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/types.h"
 
 namespace kerf {
@@ -18,9 +19,7 @@ struct TetMesh {
     std::vector<Tetrahedron> tets;           ///< #T; positively oriented
     TetNeighbours neighbours;                ///< #T, or none: they follow from `tets` (fill/mesh/adjacency.h)
 
-    std::int32_t interior_vertex_count() const {
-        return static_cast<std::int32_t>(vertices.size()) - boundary_vertex_count;
-    }
+    std::int32_t interior_vertex_count() const { return count_of(vertices) - boundary_vertex_count; }
 };
 
 /// Corners of the face opposite to corner i, counter-clockwise seen from outside of the tetrahedron.

@@ -18,6 +18,7 @@
 
 #include "base/core/check.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/tetrahedron.h"
 #include "fill/mesh/faces.h"
@@ -67,25 +68,23 @@ std::vector<OwnedFace> sorted_faces(std::vector<OwnedFace> faces, std::size_t ve
 std::vector<OwnedFace> sorted_facets(const std::vector<Triangle>& facets, std::size_t vertex_count) {
     std::vector<OwnedFace> faces;
     faces.reserve(facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        faces.push_back({smallest_first(facets[f]), static_cast<std::int32_t>(f)});
+    for (std::int32_t f = 0; f < count_of(facets); ++f) faces.push_back({smallest_first(facets[f]), f});
     return sorted_faces(std::move(faces), vertex_count);
 }
 
 // The faces all of whose corners lie on the boundary: the boundary faces are among them.
 std::vector<OwnedFace> sorted_faces_over_boundary(const TetMesh& mesh) {
     std::vector<OwnedFace> faces;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::int32_t t = 0; t < count_of(mesh.tets); ++t) {
         const Tetrahedron& tet = mesh.tets[t];
         const auto is_inside = [&](std::int32_t v) { return v >= mesh.boundary_vertex_count; };
         if (std::count_if(tet.begin(), tet.end(), is_inside) > 1) continue;
         for (int i = 0; i < 4; ++i) {
             const Triangle face = corners_of_face(tet, i);
-            if (std::none_of(face.begin(), face.end(), is_inside))
-                faces.push_back({smallest_first(face), static_cast<std::int32_t>(t)});
+            if (std::none_of(face.begin(), face.end(), is_inside)) faces.push_back({smallest_first(face), t});
         }
     }
-    return sorted_faces(std::move(faces), static_cast<std::size_t>(mesh.boundary_vertex_count));
+    return sorted_faces(std::move(faces), mesh.boundary_vertex_count);
 }
 
 // Calls found(facet, face) for every facet that is a face, both sorted.
@@ -109,7 +108,7 @@ bool names_back(const TetMesh& mesh, std::int32_t n, std::int32_t t, const Trian
 
 // Each pair of sides is looked at from the smaller tetrahedron only, because the other may lie far away in memory.
 std::int64_t count_mismatched_neighbours(const TetMesh& mesh) {
-    const auto tet_count = static_cast<std::int32_t>(mesh.tets.size());
+    const auto tet_count = count_of(mesh.tets);
     std::int64_t inner_sides = 0, pairs = 0;
     for (std::int32_t t = 0; t < tet_count; ++t)
         for (int i = 0; i < 4; ++i) {
@@ -132,7 +131,7 @@ struct Faces {
 
 Faces faces_as_named(const TetMesh& mesh) {
     Faces faces;
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t)
+    for (std::int32_t t = 0; t < count_of(mesh.tets); ++t)
         for (int i = 0; i < 4; ++i)
             if (mesh.neighbours[t][i] == -1) faces.add_boundary(mesh, t, i);
     faces.mismatched_sides = count_mismatched_neighbours(mesh);
@@ -143,14 +142,14 @@ Faces faces_as_found(const TetMesh& mesh) {
     Faces faces;
     match_faces(
         mesh, [&](FaceSide a, FaceSide b) { faces.mismatched_sides += a.is_turned() == b.is_turned() ? 2 : 0; },
-        [&](FaceSide side) { faces.add_boundary(mesh, side.tet(), static_cast<int>(side.corner())); });
+        [&](FaceSide side) { faces.add_boundary(mesh, side.tet(), side.corner()); });
     return faces;
 }
 
 std::int64_t count_moved_vertices(const TetMesh& mesh, const SurfaceArrays& surface) {
-    const auto counted = static_cast<std::size_t>(std::max(mesh.boundary_vertex_count, 0));
+    const std::size_t counted = std::max(mesh.boundary_vertex_count, 0);
     const std::size_t common = std::min({counted, mesh.vertices.size(), surface.vertices.size()});
-    auto moved = static_cast<std::int64_t>(std::max(counted, surface.vertices.size()) - common);
+    std::int64_t moved = std::max(counted, surface.vertices.size()) - common;
     for (std::size_t v = 0; v < common; ++v) moved += mesh.vertices[v] != surface.vertices[v];
     return moved;
 }
@@ -197,7 +196,7 @@ Cells sum_cells(const TetMesh& mesh) {
         cells.boundary.add(tet);
     }
     cells.volume = volume.value() / 6;
-    const auto count = static_cast<double>(mesh.tets.size());
+    const double count = mesh.tets.size();
     const double of_sum = 6 * count * count * 0x1p-106;  // error of a sum of terms of six products each
     cells.volume_error = 1.01 * ((doubt + of_sum) * sum_of_largest / 6 + 4 * 0x1p-53 * std::abs(cells.volume)) +
                          8 * (count + 1) * std::numeric_limits<double>::denorm_min();
@@ -212,12 +211,12 @@ BoundaryChain chain_of(const std::vector<Triangle>& facets) {
 
 void count_broken_faces(const TetMesh& mesh, const SurfaceArrays& surface, MeshLaws& laws) {
     Faces faces = mesh.neighbours.empty() ? faces_as_found(mesh) : faces_as_named(mesh);
-    const auto boundary_faces = static_cast<std::int64_t>(faces.boundary.size());
+    const auto boundary_faces = std::ssize(faces.boundary);
     const std::size_t vertex_count = std::max(mesh.vertices.size(), surface.vertices.size());
     std::int64_t matched = 0;
     match_facets(sorted_facets(surface.facets, vertex_count), sorted_faces(std::move(faces.boundary), vertex_count),
                  [&](const OwnedFace&, const OwnedFace&) { ++matched; });
-    laws.missing_facets = static_cast<std::int64_t>(surface.facets.size()) - matched;
+    laws.missing_facets = std::ssize(surface.facets) - matched;
     laws.extra_boundary_faces = boundary_faces - matched;
     laws.mismatched_neighbours = faces.mismatched_sides;
 }
@@ -249,14 +248,12 @@ MeshLaws verify_mesh(const TetMesh& mesh, const SurfaceArrays& surface, FaceProo
 }
 
 std::vector<std::int32_t> tets_at_facets(const TetMesh& mesh, const std::vector<Triangle>& facets) {
-    const auto boundary = static_cast<std::size_t>(mesh.boundary_vertex_count);
+    const std::size_t boundary = mesh.boundary_vertex_count;
     KERF_CHECK(are_in_range(facets, boundary));
     KERF_CHECK(are_in_range(mesh.tets, std::numeric_limits<std::int32_t>::max()));
     std::vector<std::int32_t> tet_at_facet(facets.size(), -1);
     match_facets(sorted_facets(facets, boundary), sorted_faces_over_boundary(mesh),
-                 [&](const OwnedFace& facet, const OwnedFace& face) {
-                     tet_at_facet[static_cast<std::size_t>(facet.owner)] = face.owner;
-                 });
+                 [&](const OwnedFace& facet, const OwnedFace& face) { tet_at_facet[facet.owner] = face.owner; });
     return tet_at_facet;
 }
 

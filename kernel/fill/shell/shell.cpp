@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "fill/delaunay/delaunay.h"
 #include "fill/delaunay/delaunay_flips.h"
 #include "fill/delaunay/enclosing_faces.h"
@@ -33,7 +34,7 @@ std::vector<Vec3> all_points(const SurfaceArrays& surface, const ShellCore& core
 std::vector<Triangle> all_triangles(const SurfaceArrays& surface, const ShellCore& core) {
     std::vector<Triangle> triangles = surface.facets;
     triangles.reserve(triangles.size() + core.faces.size());
-    const auto first = static_cast<std::int32_t>(surface.vertices.size());
+    const auto first = count_of(surface.vertices);
     for (const auto& [a, b, c] : core.faces) triangles.push_back({first + a, first + c, first + b});
     return triangles;
 }
@@ -42,8 +43,8 @@ SpatialTriangulation triangulate(std::vector<Vec3> points) {
     Delaunay result = delaunay(std::move(points));
     if (result.triangulation.cell_count() == 0)
         throw Error(ErrorCode::subdomain, "All vertices of the surface lie in one plane.");
-    for (std::size_t v = 0; v < result.representative.size(); ++v)
-        if (result.representative[v] != static_cast<std::int32_t>(v))
+    for (std::int32_t v = 0; v < count_of(result.representative); ++v)
+        if (result.representative[v] != v)
             throw Error(ErrorCode::subdomain, fmt::format("Vertices {} and {} of the surface lie at the same place.",
                                                           result.representative[v], v));
     return std::move(result.triangulation);
@@ -81,7 +82,7 @@ struct Place {
 Place best_place(const VertexStar& star, const std::vector<Vec3>& points) {
     Vec3 middle = Vec3::Zero();
     for (const std::int32_t u : star.neighbours()) middle += points[u];
-    middle /= static_cast<double>(star.neighbours().size());
+    middle /= star.neighbours().size();
     const Vec3& from = star.at();
     const Vec3 way = middle - from;
     Place best{from, star.badness_at(from)};
@@ -109,12 +110,12 @@ bool settle(EditableTets& tets, std::int32_t v) {
 // worst at it, and otherwise moves it to where the worst of its cells is best. None of them may lie on the boundary.
 // Returns how many are left. Deterministic. Linear.
 std::int64_t settle_steiner_points(EditableTets& tets, std::int32_t first) {
-    std::vector<std::int32_t> left(tets.points().size() - static_cast<std::size_t>(first));
+    std::vector<std::int32_t> left(tets.points().size() - first);
     std::iota(left.begin(), left.end(), first);
     std::erase_if(left, [&](std::int32_t v) { return tets.cell_at(v) == EditableTets::none; });
     for (int visit = 0; visit < most_visits; ++visit)
         std::erase_if(left, [&](std::int32_t v) { return settle(tets, v); });
-    return static_cast<std::int64_t>(left.size());
+    return std::ssize(left);
 }
 
 // --- points where cells are smaller than wanted ---
@@ -137,7 +138,7 @@ void merge_if_close(EditableTets& tets, std::int32_t v, const SizeField& size) {
 // worst of those that are replaced and a cell of 12 degrees. Refinement of slender cells brings such vertices. Those
 // that are merged are left without cells. Deterministic.
 void merge_close_vertices(EditableTets& tets, std::int32_t first, const SizeField& size) {
-    for (std::int32_t v = first; v < static_cast<std::int32_t>(tets.points().size()); ++v)
+    for (std::int32_t v = first; v < count_of(tets.points()); ++v)
         if (tets.cell_at(v) != EditableTets::none) merge_if_close(tets, v, size);
 }
 
@@ -149,8 +150,8 @@ void drop_unused_vertices(TetMesh& mesh) {
     for (const Tetrahedron& tet : mesh.tets)
         for (const std::int32_t v : tet) number[v] = 0;
     std::int32_t count = 0;
-    for (std::size_t v = 0; v < number.size(); ++v) {
-        if (static_cast<std::int32_t>(v) >= mesh.boundary_vertex_count && number[v] < 0) continue;
+    for (std::int32_t v = 0; v < count_of(number); ++v) {
+        if (v >= mesh.boundary_vertex_count && number[v] < 0) continue;
         mesh.vertices[count] = mesh.vertices[v];
         number[v] = count++;
     }
@@ -163,11 +164,11 @@ void drop_unused_vertices(TetMesh& mesh) {
 
 FilledShell fill_shell(const SurfaceArrays& surface, ShellCore core, const RefinementBounds& bounds) {
     FilledShell shell;
-    const auto boundary_vertices = static_cast<std::int32_t>(surface.vertices.size() + core.points.size());
+    const std::int32_t boundary_vertices = surface.vertices.size() + core.points.size();
     const std::vector<Triangle> triangles = all_triangles(surface, core);
     SpatialTriangulation triangulation = triangulate(all_points(surface, core));
     core = {};
-    const auto given_vertices = static_cast<std::int32_t>(triangulation.points().size());
+    const auto given_vertices = count_of(triangulation.points());
     const RecoveredFaces found = recover(triangulation, triangles);
     cut_out(triangulation, found);
     shell.recovery = {found.missing, found.missing - found.split, found.split, 0};

@@ -156,7 +156,7 @@ void feed(FileDescriptor& pipe, const Bytes& bytes, std::size_t& written) {
         if (n < 0 && errno == EINTR) continue;
         if (n < 0 && errno == EAGAIN) return;
         if (n < 0) break;
-        written += static_cast<std::size_t>(n);
+        written += n;
     }
     pipe.close();
 }
@@ -166,10 +166,10 @@ void feed(FileDescriptor& pipe, const Bytes& bytes, std::size_t& written) {
 template <class Take>
 void drain(FileDescriptor& pipe, Take take) {
     if (!pipe.is_open()) return;
-    std::vector<char> buffer(static_cast<std::size_t>(fcntl(pipe.get(), F_GETPIPE_SZ)));
+    std::vector<char> buffer(fcntl(pipe.get(), F_GETPIPE_SZ));
     const ssize_t n = read(pipe.get(), buffer.data(), buffer.size());
     if (n > 0)
-        take(buffer.data(), static_cast<std::size_t>(n));
+        take(buffer.data(), n);
     else if (n == 0 || (errno != EAGAIN && errno != EINTR))
         pipe.close();
 }
@@ -219,7 +219,7 @@ struct ChildPool::Child {
         if (wait4(pid, &status, WNOHANG, &usage) != pid) return false;
         read_streams();
         result.seconds = seconds_since(start);
-        result.peak_rss_bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+        result.peak_rss_bytes = usage.ru_maxrss * 1024;
         if (WIFEXITED(status)) {
             result.end = ChildResult::End::exited;
             result.exit_code = WEXITSTATUS(status);

@@ -42,8 +42,7 @@ NestedShells split_into_shells(const SurfaceArrays& surface) {
     for (Triangle& t : inside_out.facets) std::swap(t[1], t[2]);
     const SeparatedSurface rooms = separate_touching(std::move(inside_out));
     UnionFind facets(surface.facets.size());
-    for (std::size_t c = 0; c < rooms.partner.size(); ++c)
-        facets.join(static_cast<std::int32_t>(c / 3), rooms.partner[c] / 3);
+    for (std::size_t c = 0; c < rooms.partner.size(); ++c) facets.join(c / 3, rooms.partner[c] / 3);
     const Components components = facets.take();
     std::vector<Shell> shells = collect_shells(surface.vertices, surface.facets, components.of, components.count);
     std::vector<char> is_void;
@@ -81,9 +80,9 @@ std::vector<Triangle> largest_facets(const SurfaceArrays& surface, const Shell& 
     std::vector<std::size_t> order(shell.facets.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     count = std::min(count, order.size());
-    std::partial_sort(
-        order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-        [&](std::size_t f, std::size_t g) { return area_sq[f] != area_sq[g] ? area_sq[f] > area_sq[g] : f < g; });
+    std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](std::size_t f, std::size_t g) {
+        return area_sq[f] != area_sq[g] ? area_sq[f] > area_sq[g] : f < g;
+    });
     std::vector<Triangle> largest;
     for (std::size_t i = 0; i < count; ++i) largest.push_back(shell.facets[order[i]]);
     return largest;
@@ -129,7 +128,7 @@ std::vector<Vec3> hole_points(const SurfaceArrays& surface) {
     const NestedShells nested = split_into_shells(surface);
     std::vector<Vec3> points;
     for (std::size_t s = 0; s < nested.shells.size(); ++s)
-        if (nested.is_void[s]) points.push_back(hole_point(surface, nested, static_cast<std::int32_t>(s)));
+        if (nested.is_void[s]) points.push_back(hole_point(surface, nested, s));
     return points;
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/core/cube_root.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "fill/lattice/lattice_core.h"
 #include "fill/shell/shell.h"
@@ -50,7 +51,7 @@ double angle_to_improve_deg(const SurfaceArrays& surface, const MesherOptions& o
     if (options.size.is_empty() || !options.size.is_constant()) return usual_deg;
     std::vector<double> areas;
     for (const Triangle& t : surface.facets) areas.push_back(triangle_area(surface.vertices, t));
-    const auto median = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+    const auto median = areas.begin() + areas.size() / 2;
     std::nth_element(areas.begin(), median, areas.end());
     const double height = 3 * options.size.reference_volume() / *median;
     const double possible_deg =
@@ -71,12 +72,12 @@ Filling fill_shell_alone(const SurfaceArrays& surface, ShellCore core, const Mes
 // of the shell, others of the core.
 TetMesh join(const SurfaceArrays& surface, const LatticeCore& core, TetMesh shell) {
     TetMesh mesh;
-    mesh.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
+    mesh.boundary_vertex_count = count_of(surface.vertices);
     mesh.vertices = std::move(shell.vertices);
-    const auto first_interior = static_cast<std::int32_t>(mesh.vertices.size());
+    const auto first_interior = count_of(mesh.vertices);
     shell.neighbours = {};
     core.append_interior_points(mesh.vertices);
-    mesh.tets.reserve(static_cast<std::size_t>(core.cell_count()) + shell.tets.size());
+    mesh.tets.reserve(core.cell_count() + shell.tets.size());
     core.append_cells(mesh.boundary_vertex_count, first_interior, mesh.tets);
     mesh.tets.insert(mesh.tets.end(), shell.tets.begin(), shell.tets.end());
     return mesh;

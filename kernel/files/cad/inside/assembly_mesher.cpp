@@ -102,8 +102,8 @@ class AssemblyMesher {
                 if (region >= 0) has_facets[region] = 1;
         for (std::size_t r = 0; r < has_facets.size(); ++r)
             if (!has_facets[r])
-                return fmt::format("nothing is left of the solid {} beside those that it touches. {}",
-                                   solid_name(static_cast<std::int32_t>(r)), way_out);
+                return fmt::format("nothing is left of the solid {} beside those that it touches. {}", solid_name(r),
+                                   way_out);
         return opening_of(mesh);
     }
 
@@ -206,10 +206,10 @@ class AssemblyMesher {
         std::vector<double> volumes = region_volumes(mesh, assembly_.volumes.size());
         for (std::size_t r = 0; r < volumes.size(); ++r)
             if (!(std::abs(volumes[r] / assembly_.volumes[r] - 1) <= hopeless_error))
-                refuse(path_, fmt::format(
-                                  "the facets of the solid {} hold {:.6g} mm3, but OpenCASCADE gives it {:.6g}: "
-                                  "its faces do not bound it. {}",
-                                  solid_name(static_cast<std::int32_t>(r)), volumes[r], assembly_.volumes[r], way_out));
+                refuse(path_,
+                       fmt::format("the facets of the solid {} hold {:.6g} mm3, but OpenCASCADE gives it {:.6g}: "
+                                   "its faces do not bound it. {}",
+                                   solid_name(r), volumes[r], assembly_.volumes[r], way_out));
         return {std::move(mesh), std::move(volumes)};
     }
 

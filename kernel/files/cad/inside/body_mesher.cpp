@@ -148,7 +148,7 @@ class BodyMesher {
     bool tighten(const Tessellation& mesh) {
         const double error = volume_error(mesh);
         // As long as the angle decides, facets and error stay as they are.
-        const auto facets = static_cast<double>(mesh.facets.size());
+        const double facets = mesh.facets.size();
         const bool has_effect = facets > 1.3 * std::exchange(last_facets_, facets);
         if (has_effect && is_not_of_chords(error)) return false;
         const double rough = roughness(mesh);

@@ -18,6 +18,7 @@
 #include <Standard_Failure.hxx>
 #include <gp_Pnt.hxx>
 
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "files/cad/inside/healing.h"
 #include "files/cad/inside/tessellation.h"
@@ -45,7 +46,7 @@ struct CoarseFacets {
     explicit CoarseFacets(const std::vector<Body>& bodies) {
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             const Tessellation mesh = tessellate(bodies[b], {deflection * diagonal_of(bodies[b].shape), angle});
-            const auto shift = static_cast<std::int32_t>(vertices.size());
+            const auto shift = count_of(vertices);
             vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
             for (const Triangle& t : mesh.facets) facets.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
             patch.insert(patch.end(), mesh.patch.begin(), mesh.patch.end());

@@ -26,6 +26,7 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 
+#include "base/core/ids.h"
 #include "base/core/unique_name.h"
 #include "files/cad/inside/face_history.h"
 #include "files/cad/inside/healing.h"
@@ -112,15 +113,13 @@ class GeneralFuse {
     bool take_solids() {
         TopTools_DataMapOfShapeInteger body_of;
         solids_.resize(bodies_.size());
-        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        for (std::int32_t b = 0; b < count_of(bodies_); ++b) {
             const TopTools_IndexedMapOfShape solids = sub_shapes(bodies_[b].shape, TopAbs_SOLID);
             for (int i = 1; i <= solids.Extent(); ++i)
                 for (const TopoDS_Shape& image : images_of(builder_, solids(i))) {
-                    const int number = static_cast<int>(b);
-                    if (body_of.IsBound(image) && body_of.Find(image) != number)
-                        return fail(ImprintFailure::Kind::overlap, static_cast<std::size_t>(body_of.Find(image)), b,
-                                    mass_of(image).middle);
-                    if (body_of.Bind(image, number)) solids_[b].push_back({image});
+                    if (body_of.IsBound(image) && body_of.Find(image) != b)
+                        return fail(ImprintFailure::Kind::overlap, body_of.Find(image), b, mass_of(image).middle);
+                    if (body_of.Bind(image, b)) solids_[b].push_back({image});
                 }
         }
         return true;
@@ -148,7 +147,7 @@ class GeneralFuse {
     bool take_faces() {
         TopTools_IndexedMapOfShape faces;
         std::vector<FacetSides> sides;
-        for (std::size_t b = 0; b < bodies_.size(); ++b)
+        for (std::int32_t b = 0; b < count_of(bodies_); ++b)
             for (const auto& [solid, is_inside_out] : solids_[b])
                 for (TopExp_Explorer all(solid, TopAbs_FACE); all.More(); all.Next()) {
                     const TopoDS_Shape& face = all.Current();
@@ -157,14 +156,13 @@ class GeneralFuse {
                     const int known = faces.FindIndex(face);
                     if (known == 0) {
                         faces.Add(outwards);
-                        sides.push_back({-1, static_cast<std::int32_t>(b)});
+                        sides.push_back({-1, b});
                         continue;
                     }
-                    FacetSides& both = sides[static_cast<std::size_t>(known) - 1];
+                    FacetSides& both = sides[known - 1];
                     if (both.front >= 0 || faces(known).Orientation() == outwards.Orientation())
-                        return fail(ImprintFailure::Kind::broken, static_cast<std::size_t>(both.back), b,
-                                    failure.where);
-                    both.front = static_cast<std::int32_t>(b);
+                        return fail(ImprintFailure::Kind::broken, both.back, b, failure.where);
+                    both.front = b;
                 }
         return bind_faces(faces, sides);
     }
@@ -179,17 +177,16 @@ class GeneralFuse {
         BRep_Builder().MakeCompound(compound);
         std::map<std::array<std::int32_t, 3>, std::int32_t> number_of;
         for (int i = 1; i <= faces.Extent(); ++i) {
-            const FacetSides both = sides[static_cast<std::size_t>(i) - 1];
+            const FacetSides both = sides[i - 1];
             if (both.front == both.back) continue;  // a body touches itself
             if (!patch_of.IsBound(faces(i)))
-                return fail(ImprintFailure::Kind::broken, static_cast<std::size_t>(both.back),
-                            static_cast<std::size_t>(both.back), failure.where);
+                return fail(ImprintFailure::Kind::broken, both.back, both.back, failure.where);
             const std::int32_t patch = patch_of.Find(faces(i));
-            const auto next = static_cast<std::int32_t>(assembly_.sides.size());
+            const auto next = count_of(assembly_.sides);
             const auto [entry, is_new] = number_of.try_emplace({patch, both.front, both.back}, next);
             if (is_new) {
                 assembly_.sides.push_back(both);
-                assembly_.patches.push_back(patches_[static_cast<std::size_t>(patch)]);
+                assembly_.patches.push_back(patches_[patch]);
             }
             assembly_.faces.patch_of.Bind(faces(i), entry->second);
             BRep_Builder().Add(compound, faces(i));

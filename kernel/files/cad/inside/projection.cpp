@@ -24,6 +24,7 @@
 #include <TopoDS.hxx>
 #include <gp_Trsf.hxx>
 
+#include "base/core/ids.h"
 #include "base/geometry/closest_point.h"
 #include "files/cad/inside/nearest_point.h"
 #include "surface/soup/triangle_tree.h"
@@ -47,12 +48,12 @@ class FaceGroup {
 
     Vec3 nearest(const Vec3& p) const {
         const TriangleTree::Closest closest = tree_->closest(p);
-        const Facet& facet = facets_[static_cast<std::size_t>(closest.facet)];
+        const Facet& facet = facets_[closest.facet];
         const auto& [a, b, c] = tree_->corners(closest.facet);
         const Vec3 weights = closest_barycentric(p, a, b, c);
         Vec2 start = Vec2::Zero();
-        for (std::size_t i = 0; i < 3; ++i) start += weights[static_cast<int>(i)] * facet.parameters[i];
-        return faces_[static_cast<std::size_t>(facet.face)].find(p, start.x(), start.y());
+        for (std::size_t i = 0; i < 3; ++i) start += weights[i] * facet.parameters[i];
+        return faces_[facet.face].find(p, start.x(), start.y());
     }
 
  private:
@@ -65,7 +66,7 @@ class FaceGroup {
         TopLoc_Location place;
         const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
         if (triangles.IsNull() || !triangles->HasUVNodes()) return;
-        const auto first = static_cast<std::int32_t>(vertices.size());
+        const auto first = count_of(vertices);
         for (int node = 1; node <= triangles->NbNodes(); ++node) {
             const gp_Pnt p = triangles->Node(node).Transformed(place.Transformation());
             vertices.emplace_back(p.X(), p.Y(), p.Z());
@@ -73,7 +74,7 @@ class FaceGroup {
         for (int i = 1; i <= triangles->NbTriangles(); ++i) {
             std::array<int, 3> nodes = {};
             triangles->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-            Facet facet{static_cast<std::int32_t>(faces_.size()), {}};
+            Facet facet{count_of(faces_), {}};
             Triangle corners;
             for (std::size_t k = 0; k < 3; ++k) {
                 corners[k] = first + nodes[k] - 1;
@@ -141,15 +142,14 @@ class CurveGroup {
 class Projector {
  public:
     Projector(const std::vector<Body>& shapes, const std::vector<Patch>& patches, const CadPoints& points) {
-        for (std::size_t p = 0; p < points.patch_names.size(); ++p)
-            numbers_.try_emplace(points.patch_names[p], static_cast<std::int32_t>(p));
+        for (std::size_t p = 0; p < points.patch_names.size(); ++p) numbers_.try_emplace(points.patch_names[p], p);
         for (const Body& body : shapes) add_body(body, patches);
         for (const CadPlace& place : points.places) targets_.push_back(target_of(place));
     }
 
     Vec3 nearest(const Vec3& p, std::int32_t place) const {
         if (place < 0) return p;
-        const Target& target = targets_[static_cast<std::size_t>(place)];
+        const Target& target = targets_[place];
         if (!target.curves.empty()) return target.curves.nearest(p);
         return target.faces->empty() ? p : target.faces->nearest(p);
     }
@@ -166,7 +166,7 @@ class Projector {
 
     void add_body(const Body& body, const std::vector<Patch>& patches) {
         const auto number_of = [&](const TopoDS_Shape& face) {
-            const auto found = numbers_.find(patches[static_cast<std::size_t>(body.patch_of.Find(face))].name);
+            const auto found = numbers_.find(patches[body.patch_of.Find(face)].name);
             return found == numbers_.end() ? -1 : found->second;
         };
         TopTools_IndexedMapOfShape faces;
@@ -235,8 +235,7 @@ ProjectedPoints project_points(const std::vector<Body>& shapes, const std::vecto
             points.place[i] < 0 ? p : Vec3(projector.nearest(p * millimetres, points.place[i]) / millimetres));
     }
     for (std::size_t i = 0; i < points.ends.size(); ++i) {
-        const Vec3 &a = result.points[static_cast<std::size_t>(points.ends[i][0])],
-                   &b = result.points[static_cast<std::size_t>(points.ends[i][1])];
+        const Vec3 &a = result.points[points.ends[i][0]], &b = result.points[points.ends[i][1]];
         result.middles.push_back(projector.nearest(0.5 * (a + b) * millimetres, points.place_of_middle[i]) /
                                  millimetres);
     }

@@ -37,6 +37,7 @@
 #include <gp_XY.hxx>
 
 #include "base/core/drop_items.h"
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 
 namespace kerf::cad {
@@ -106,7 +107,7 @@ class Welder {
     Welder(const Body& body, const std::vector<FacetSides>& sides) : body_(body), sides_(sides) {
         TopExp::MapShapes(body.shape, TopAbs_VERTEX, corners_);
         TopExp::MapShapesAndUniqueAncestors(body.shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edge_);
-        nodes_of_edge_.resize(static_cast<std::size_t>(faces_of_edge_.Extent()) + 1);
+        nodes_of_edge_.resize(faces_of_edge_.Extent() + 1);
         for (int i = 1; i <= corners_.Extent(); ++i)
             result_.vertices.push_back(to_vec3(BRep_Tool::Pnt(TopoDS::Vertex(corners_(i)))));
     }
@@ -135,7 +136,7 @@ class Welder {
         }
         const gp_Trsf& trsf = place.Transformation();
         const auto point = [&](int node) { return to_vec3(triangles->Node(node).Transformed(trsf)); };
-        number_.assign(static_cast<std::size_t>(triangles->NbNodes()) + 1, -1);
+        number_.assign(triangles->NbNodes() + 1, -1);
         for (TopExp_Explorer edges(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); edges.More(); edges.Next())
             number_edge(TopoDS::Edge(edges.Current()), triangles, place, point);
         if (!sides_.empty()) number_inner_vertices(face, *triangles, point);
@@ -194,7 +195,7 @@ class Welder {
         for (int k = 1; k <= n; ++k)
             if (is_point)
                 number_[polygon->Node(k)] = corner(first);
-            else if (static_cast<std::size_t>(k) <= shared.size())
+            else if (k <= std::ssize(shared))
                 number_[polygon->Node(k)] = shared[k - 1];
     }
 
@@ -202,7 +203,7 @@ class Welder {
 
     std::int32_t add_vertex(const Vec3& p) {
         result_.vertices.push_back(p);
-        return static_cast<std::int32_t>(result_.vertices.size()) - 1;
+        return count_of(result_.vertices) - 1;
     }
 
     void keep_facets(const std::vector<char>& drop) {
@@ -229,11 +230,11 @@ class Welder {
             bool is_even;  // an even number of swaps sorts the vertices
         };
         std::vector<Sorted> sorted(result_.facets.size());
-        for (std::size_t f = 0; f < sorted.size(); ++f) {
+        for (std::int32_t f = 0; f < count_of(sorted); ++f) {
             Triangle t = result_.facets[f];
             const bool is_even = ((t[0] > t[1]) + (t[0] > t[2]) + (t[1] > t[2])) % 2 == 0;
             std::sort(t.begin(), t.end());
-            sorted[f] = {t, static_cast<std::int32_t>(f), is_even};
+            sorted[f] = {t, f, is_even};
         }
         std::sort(sorted.begin(), sorted.end(), [](const Sorted& a, const Sorted& b) {
             return std::tie(a.vertices, a.facet) < std::tie(b.vertices, b.facet);
@@ -261,7 +262,7 @@ class Welder {
     // Adds the edges that bound patches, and creases inside of one.
     void add_edges() {
         for (int i = 1; i <= faces_of_edge_.Extent(); ++i) {
-            const std::vector<std::int32_t>& nodes = nodes_of_edge_[static_cast<std::size_t>(i)];
+            const std::vector<std::int32_t>& nodes = nodes_of_edge_[i];
             const TopTools_ListOfShape& faces = faces_of_edge_(i);
             if (nodes.empty() || faces.IsEmpty()) continue;
             const TopoDS_Edge edge = TopoDS::Edge(faces_of_edge_.FindKey(i));
@@ -289,9 +290,8 @@ struct DirectedEdge {
 std::vector<DirectedEdge> sorted_edges(const std::vector<Triangle>& facets) {
     std::vector<DirectedEdge> edges;
     edges.reserve(3 * facets.size());
-    for (std::size_t f = 0; f < facets.size(); ++f)
-        for (std::size_t i = 0; i < 3; ++i)
-            edges.push_back({facets[f][i], facets[f][(i + 1) % 3], static_cast<std::int32_t>(f)});
+    for (std::int32_t f = 0; f < count_of(facets); ++f)
+        for (std::size_t i = 0; i < 3; ++i) edges.push_back({facets[f][i], facets[f][(i + 1) % 3], f});
     std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
         return std::tie(a.from, a.to, a.facet) < std::tie(b.from, b.to, b.facet);
     });
@@ -343,7 +343,7 @@ double enclosed_volume(const Tessellation& mesh) {
 }
 
 std::int32_t most_facets_of_patch(const Tessellation& mesh) {
-    std::vector<std::int32_t> counts(static_cast<std::size_t>(std::ranges::max(mesh.patch)) + 1);
+    std::vector<std::int32_t> counts(std::ranges::max(mesh.patch) + 1);
     for (const std::int32_t patch : mesh.patch) ++counts[patch];
     return std::ranges::max(counts);
 }

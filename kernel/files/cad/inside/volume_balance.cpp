@@ -67,7 +67,7 @@ std::vector<double> volumes_between(const Tessellation& mesh, std::size_t region
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         const double volume = area_vector(mesh, f).norm() * std::abs(mesh.rise[f]);
         for (const std::int32_t region : {mesh.sides[f].front, mesh.sides[f].back})
-            if (region >= 0) between[static_cast<std::size_t>(region)] += volume;
+            if (region >= 0) between[region] += volume;
     }
     return between;
 }

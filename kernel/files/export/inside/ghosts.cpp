@@ -6,6 +6,7 @@
 // order of the parts and cells in that of their part, so that ghosts are ascending without a sort; nodes are sorted,
 // since several parts may have one.
 #include "files/export/inside/ghosts.h"
+#include "base/core/ids.h"
 
 #include <algorithm>
 #include <exception>
@@ -48,10 +49,9 @@ std::vector<std::int32_t> tets_at_others(const Part& part) {
     for (const SharedGroup& group : part.shared)
         for (const std::int32_t v : group.vertices) is_shared[v] = true;
     std::vector<std::int32_t> tets;
-    for (std::int64_t t = 0; t < part.tet_count(); ++t) {
+    for (std::int32_t t = 0; t < part.tet_count(); ++t) {
         const Tetrahedron& tet = part.mesh.tets[t];
-        if (std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) { return is_shared[v]; }))
-            tets.push_back(static_cast<std::int32_t>(t));
+        if (std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) { return is_shared[v]; })) tets.push_back(t);
     }
     return tets;
 }
@@ -63,7 +63,7 @@ GhostLayer make_layer(const Part& part) {
     const auto add_nodes = [&](const auto& nodes) {
         for (const std::int32_t n : nodes) {
             if (place[n] < 0) {
-                place[n] = static_cast<std::int32_t>(layer.nodes.size());
+                place[n] = count_of(layer.nodes);
                 layer.nodes.push_back({part.node_id(n), part.node_point(n)});
             }
             layer.corners.push_back(place[n]);

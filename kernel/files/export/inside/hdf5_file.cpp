@@ -234,7 +234,7 @@ void Hdf5Bytes::write(const void* data, std::size_t size, std::int64_t place) co
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) fail_hdf5(path_, "write", errno);
         bytes += written;
-        size -= static_cast<std::size_t>(written);
+        size -= written;
         place += written;
     }
 }

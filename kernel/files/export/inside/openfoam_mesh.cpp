@@ -6,6 +6,7 @@
 // seen from its own side there. Lists are binary and written an entry at a time, behind their length, which is known
 // before: of n tetrahedra with b boundary faces there are (4 n + b) / 2 faces.
 #include "files/export/inside/openfoam_mesh.h"
+#include "base/core/ids.h"
 
 #include <algorithm>
 
@@ -79,8 +80,8 @@ struct PlacedFacet {
 std::vector<PlacedFacet> place_facets(const Part& part, const MeshOutline& outline, Label of_surface) {
     const Labels patches = patches_of_facets(part, outline, of_surface);
     std::vector<PlacedFacet> placed(part.facets.size());
-    for (std::size_t f = 0; f < placed.size(); ++f) {
-        placed[f] = {patches[f], {}, static_cast<std::int32_t>(f)};
+    for (std::int32_t f = 0; f < count_of(placed); ++f) {
+        placed[f] = {patches[f], {}, f};
         if (!part.is_interface(f)) continue;
         for (std::size_t i = 0; i < 3; ++i) placed[f].ids[i] = part.global_id[part.facets[f][i]];
         std::sort(placed[f].ids.begin(), placed[f].ids.end());
@@ -140,22 +141,21 @@ void write_points(const Part& part, const MeshPlace& place, ExportFiles& files) 
 
 void begin_corners(ListFile& faces, std::int64_t count) {
     faces.begin(count + 1);
-    for (std::int64_t f = 0; f <= count; ++f) faces.entry(static_cast<Label>(3 * f));
+    for (std::int64_t f = 0; f <= count; ++f) faces.entry<Label>(3 * f);
     faces.end();
     faces.begin(3 * count);
 }
 
 // Writes the faces between cells, in upper-triangular order.
 void write_inner_faces(const TetMesh& mesh, ListFile& faces, ListFile& owner, ListFile& neighbour) {
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (Label t = 0; t < count_of(mesh.tets); ++t) {
         const std::array<std::int32_t, 4>& across = mesh.neighbours[t];
         std::array<std::size_t, 4> order = {0, 1, 2, 3};
         std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return across[a] < across[b]; });
-        const auto cell = static_cast<Label>(t);
         for (const std::size_t i : order) {
-            if (across[i] <= cell) continue;
+            if (across[i] <= t) continue;
             faces.entry(face_of_cell(mesh, t, i));
-            owner.entry(cell);
+            owner.entry(t);
             neighbour.entry(across[i]);
         }
     }
@@ -212,7 +212,7 @@ std::int64_t face_count(std::int64_t tets, std::int64_t boundary_faces) { return
 
 Boundary boundary_of_mesh(const Part& part, const MeshOutline& outline, std::int32_t processor,
                           std::vector<Patch> patches) {
-    const auto of_surface = static_cast<std::int32_t>(patches.size());
+    const auto of_surface = count_of(patches);
     Boundary boundary{std::move(patches), {}, {}};
     for (const mesh_files::PlacedFacet& placed : mesh_files::place_facets(part, outline, of_surface)) {
         const std::int32_t f = placed.facet;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 
 namespace kerf::openfoam {
 
@@ -28,7 +29,7 @@ WordRules rules() {
 }
 
 std::int32_t position_in(const std::vector<RegionIndex>& ascending, RegionIndex region) {
-    return static_cast<std::int32_t>(std::lower_bound(ascending.begin(), ascending.end(), region) - ascending.begin());
+    return std::lower_bound(ascending.begin(), ascending.end(), region) - ascending.begin();
 }
 
 Patch mapped_patch(const std::string& word, const std::string& other_region, const std::string& other_patch) {
@@ -51,17 +52,16 @@ class Extract {
         for (std::size_t run = 0; run < whole.regions.size(); ++run) {
             if (whole.regions[run].region != region) continue;
             const bool is_last = run + 1 == whole.regions.size();
-            const std::int32_t end =
-                is_last ? static_cast<std::int32_t>(whole.tet_count()) : whole.regions[run + 1].first_tet;
+            const std::int32_t end = is_last ? whole.tet_count() : whole.regions[run + 1].first_tet;
             for (std::int32_t t = whole.regions[run].first_tet; t < end; ++t) tets_.push_back(t);
         }
         for (std::size_t i = 0; i < tets_.size(); ++i) {
-            local_tet_[tets_[i]] = static_cast<std::int32_t>(i);
+            local_tet_[tets_[i]] = i;
             for (const std::int32_t v : whole.mesh.tets[tets_[i]]) local_vertex_[v] = 0;
         }
         for (std::size_t v = 0; v < local_vertex_.size(); ++v) {
             if (local_vertex_[v] < 0) continue;
-            local_vertex_[v] = static_cast<std::int32_t>(piece.mesh.vertices.size());
+            local_vertex_[v] = count_of(piece.mesh.vertices);
             piece.mesh.vertices.push_back(whole.mesh.vertices[v]);
             piece.global_id.push_back(whole.global_id[v]);
         }
@@ -118,8 +118,7 @@ RegionMeshes::RegionMeshes(const PartSource& parts, std::span<const PatchType> t
 
 // Returns the place of the patch towards another region: behind the patches of the surface.
 std::int32_t RegionMeshes::wall_patch(RegionIndex region, RegionIndex other) const {
-    return static_cast<std::int32_t>(walls_.outer_patches(region).size()) +
-           regions::position_in(walls_.neighbours(region), other);
+    return count_of(walls_.outer_patches(region)) + regions::position_in(walls_.neighbours(region), other);
 }
 
 std::vector<Patch> RegionMeshes::patches(RegionIndex region) const {
@@ -148,10 +147,8 @@ Part RegionMeshes::part_of(const Part& part, RegionIndex region) const {
         else if (part.is_interface(f))
             extract.add(part.facets[f], tet, -1, part.neighbour[f]);
         else
-            extract.add(
-                part.facets[f], tet,
-                static_cast<std::int32_t>(std::lower_bound(outer.begin(), outer.end(), part.patch[f]) - outer.begin()),
-                -1);
+            extract.add(part.facets[f], tet,
+                        std::lower_bound(outer.begin(), outer.end(), part.patch[f]) - outer.begin(), -1);
     }
     extract.for_each_inner_wall([&](const Triangle& corners, std::int32_t tet, std::int32_t beyond) {
         extract.add(corners, tet, wall_patch(region, part.region_of(beyond)), -1);

@@ -25,7 +25,7 @@ PatchPieces pieces_with(const Part& part, const std::vector<bool>& is_wanted) {
     for (std::size_t patch = 0; patch < all.size(); ++patch) {
         if (on_patch[patch].empty()) continue;
         PatchPiece& piece = pieces.on_patches.emplace_back(std::move(all[patch]));
-        piece.patch = static_cast<std::int32_t>(patch);
+        piece.patch = patch;
         const auto add_nodes = [&](const auto& nodes) {
             for (const std::int32_t n : nodes) {
                 piece.box.extend(part.node_point(n));

@@ -24,7 +24,7 @@ std::uint64_t code_of(const PageSurface::GridPoint& point) {
     constexpr int more_bits = 21 - grid_bits;
     constexpr float most = (1 << 21) - 1, half = 1 << (more_bits - 1);
     std::array<float, 3> scaled;
-    for (int i = 0; i < 3; ++i) scaled[i] = (static_cast<float>(point[i] << more_bits) + half) / most;
+    for (int i = 0; i < 3; ++i) scaled[i] = ((point[i] << more_bits) + half) / most;
     return morton_code(scaled) >> (3 * more_bits);
 }
 
@@ -33,7 +33,7 @@ void keep_each_once(std::vector<std::uint64_t>& codes) {
 }
 
 std::int32_t number_in(const std::vector<std::uint64_t>& codes, std::uint64_t code) {
-    return static_cast<std::int32_t>(std::lower_bound(codes.begin(), codes.end(), code) - codes.begin());
+    return std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
 }
 
 bool has_two_equal(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
@@ -42,7 +42,7 @@ bool has_two_equal(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t
 
 PageSurface::PageSurface(const Box& box, std::int64_t limit)
     : low_(box.min()),
-      step_(std::max(box.sizes().maxCoeff() / static_cast<double>(last_step), std::numeric_limits<double>::min())),
+      step_(std::max(box.sizes().maxCoeff() / last_step, std::numeric_limits<double>::min())),
       limit_(limit) {}
 
 PageSurface::GridPoint PageSurface::grid_point(const Vec3& point) const {

@@ -25,7 +25,7 @@ ElementType element_type(std::int64_t number) {
          {prism, 15},       {pyramid, 13},    {triangle, 9}, {triangle, 10},  {triangle, 12},   {triangle, 15},
          {triangle, 15},    {triangle, 21},   {line, 4},     {line, 5},       {line, 6},        {tetrahedron, 20},
          {tetrahedron, 35}, {tetrahedron, 56}}};
-    return number > 0 && number < static_cast<std::int64_t>(types.size()) ? types[number] : ElementType{};
+    return number > 0 && number < std::ssize(types) ? types[number] : ElementType{};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "files/io/inside/region_facets.h"
 #include "surface/diagnosis/orientation.h"
 
@@ -54,7 +55,7 @@ Volumes find_volumes(const Model& model, const FacetsOfSurfaces& of_surfaces) {
                                             [&](std::int64_t surface) { return of_surfaces.contain(surface); });
         if (boundary.empty() || !is_in_file) continue;
         const std::int64_t* group = find(model.volumes.group_of_entity, entity);
-        const auto next = static_cast<std::int32_t>(volumes.surfaces.size());
+        const auto next = count_of(volumes.surfaces);
         if (!volumes.numbers.try_emplace(VolumeKey(group ? *group : 0, entity), next).second) continue;
         volumes.surfaces.push_back(boundary);
         std::sort(volumes.surfaces.back().begin(), volumes.surfaces.back().end());
@@ -64,12 +65,12 @@ Volumes find_volumes(const Model& model, const FacetsOfSurfaces& of_surfaces) {
 
 // Returns six times the signed volume that each shell encloses, by the orientation that its facets agree on.
 std::vector<double> six_volumes_of_shells(const ConsistentFacets& consistent, const std::vector<Vec3>& vertices) {
-    std::vector<double> six_volumes(static_cast<std::size_t>(consistent.shell_count), 0);
+    std::vector<double> six_volumes(consistent.shell_count, 0);
     for (std::size_t f = 0; f < consistent.facets.size(); ++f) {
         const Vec3& origin = vertices[consistent.facets.front()[0]];
         const auto& [a, b, c] = consistent.facets[f];
         const Vec3 p = vertices[a] - origin, q = vertices[b] - origin, r = vertices[c] - origin;
-        six_volumes[static_cast<std::size_t>(consistent.shell[f])] += p.cross(q).dot(r);
+        six_volumes[consistent.shell[f]] += p.cross(q).dot(r);
     }
     return six_volumes;
 }
@@ -82,11 +83,11 @@ std::vector<char> are_inward(const std::vector<Triangle>& facets, const std::vec
                                         [](double a, double b) { return std::abs(a) < std::abs(b); });
     std::vector<char> is_inward(facets.size(), 0);
     for (std::size_t f = 0; f < facets.size(); ++f) {
-        const auto shell = static_cast<std::size_t>(consistent.shell[f]);
-        const bool is_void = shell != static_cast<std::size_t>(outer - six_volumes.begin());
+        const std::int32_t shell = consistent.shell[f];
+        const bool is_void = shell != outer - six_volumes.begin();
         is_inward[f] = (six_volumes[shell] < 0) != is_void;
     }
-    for (const std::int32_t f : consistent.turned) is_inward[static_cast<std::size_t>(f)] ^= 1;
+    for (const std::int32_t f : consistent.turned) is_inward[f] ^= 1;
     return is_inward;
 }
 

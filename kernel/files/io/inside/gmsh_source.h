@@ -30,7 +30,7 @@ class Source {
         const std::int64_t value = text_.next_integer();
         if (value != static_cast<std::int32_t>(value))
             fail("a tag or type has more than 32 bits. Save the mesh again.");
-        return static_cast<std::int32_t>(value);
+        return value;
     }
     std::int64_t next_long() { return is_binary() ? binary().next<std::int64_t>() : text_.next_integer(); }
     double next_real() { return is_binary() ? binary().next<double>() : text_.next_real(); }

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "surface/soup/region_patches.h"
 
 namespace kerf {
@@ -35,8 +36,7 @@ Triangle sorted(Triangle t) {
 class FaceTable {
  public:
     explicit FaceTable(const std::vector<RegionFace>& faces) {
-        for (std::size_t i = 0; i < faces.size(); ++i)
-            entries_.emplace_back(sorted(faces[i].corners), static_cast<std::int32_t>(i));
+        for (std::size_t i = 0; i < faces.size(); ++i) entries_.emplace_back(sorted(faces[i].corners), i);
         std::sort(entries_.begin(), entries_.end());
     }
     std::int32_t find(const Triangle& corners) const {
@@ -59,11 +59,10 @@ class FaceTable {
 class Patches {
  public:
     explicit Patches(Soup& soup) : soup_(soup) {
-        for (std::size_t p = 0; p < soup.patch_names.size(); ++p)
-            numbers_.try_emplace(soup.patch_names[p], static_cast<std::int32_t>(p));
+        for (std::size_t p = 0; p < soup.patch_names.size(); ++p) numbers_.try_emplace(soup.patch_names[p], p);
     }
     std::int32_t number(const std::string& name) {
-        const auto next = static_cast<std::int32_t>(soup_.patch_names.size());
+        const auto next = count_of(soup_.patch_names);
         const auto [found, is_new] = numbers_.try_emplace(name.substr(0, longest_patch_name), next);
         if (is_new) soup_.patch_names.push_back(found->first);
         return found->second;
@@ -86,12 +85,12 @@ std::vector<std::int32_t> keep_faces(Soup& soup, const FaceTable& table, std::si
     std::int64_t others = 0, copies = 0;
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         const std::int32_t face = table.find(soup.facets[f]);
-        const bool is_copy = face != no_face && is_taken[static_cast<std::size_t>(face)];
+        const bool is_copy = face != no_face && is_taken[face];
         others += face == no_face;
         copies += is_copy;
         drop[f] = face == no_face || is_copy;
         if (drop[f]) continue;
-        is_taken[static_cast<std::size_t>(face)] = 1;
+        is_taken[face] = 1;
         face_of_facet.push_back(face);
     }
     drop_facets(soup, drop);
@@ -104,14 +103,14 @@ std::vector<std::int32_t> keep_faces(Soup& soup, const FaceTable& table, std::si
 void append_faces(Soup& soup, std::size_t face_count, std::int32_t polygon_count,
                   std::vector<std::int32_t>& face_of_facet) {
     std::vector<char> is_taken(face_count, 0);
-    for (const std::int32_t face : face_of_facet) is_taken[static_cast<std::size_t>(face)] = 1;
-    if (soup.polygon.empty() && polygon_count != static_cast<std::int32_t>(soup.facets.size())) {
+    for (const std::int32_t face : face_of_facet) is_taken[face] = 1;
+    if (soup.polygon.empty() && polygon_count != count_of(soup.facets)) {
         soup.polygon.resize(soup.facets.size());
         std::iota(soup.polygon.begin(), soup.polygon.end(), 0);
     }
     for (std::size_t i = 0; i < face_count; ++i) {
         if (is_taken[i]) continue;
-        face_of_facet.push_back(static_cast<std::int32_t>(i));
+        face_of_facet.push_back(i);
         if (!soup.polygon.empty()) soup.polygon.push_back(polygon_count++);
     }
 }
@@ -141,7 +140,7 @@ void finish(Soup& soup, const std::vector<std::string>& region_names) {
     soup.region_names = region_names;
     const auto walls =
         std::count_if(soup.sides.begin(), soup.sides.end(), [](const FacetSides& s) { return s.is_wall(); });
-    soup.notes.push_back(tell_regions(region_names, static_cast<std::size_t>(walls), soup.facets.size()));
+    soup.notes.push_back(tell_regions(region_names, walls, soup.facets.size()));
 }
 
 }  // namespace region
@@ -152,7 +151,7 @@ void take_region_faces(Soup& soup, const std::vector<RegionFace>& faces, const s
                        const FileFacets& file, const std::string& path) {
     const region::FaceTable table(faces);
     if (const std::int32_t repeated = table.find_repeated(); repeated != region::no_face)
-        refuse_overlap(soup, faces[static_cast<std::size_t>(repeated)], region_names, path);
+        refuse_overlap(soup, faces[repeated], region_names, path);
     std::vector<std::int32_t> face_of_facet = region::keep_faces(soup, table, faces.size());
     const std::size_t of_file = face_of_facet.size();
     region::append_faces(soup, faces.size(), file.polygon_count, face_of_facet);
@@ -161,7 +160,7 @@ void take_region_faces(Soup& soup, const std::vector<RegionFace>& faces, const s
     soup.sides.resize(face_of_facet.size());
     region::Patches patches(soup);
     for (std::size_t f = 0; f < face_of_facet.size(); ++f) {
-        const RegionFace& face = faces[static_cast<std::size_t>(face_of_facet[f])];
+        const RegionFace& face = faces[face_of_facet[f]];
         soup.facets[f] = face.corners;
         soup.sides[f] = face.sides;
         if (f >= of_file || soup.patch[f] == file.unnamed_patch)
@@ -192,7 +191,7 @@ void refuse_overlap(const Soup& soup, const RegionFace& face, const std::vector<
                     const std::string& path) {
     const auto& [a, b, c] = face.corners;
     const Vec3 where = (soup.vertices[a] + soup.vertices[b] + soup.vertices[c]) / 3;
-    const auto name = [&](std::int32_t number) { return region_names[static_cast<std::size_t>(std::max(number, 0))]; };
+    const auto name = [&](std::int32_t number) { return region_names[std::max(number, 0)]; };
     const std::int32_t other = face.sides.front < 0 ? face.sides.back : face.sides.front;
     throw Error(ErrorCode::input, path + ": " + tell_overlap(name(face.sides.back), name(other), where));
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "files/io/inside/tet_skin.h"
 #include "surface/soup/soup.h"
 
@@ -29,10 +30,10 @@ VolumeRegions regions_of(const std::map<VolumeKey, std::int32_t>& number_of_volu
     VolumeRegions regions{std::vector<std::int32_t>(number_of_volume.size()), {}};
     std::map<std::string, std::int32_t> region_of_name;
     for (const auto& [key, volume] : number_of_volume) {
-        const auto next = static_cast<std::int32_t>(regions.names.size());
+        const auto next = count_of(regions.names);
         const auto [region, is_new] = region_of_name.try_emplace(std::string(name(key)).substr(0, longest_name), next);
         if (is_new) regions.names.push_back(region->first);
-        regions.region_of_volume[static_cast<std::size_t>(volume)] = region->second;
+        regions.region_of_volume[volume] = region->second;
     }
     return regions;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "files/io/inside/region_facets.h"
 #include "surface/soup/soup.h"
 
@@ -30,20 +31,20 @@ class TetCollector {
         : path_(path), soup_(soup), has_volumes_(has_volumes) {}
 
     bool empty() const { return tets_.empty(); }
-    std::int64_t count() const { return static_cast<std::int64_t>(tets_.size()); }
+    std::int64_t count() const { return std::ssize(tets_); }
 
     /// Adds a tetrahedron of any orientation, in the volume with this number from volume(). Calls `fail(message)`,
     /// which must throw, for a corner that is no vertex so far.
     template <class Fail>
     void add(std::span<const std::int64_t> corners, const Fail& fail, std::int32_t volume = 0) {
-        const auto vertices = static_cast<std::int64_t>(soup_.vertices.size());
+        const auto vertices = std::ssize(soup_.vertices);
         Tetrahedron tet{};
         for (std::size_t i = 0; i < tet.size(); ++i) {
             if (corners[i] < 0 || corners[i] >= vertices)
                 fail("a tetrahedron names vertex number " + std::to_string(corners[i]) +
                      " (counted from 0), but there are " + std::to_string(vertices) +
                      " vertices. Correct it or save the mesh again.");
-            tet[i] = static_cast<std::int32_t>(corners[i]);
+            tet[i] = corners[i];
         }
         if (tets_.size() == std::numeric_limits<std::int32_t>::max())
             throw Error(ErrorCode::input, path_ + ": the file has more than 2^31 - 1 tetrahedra. Split the mesh.");
@@ -53,7 +54,7 @@ class TetCollector {
 
     /// Returns the number of a volume, a new one when the key comes first.
     std::int32_t volume(const VolumeKey& key) {
-        return number_of_volume_.try_emplace(key, static_cast<std::int32_t>(number_of_volume_.size())).first->second;
+        return number_of_volume_.try_emplace(key, count_of(number_of_volume_)).first->second;
     }
     std::size_t volume_count() const { return number_of_volume_.size(); }
     /// Names the volumes by `name(key)`, and makes regions of those of one name. Without any volume() all tetrahedra
@@ -67,7 +68,7 @@ class TetCollector {
     std::vector<std::int32_t> regions_of_tets() const {
         if (regions_.names.size() == 1) return {};
         std::vector<std::int32_t> regions = volume_of_tet_;
-        for (std::int32_t& region : regions) region = regions_.region_of_volume[static_cast<std::size_t>(region)];
+        for (std::int32_t& region : regions) region = regions_.region_of_volume[region];
         return regions;
     }
     /// Returns the faces at which regions end, once the volumes are named. Throws Error(input) if tetrahedra of two

@@ -27,15 +27,13 @@ class Faces {
           const std::vector<std::int32_t>& region_of_tet)
         : vertices_(vertices), tets_(tets), region_of_tet_(region_of_tet) {}
 
-    std::int32_t region(const FaceSide& side) const {
-        return region_of_tet_.empty() ? 0 : region_of_tet_[static_cast<std::size_t>(side.tet())];
-    }
+    std::int32_t region(const FaceSide& side) const { return region_of_tet_.empty() ? 0 : region_of_tet_[side.tet()]; }
     // Returns the exact sign: a rounded one of a flat tetrahedron may tell the wrong side.
     int sign(const FaceSide& side) const { return tet_sign(vertices_, tet(side)); }
     // Returns the corners counter-clockwise seen from outside of the tetrahedron.
     Triangle outward(const FaceSide& side) const {
         Triangle face{};
-        for (std::size_t i = 0; i < 3; ++i) face[i] = tet(side)[static_cast<std::size_t>(tet_faces[side.corner()][i])];
+        for (std::size_t i = 0; i < 3; ++i) face[i] = tet(side)[tet_faces[side.corner()][i]];
         if (sign(side) < 0) std::swap(face[1], face[2]);
         return face;
     }
@@ -47,7 +45,7 @@ class Faces {
     }
 
  private:
-    const Tetrahedron& tet(const FaceSide& side) const { return tets_[static_cast<std::size_t>(side.tet())]; }
+    const Tetrahedron& tet(const FaceSide& side) const { return tets_[side.tet()]; }
 
     const std::vector<Vec3>& vertices_;
     const std::vector<Tetrahedron>& tets_;
@@ -62,7 +60,7 @@ struct Face {
 std::string names_text(const std::vector<std::string>& names) {
     constexpr std::size_t most = 4;
     const std::size_t told = std::min(names.size(), most);
-    std::string text = fmt::format("'{}'", fmt::join(names.begin(), names.begin() + static_cast<int>(told), "', '"));
+    std::string text = fmt::format("'{}'", fmt::join(names.begin(), names.begin() + told, "', '"));
     if (told < names.size()) text += fmt::format(" and {} more", names.size() - told);
     return text;
 }

@@ -138,7 +138,7 @@ class TextScanner {
     }
     void skip_line() {
         const char* const end = text_.data() + text_.size();
-        position_ = static_cast<std::size_t>(line_end(text_.data() + position_, end) - text_.data());
+        position_ = line_end(text_.data() + position_, end) - text_.data();
         if (text_.substr(position_, 2) == "\r\n") ++position_;
         if (position_ < text_.size()) ++position_;
     }
@@ -163,7 +163,7 @@ class TextScanner {
             if (comment_ && *at == comment_) at = line_end(at, end);
             if (at == end || !detail::is_space(*at) || (!over_line_ends && detail::is_line_end(*at))) break;
         }
-        position_ = static_cast<std::size_t>(at - text_.data());
+        position_ = at - text_.data();
     }
     static const char* line_end(const char* at, const char* end) {
         while (at != end && !detail::is_line_end(*at)) ++at;
@@ -186,15 +186,15 @@ class TextScanner {
             return true;
         }
         if (at != end && !detail::is_space(*at) && !(comment_ && *at == comment_)) return false;
-        position_ = static_cast<std::size_t>(at - text_.data());
+        position_ = at - text_.data();
         return true;
     }
     std::string_view scan_word() {
         const char *const begin = text_.data() + position_, *at = begin, *const end = text_.data() + text_.size();
         const char comment = comment_ ? comment_ : ' ';
         while (at != end && !detail::is_space(*at) && *at != comment) ++at;
-        position_ += static_cast<std::size_t>(at - begin);
-        return {begin, static_cast<std::size_t>(at - begin)};
+        position_ += at - begin;
+        return {begin, at};
     }
     [[noreturn]] void refuse(std::string_view word, const char* kind, std::errc error) const {
         const std::string quoted = "\"" + std::string(word.substr(0, 40)) + "\"";

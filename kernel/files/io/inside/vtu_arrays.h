@@ -56,13 +56,12 @@ class Bytes {
             value = value << 6 | digit(c);
             ++letters;
         }
-        for (int byte = 0; byte < 3 - padding; ++byte)
-            rest_ += static_cast<char>(static_cast<unsigned char>(value >> (16 - 8 * byte)));
+        for (int byte = 0; byte < 3 - padding; ++byte) rest_ += static_cast<char>(value >> (16 - 8 * byte));
     }
     std::uint32_t digit(char c) const {
-        if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
-        if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a' + 26);
-        if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0' + 52);
+        if (c >= 'A' && c <= 'Z') return c - 'A';
+        if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+        if (c >= '0' && c <= '9') return c - '0' + 52;
         if (c == '+') return 62;
         if (c == '/') return 63;
         if (c == '=') return 0;
@@ -86,7 +85,7 @@ class Decoder {
         const auto found = piece.arrays.find(name);
         if (found == piece.arrays.end()) fail(path_, "it has no array " + name + ". Save it again.");
         std::vector<Value> result = values_of<Value>(found->second);
-        if (count < 0 || result.size() != static_cast<std::size_t>(count))
+        if (std::ssize(result) != count)
             fail(path_, "its array " + name + " has " + std::to_string(result.size()) + " values, not " +
                             std::to_string(count) + ". Save or copy it again.");
         return result;
@@ -125,15 +124,14 @@ class Decoder {
         if (bytes.size() % sizeof(Stored)) fail(path_, "an array ends within a value. Save or copy it again.");
         std::vector<Value> values(bytes.size() / sizeof(Stored));
         BinaryScanner scanner(bytes, 0, path_, file_.order);
-        for (Value& value : values) value = static_cast<Value>(scanner.next<Stored>());
+        for (Value& value : values) value = scanner.next<Stored>();
         return values;
     }
     std::string bytes_of(const Array& array) const {
         if (array.format == "appended") {
-            if (array.offset < 0 || static_cast<std::uint64_t>(array.offset) > file_.appended.size())
+            if (array.offset < 0 || array.offset > std::ssize(file_.appended))
                 fail(path_, "an array lies behind the end of the file. It is truncated: save or copy it again.");
-            const auto offset = static_cast<std::size_t>(array.offset);
-            return decoded({file_.appended.substr(offset), file_.is_appended_base64, path_});
+            return decoded({file_.appended.substr(array.offset), file_.is_appended_base64, path_});
         }
         if (array.format == "binary") return decoded({array.content, true, path_});
         fail(path_,

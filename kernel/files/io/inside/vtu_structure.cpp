@@ -34,7 +34,7 @@ std::size_t find_appended(std::string_view bytes, const std::string& path) {
 // Elements may be open at the end of the text.
 void check_parsed(const pugi::xml_parse_result& result, std::string_view text, const std::string& path) {
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
-    const auto place = static_cast<std::size_t>(result.offset);
+    const std::size_t place = result.offset;
     const bool is_open = result.status == pugi::status_end_element_mismatch && place + 1 >= text.size();
     if (result || is_open) return;
     if (text.find('>', place) == text.npos) fail_open_tag(path);
@@ -76,7 +76,7 @@ Array read_array(const pugi::xml_node& element, std::string_view text, const std
                 count_in(element, "offset", path)};
     if (array.format.empty()) array.format = "ascii";
     if (const pugi::xml_node values = element.text().data()) {
-        const std::string_view rest = text.substr(static_cast<std::size_t>(values.offset_debug()));
+        const std::string_view rest = text.substr(values.offset_debug());
         array.content = rest.substr(0, rest.find('<'));
     }
     return array;

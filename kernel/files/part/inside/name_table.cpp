@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/core/check.h"
 #include "base/core/error.h"
 
 namespace kerf {
@@ -23,7 +24,7 @@ NameTable NameTable::of_part(std::span<const std::string> all, std::vector<std::
 }
 
 std::vector<std::string> NameTable::filled() const {
-    std::vector<std::string> all(static_cast<std::size_t>(end()));
+    std::vector<std::string> all(end());
     for (std::size_t place = 0; place < size(); ++place) all[number(place)] = names_[place];
     return all;
 }

@@ -35,9 +35,7 @@ class NameTable {
     /// Returns the numbers of the names, ascending; empty where all numbers from 0 have a name.
     const std::vector<std::int32_t>& numbers() const { return numbers_; }
     const std::vector<std::string>& names() const { return names_; }
-    std::int32_t number(std::size_t place) const {
-        return is_whole() ? static_cast<std::int32_t>(place) : numbers_[place];
-    }
+    std::int32_t number(std::int32_t place) const { return is_whole() ? place : numbers_[place]; }
     /// Returns the first number behind all that have a name.
     std::int32_t end() const { return names_.empty() ? 0 : number(names_.size() - 1) + 1; }
     /// Returns a name for each number below end(), empty where there is none.

@@ -39,19 +39,19 @@ class PartArraysFile {
         if (!array) fail(fmt::format("it has no array {}", name));
         name_ = name;
         std::uint64_t size = 0;
-        const std::uint64_t position = std::min(size_, static_cast<std::uint64_t>(array->position));
+        const std::uint64_t position = std::min<std::uint64_t>(size_, array->position);
         if (size_ - position < sizeof size) fail(fmt::format("it ends before the array {}", name));
         file_.seek(position);
         read(&size, sizeof size);
         if (size > size_ - position - sizeof size) fail(fmt::format("it ends within the array {}", name));
-        values_ = static_cast<std::int64_t>(position + sizeof size);
+        values_ = position + sizeof size;
         return size;
     }
     /// Opens an array that must have `count` values.
     template <class T>
     void open(const char* name, std::int64_t count) {
         const std::uint64_t size = open(name);
-        if (size % sizeof(T) || size / sizeof(T) != static_cast<std::uint64_t>(count))
+        if (size % sizeof(T) || std::cmp_not_equal(size / sizeof(T), count))
             fail(fmt::format("its array {} has {} bytes, which are not {} values", name, size, count));
     }
 
@@ -64,7 +64,7 @@ class PartArraysFile {
     /// Goes on behind the first `count` values.
     template <class T>
     void skip(std::int64_t count) {
-        file_.seek(values_ + count * static_cast<std::int64_t>(sizeof(T)));
+        file_.seek(values_ + count * sizeof(T));
     }
     /// Takes `count` values and calls visit(value) with each.
     template <class T, class Visit>

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 
 namespace kerf {
@@ -21,9 +22,7 @@ constexpr unsigned rotated_left(unsigned bits, unsigned by) { return ((bits << b
 // The corner at which the curve enters the i-th octant of a cube in the standard state, and the axis along which it
 // leaves.
 constexpr unsigned entry(unsigned i) { return i == 0 ? 0 : gray((i - 1) / 2 * 2); }
-constexpr unsigned axis(unsigned i) {
-    return i == 0 ? 0 : static_cast<unsigned>(std::countr_one(i % 2 == 0 ? i - 1 : i)) % 3;
-}
+constexpr unsigned axis(unsigned i) { return i == 0 ? 0 : std::countr_one(i % 2 == 0 ? i - 1 : i) % 3; }
 
 struct Step {
     std::uint8_t place, next_state;  // place of an octant on the curve, and the state inside of it
@@ -50,7 +49,7 @@ std::uint64_t rounds_to_go(std::uint64_t point) {
     point = (point + 1) * 0x9e3779b97f4a7c15;
     point = (point ^ (point >> 32)) * 0xd6e8feb86659fd93;
     constexpr std::uint64_t bits_a_round = 3;  // each has 8 times as many points as the one before
-    return static_cast<std::uint64_t>(std::countr_zero((point ^ (point >> 32)) | (1ULL << 45))) / bits_a_round;
+    return std::countr_zero((point ^ (point >> 32)) | (1ULL << 45)) / bits_a_round;
 }
 
 }  // namespace
@@ -80,7 +79,7 @@ std::vector<std::int32_t> insertion_order(const std::vector<Vec3>& points) {
     places.reserve(points.size());
     for (const Vec3& p : points) {
         const Eigen::Matrix<std::uint32_t, 3, 1> cell = ((p - box.min()) * scale).cast<std::uint32_t>();
-        const auto point = static_cast<std::int32_t>(places.size());
+        const auto point = count_of(places);
         const std::uint64_t round = 15 - rounds_to_go(places.size());
         places.push_back({round << (3 * bits) | hilbert_code({cell[0], cell[1], cell[2]}, bits), point});
     }

@@ -20,7 +20,7 @@ class Directions {
     }
 
  private:
-    double number() { return static_cast<double>(numbers_.next() >> 33) * 0x1p-30 - 1; }
+    double number() { return (numbers_.next() >> 33) * 0x1p-30 - 1; }
     RandomSequence numbers_;
 };
 

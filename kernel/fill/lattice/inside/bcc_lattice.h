@@ -48,7 +48,7 @@ class BccLattice {
         Vec3 p;
         for (int axis = 0; axis < 3; ++axis, bits >>= 21) {
             constexpr double to_one = 0x1p-20;
-            const double random = to_one * static_cast<double>(bits & 0x1fffff) - 1;
+            const double random = to_one * (bits & 0x1fffff) - 1;
             p[axis] = (site[axis] + origin[axis] + 2 * jitter * random) * half_edge_;
         }
         return p;
@@ -64,7 +64,7 @@ class BccLattice {
 
     // Returns 64 bits in which every bit of the site has a say.
     static constexpr std::uint64_t hash(const LatticeSite& site) {
-        const auto word = [&](int axis) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(site[axis])); };
+        const auto word = [&](int axis) -> std::uint64_t { return static_cast<std::uint32_t>(site[axis]); };
         return mixed_bits(word(0) * 0x9e3779b97f4a7c15 ^ word(1) * 0xc2b2ae3d27d4eb4f ^ word(2) * 0x165667b19e3779f9);
     }
 

@@ -108,7 +108,7 @@ class SiteRemover {
                 std::uint8_t& row = sites_.bits[block][row_number(parity, j, k)];
                 if ((row & mask) == 0) continue;
                 const LatticeSite first = lowest + LatticeSite{parity, 2 * j + parity, 2 * k + parity};
-                row = static_cast<std::uint8_t>(row & ~near_sites(obstacle, first, row & mask));
+                row &= ~near_sites(obstacle, first, row & mask);
             }
     }
 

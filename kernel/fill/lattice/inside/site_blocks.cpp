@@ -13,7 +13,7 @@ namespace kerf {
 
 BlockIndex::Key BlockIndex::key(const BlockCoordinates& block) const {
     Key key = 0;
-    for (int axis = 2; axis >= 0; --axis) key = key << bits | static_cast<Key>(block[axis] - base_[axis]);
+    for (int axis = 2; axis >= 0; --axis) key = key << bits | (block[axis] - base_[axis]);
     return key;
 }
 
@@ -41,7 +41,7 @@ LatticeSite BlockIndex::lowest_site(std::int32_t block) const {
 }
 
 std::int32_t BlockIndex::lower_bound(const BlockCoordinates& block) const {
-    return static_cast<std::int32_t>(std::lower_bound(keys_.begin(), keys_.end(), key(block)) - keys_.begin());
+    return std::lower_bound(keys_.begin(), keys_.end(), key(block)) - keys_.begin();
 }
 
 void BlockSurroundings::move_to(std::int32_t block) {
@@ -50,12 +50,11 @@ void BlockSurroundings::move_to(std::int32_t block) {
     for (int row = 0; row < 9; ++row) {
         // Coordinates are at least 1, so that nothing is borrowed.
         const BlockIndex::Key y = BlockIndex::Key{1} << BlockIndex::bits, z = y << BlockIndex::bits;
-        const BlockIndex::Key middle =
-            keys[block] + static_cast<BlockIndex::Key>(row / 3) * z - z + static_cast<BlockIndex::Key>(row % 3) * y - y;
+        const BlockIndex::Key middle = keys[block] + row / 3 * z - z + row % 3 * y - y;
         std::int32_t& cursor = cursor_[row];
         while (cursor < count && keys[cursor] < middle - 1) ++cursor;
         for (int i = 0, next = cursor; i < 3; ++i) {
-            const bool is_there = next < count && keys[next] == middle + static_cast<BlockIndex::Key>(i) - 1;
+            const bool is_there = next < count && keys[next] == middle + i - 1;
             around_[3 * row + i] = is_there ? next++ : none;
         }
     }
@@ -74,8 +73,7 @@ PaddedRows::PaddedRows(const SiteBits& bits, const BlockSurroundings& around) {
                            &after = rows_at(1, beside(y), beside(z));
             for (int parity = 0; parity < 2; ++parity) {
                 const int row = row_number(parity, y & (block_edge - 1), z & (block_edge - 1));
-                rows_[parity][z + 1][y + 1] =
-                    static_cast<std::uint16_t>(before[row] >> 7 | here[row] << 1 | (after[row] & 1) << 9);
+                rows_[parity][z + 1][y + 1] = before[row] >> 7 | here[row] << 1 | (after[row] & 1) << 9;
             }
         }
 }
@@ -85,12 +83,12 @@ SiteNumbers::SiteNumbers(const SiteBits& bits) {
     first_.reserve(bits.size());
     before_row_.reserve(bits.size());
     for (const SiteRows& rows : bits) {
-        first_.push_back(static_cast<std::int32_t>(count));
+        first_.push_back(count);
         auto& before = before_row_.emplace_back();
         std::uint16_t in_block = 0;
         for (int row = 0; row < rows_per_block; ++row) {
             before[row] = in_block;
-            in_block = static_cast<std::uint16_t>(in_block + bit_count(rows[row]));
+            in_block += bit_count(rows[row]);
         }
         count += in_block;
         if (count > std::numeric_limits<std::int32_t>::max())
@@ -98,7 +96,7 @@ SiteNumbers::SiteNumbers(const SiteBits& bits) {
                         "A part has more than 2147483647 points of the lattice, more than can be numbered. Choose more "
                         "parts or a larger volume bound.");
     }
-    count_ = static_cast<std::int32_t>(count);
+    count_ = count;
 }
 
 }  // namespace kerf

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "fill/lattice/inside/bcc_lattice.h"
 
 namespace kerf {
@@ -36,7 +37,7 @@ class BlockIndex {
     /// Appends a block, which must come after the last one in the order.
     void append(const BlockCoordinates& block);
 
-    std::int32_t size() const { return static_cast<std::int32_t>(keys_.size()); }
+    std::int32_t size() const { return count_of(keys_); }
     BlockCoordinates coordinates(std::int32_t block) const;
     /// Returns the site with parity 0 of a block's lowest cube.
     LatticeSite lowest_site(std::int32_t block) const;
@@ -134,7 +135,7 @@ class SiteNumbers {
 /// Returns the number of bits that are set.
 constexpr int bit_count(std::uint8_t bits) {
     const unsigned pairs = bits - (bits >> 1 & 0x55U), fours = (pairs & 0x33U) + (pairs >> 2 & 0x33U);
-    return static_cast<int>((fours + (fours >> 4)) & 0xfU);
+    return (fours + (fours >> 4)) & 0xfU;
 }
 
 /// Calls visit(x) for each bit that is set, lowest first.

@@ -27,7 +27,7 @@ struct LineCrossing {
 
 // Returns the first site on a line of this parity that is not before `at`.
 std::int32_t first_site(double at, std::int32_t parity) {
-    const auto site = static_cast<std::int32_t>(std::ceil(at));
+    const std::int32_t site = std::ceil(at);
     return site + ((site ^ parity) & 1);
 }
 
@@ -62,7 +62,7 @@ bool facet_in_plane(const std::array<Vec3, 3>& corners, double z, std::array<Pla
 void add_crossings(const std::array<Vec3, 3>& corners, std::vector<LineCrossing>& crossings) {
     const double lowest = std::min({corners[0][2], corners[1][2], corners[2][2]});
     const double highest = std::max({corners[0][2], corners[1][2], corners[2][2]});
-    for (auto z = static_cast<std::int32_t>(std::ceil(lowest)); z < highest; ++z) {
+    for (std::int32_t z = std::ceil(lowest); z < highest; ++z) {
         std::array<PlanePoint, 2> segment;
         if (!facet_in_plane(corners, z, segment)) continue;
         const auto& [p, q] = segment;
@@ -88,14 +88,13 @@ BlockIndex index_for(const std::vector<Vec3>& coordinates) {
     const Box box = box_around(coordinates);
     if (box.isEmpty()) return {};
     constexpr double furthest = BccLattice::most_half_edges - 2.0 * half_edges_per_block;
-    constexpr double largest = static_cast<double>(half_edges_per_block) * (BlockIndex::most_blocks - 2);
+    constexpr double largest = half_edges_per_block * (BlockIndex::most_blocks - 2.0);
     if (!(box.max().maxCoeff() < furthest && box.min().minCoeff() > -furthest && box.sizes().maxCoeff() < largest))
         throw Error(ErrorCode::usage,
                     "The volume bound is too small for the coordinates of the surface: the edges of the lattice would "
                     "be too short to be told apart. Choose a larger bound, or move the surface to the origin.");
     BlockCoordinates lowest;
-    for (int axis = 0; axis < 3; ++axis)
-        lowest[axis] = block_of(static_cast<std::int32_t>(std::floor(box.min()[axis])));
+    for (int axis = 0; axis < 3; ++axis) lowest[axis] = block_of(std::floor(box.min()[axis]));
     return BlockIndex(lowest);
 }
 
@@ -152,7 +151,7 @@ void set_bits(const LineCrossing& in, const LineSpan& span, SiteSet& sites) {
         const int first = std::max(span.first_x - block_edge * x, 0);
         const int end = std::min(span.end_x - block_edge * x, block_edge);
         // Bits from `first` to before `end`; a line may come through a block more than once.
-        sites.bits[block][row] |= static_cast<std::uint8_t>((1U << end) - (1U << first));
+        sites.bits[block][row] |= (1U << end) - (1U << first);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/triangle.h"
 #include "fill/mesh/buckets.h"
@@ -21,14 +22,14 @@ ForcedCells::ForcedCells(const std::vector<Vec3>& vertices, const BoundaryTriang
             if (boundary.is_interface[f]) continue;
             Triangle corners = boundary.facets[f];
             std::sort(corners.begin(), corners.end());
-            take(static_cast<std::size_t>(corners[0]), UndirectedEdge{corners[1], corners[2]});
+            take(corners[0], UndirectedEdge{corners[1], corners[2]});
         }
     };
     others_.reserve(boundary.facets.size());
     visit_buckets<UndirectedEdge>(vertices.size(), boundary.facets.size(), for_each_facet,
                                   [&](std::size_t vertex, std::span<UndirectedEdge> others) {
                                       others_.insert(others_.end(), others.begin(), others.end());
-                                      end_[vertex + 1] = static_cast<std::int32_t>(others_.size());
+                                      end_[vertex + 1] = count_of(others_);
                                   });
 }
 
@@ -72,7 +73,7 @@ bool ForcedCells::is_shallow(const Triangle& face, double cell_depth, double lim
     const auto [centre, radius] = inscribed_circle(vertices_[face[0]], vertices_[face[1]], vertices_[face[2]]);
     constexpr double rounding = 1e-6;
     const double from = cell_depth * (1 - rounding);
-    const auto is_interface = [&](std::int32_t f) { return boundary_.is_interface[static_cast<std::size_t>(f)] != 0; };
+    const auto is_interface = [&](std::int32_t f) { return boundary_.is_interface[f] != 0; };
     const double wall =
         tree_->first_hit(centre, -radius, from, limit, [&](std::int32_t f) { return !is_interface(f); });
     return wall < limit && tree_->first_hit(centre, -radius, from, wall, is_interface) >= wall;

@@ -17,6 +17,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/closest_point.h"
 #include "base/geometry/predicates.h"
 #include "fill/shell/inside/crossing.h"
@@ -204,7 +205,7 @@ void BoundarySplitting::replace(std::int32_t number, std::int32_t vertex, const 
     const auto [a, b, c] = missing_.triangle(number);
     caps_.push_back({vertex, a, b, c});
     missing_.replace(number, by);
-    for (std::size_t k = 0; k < by.size(); ++k) fresh_.push_back(missing_.count() - 1 - static_cast<std::int32_t>(k));
+    for (std::int32_t k = 0; k < count_of(by); ++k) fresh_.push_back(missing_.count() - 1 - k);
 }
 
 // Parts of a triangle are as in a Delaunay triangulation of its plane: where they are not, the dome is lower than it
@@ -305,7 +306,7 @@ std::optional<std::int32_t> BoundarySplitting::insert(const Place& place) {
 // triangles that are faces already.
 template <class Accepts>
 std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Place& place, const Accepts& accepts) {
-    const auto before = static_cast<std::int32_t>(t_.points().size());
+    const auto before = count_of(t_.points());
     const std::int32_t at = t_.locate_in_sight(p, place.cavity[0]);
     if (at == SpatialTriangulation::none) return std::nullopt;
     const auto is_free = [&](const Star& star) {

@@ -78,7 +78,7 @@ class SurfaceEdges {
     // vertex to greater ones.
     bool contains(std::int32_t a, std::int32_t b) const {
         if (a > b) std::swap(a, b);
-        if (a < 0 || static_cast<std::size_t>(a) + 1 >= start_.size()) return false;
+        if (a < 0 || a >= std::ssize(start_) - 1) return false;
         return std::find(other_.begin() + start_[a], other_.begin() + start_[a + 1], b) !=
                other_.begin() + start_[a + 1];
     }
@@ -151,9 +151,9 @@ class FaceRecovery {
     template <class Count, class Round>
     static void repeat(const Count& count, const Round& round) {
         for (bool goes_on = count() > 0; goes_on;) {
-            const auto before = static_cast<double>(count());
+            const double before = count();
             round();
-            goes_on = count() > 0 && static_cast<double>(count()) < most_left * before;
+            goes_on = count() > 0 && count() < most_left * before;
         }
     }
 
@@ -162,7 +162,7 @@ class FaceRecovery {
     void constrain(const std::vector<CellFace>& faces) {
         for (std::size_t k = 0; k < triangles_.size(); ++k)
             if (faces[k] == SpatialTriangulation::none)
-                missing_.add(triangles_[k], static_cast<std::int32_t>(k));
+                missing_.add(triangles_[k], k);
             else
                 t_.constrain(faces[k]);
     }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/geometry/predicates.h"
 
 namespace kerf {
@@ -82,7 +83,7 @@ bool FlipRecovery::insert_behind(const Triangle& triangle, const Vec3& p, std::s
     const Vec3 a = t_.points()[triangle[0]], b = t_.points()[triangle[1]], c = t_.points()[triangle[2]];
     const Vec3 inwards = (c - a).cross(b - a).normalized();
     const double length = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const auto before = static_cast<std::int32_t>(t_.points().size());
+    const auto before = count_of(t_.points());
     const auto is_free = [&](const Star& star) { return may_be_removed(t_, star.removed, is_kept_); };
     for (int tries = 0; tries < most_places_of_a_vertex; ++tries) {
         const double share = farthest_behind * (0.1 + some_share()) / (1 << tries), x = some_share() / 2,

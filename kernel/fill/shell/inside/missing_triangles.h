@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/types.h"
 
 namespace kerf {
@@ -22,7 +23,7 @@ class MissingTriangles {
     void replace(std::int32_t number, std::span<const Triangle> by);
 
     /// Returns the number of triangles that were ever added.
-    std::int32_t count() const { return static_cast<std::int32_t>(triangles_.size()); }
+    std::int32_t count() const { return count_of(triangles_); }
     std::int64_t missing_count() const { return missing_count_; }
     bool is_missing(std::int32_t number) const { return state_[number] == State::missing; }
     bool is_made(std::int32_t number) const { return state_[number] == State::made; }

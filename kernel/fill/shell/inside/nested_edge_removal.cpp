@@ -11,6 +11,7 @@
 #include <array>
 #include <span>
 
+#include "base/core/ids.h"
 #include "base/geometry/predicates.h"
 
 namespace kerf {
@@ -106,7 +107,7 @@ bool NestedEdgeRemoval::flip_face(const EdgeRing& ring) {
 // Removes a reflex edge of the ring; false if none could be removed. The ring is as before then, though its cells may
 // have other numbers.
 bool NestedEdgeRemoval::remove_reflex_edge(EdgeRing& ring) {
-    if (static_cast<int>(above_.size()) >= limits_.depth) return false;
+    if (count_of(above_) >= limits_.depth) return false;
     const UndirectedEdge edge = undirected(ring.a, ring.b);
     const std::vector<std::int32_t> vertices = ring.ring;
     for (const std::int32_t vertex : vertices) {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "fill/delaunay/delaunay_flips.h"
 #include "fill/improve/cell_shape.h"
 
@@ -52,14 +53,14 @@ class CellsByRadius {
     }
 
  private:
-    static constexpr std::size_t count = 4096;
+    static constexpr int count = 4096;
 
     // Returns the step of a radius: two steps to a factor of two in its square.
     static std::size_t step_of(double radius_sq) {
         int exponent = 0;
         const double mantissa = std::frexp(radius_sq, &exponent);
-        const int step = 2 * exponent + (mantissa >= std::numbers::sqrt2 / 2 ? 1 : 0) + static_cast<int>(count / 2);
-        return std::isfinite(radius_sq) ? static_cast<std::size_t>(std::clamp<int>(step, 0, count - 1)) : count - 1;
+        const int step = 2 * exponent + (mantissa >= std::numbers::sqrt2 / 2 ? 1 : 0) + count / 2;
+        return std::isfinite(radius_sq) ? std::clamp(step, 0, count - 1) : count - 1;
     }
 
     std::vector<std::vector<BadCell>> steps_{count};
@@ -166,7 +167,7 @@ class Refinement {
     bool insert(const Vec3& p, double least_edge_sq, std::int32_t cell, bool keeps_off_faces) {
         const std::int32_t at = t_.locate_in_sight(p, cell);
         if (at == SpatialTriangulation::none || is_too_near(p, least_edge_sq, at)) return false;
-        const auto before = static_cast<std::int32_t>(t_.points().size());
+        const auto before = count_of(t_.points());
         InsertionConditions conditions = {.accepts = [&](const Star& star) { return is_good(p, least_edge_sq, star); }};
         if (keeps_off_faces) conditions.is_kept_off_by = [&](const Triangle& face) { return is_near_face(p, face); };
         const std::int32_t vertex = t_.insert_if(p, at, conditions);

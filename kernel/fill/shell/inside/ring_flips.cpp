@@ -119,7 +119,7 @@ bool append_star(SpatialTriangulation& t, const EdgeRing& ring, const std::vecto
     const Vec3 start = nearest_to_line(point(polygon.front()), point(polygon.back()), point(ring.a), point(ring.b));
     Vec3 middle = Vec3::Zero();
     for (std::size_t k = 1; k + 1 < polygon.size(); ++k) middle += point(polygon[k]);
-    middle /= static_cast<double>(polygon.size() - 2);
+    middle /= polygon.size() - 2;
     Vec3 best;
     double least = impossible;
     for (const std::int32_t end : {ring.a, ring.b})

@@ -19,6 +19,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 
 // The packaged terminatetetgen() frees memory that is freed again while its exception unwinds. It is a weak symbol, and
@@ -95,13 +96,13 @@ void set_points(tetgenio& in, const SurfaceArrays& surface, const std::vector<st
     std::vector<Vec3> points;
     points.reserve(order.size());
     for (std::int32_t v : order) points.push_back(frame.to_unit(surface.vertices[v]));
-    in.numberofpoints = static_cast<int>(points.size());
+    in.numberofpoints = count_of(points);
     in.pointlist = new_point_list(points);
 }
 
 void set_facets(tetgenio& in, const SurfaceArrays& surface, const InputOrder& order) {
     std::vector<std::int32_t> number(order.vertices.size());
-    for (std::size_t i = 0; i < number.size(); ++i) number[order.vertices[i]] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < number.size(); ++i) number[order.vertices[i]] = i;
     in.facetlist = new tetgenio::facet[order.facets.size()];
     for (std::int32_t f : order.facets) {
         tetgenio::facet& facet = in.facetlist[in.numberoffacets++];
@@ -117,7 +118,7 @@ void set_facets(tetgenio& in, const SurfaceArrays& surface, const InputOrder& or
 
 void set_holes(tetgenio& in, std::vector<Vec3> holes, const Normalisation& frame) {
     for (Vec3& p : holes) p = frame.to_unit(p);
-    in.numberofholes = static_cast<int>(holes.size());
+    in.numberofholes = count_of(holes);
     in.holelist = new_point_list(holes);
 }
 
@@ -209,7 +210,7 @@ void check_vertices_kept(const tetgenio& in, const tetgenio& out, const std::vec
     const REAL* const end =
         in.pointlist + 3 * static_cast<std::size_t>(std::min(in.numberofpoints, out.numberofpoints));
     const auto changed = std::mismatch(static_cast<const REAL*>(in.pointlist), end, out.pointlist).first;
-    const auto kept = static_cast<std::size_t>(changed - in.pointlist) / 3;
+    const std::size_t kept = (changed - in.pointlist) / 3;
     if (kept < order.size())
         throw Error(ErrorCode::subdomain,
                     fmt::format("TetGen moved or dropped vertex {} of the surface. Another order of the vertices, or "
@@ -226,7 +227,7 @@ TetMesh to_mesh(tetgenio& out, const SurfaceArrays& surface, const std::vector<s
     TetMesh mesh;
     mesh.vertices.reserve(out.numberofpoints);
     mesh.vertices = surface.vertices;
-    mesh.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
+    mesh.boundary_vertex_count = count_of(surface.vertices);
     for (std::int32_t v = mesh.boundary_vertex_count; v < out.numberofpoints; ++v)
         mesh.vertices.push_back(frame.from_unit(Eigen::Map<const Vec3>(out.pointlist + 3 * std::size_t(v))));
     drop(out.pointlist);
