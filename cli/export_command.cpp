@@ -33,7 +33,7 @@ std::string summary_text(const ExportRequest& request, const ExportSummary& summ
     for (const RunFile& file : summary.files) bytes += file.bytes;
     return fmt::format("kerf: {}: {} in {} part{}, {} tetrahedra, {} files, {:.1f} MB\n", summary.folder,
                        request.formats, summary.pieces, summary.pieces == 1 ? "" : "s", grouped(summary.tets),
-                       summary.files.size(), static_cast<double>(bytes) * 1e-6);
+                       summary.files.size(), bytes * 1e-6);
 }
 
 // Exports the run. Collective. Returns the exit code, the same on every rank.

@@ -78,7 +78,7 @@ void write_all(int descriptor, std::span<const char> bytes) {
     while (!bytes.empty()) {
         const ssize_t n = write(descriptor, bytes.data(), bytes.size());
         if (n <= 0) return;  // nobody reads
-        bytes = bytes.subspan(static_cast<std::size_t>(n));
+        bytes = bytes.subspan(n);
     }
 }
 

@@ -35,7 +35,7 @@ int merge_and_tell(const MergeLine& line) {
     } else if (!line.quiet) {
         const std::string nodes = merged.nodes > merged.vertices ? fmt::format(" of {} nodes", merged.nodes) : "";
         tell(fmt::format("kerf: {}: {} vertices{}, {} tetrahedra, {:.1f} MB\n", line.request.output, merged.vertices,
-                         nodes, merged.tets, static_cast<double>(merged.bytes) * 1e-6));
+                         nodes, merged.tets, merged.bytes * 1e-6));
     }
     return 0;
 }

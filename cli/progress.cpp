@@ -54,9 +54,9 @@ std::string time_left(double left) {
 }
 
 // A bar "[===== ] " that fills the line beside a text of so many characters; empty where there is little room.
-std::string bar(double done, std::size_t beside) {
+std::string bar(double done, int beside) {
     constexpr int longest = 30, shortest = 5, around = 8 + 4 + 1;  // "volume  ", brackets and blanks, the cursor
-    const int length = std::min(longest, terminal_columns() - static_cast<int>(beside) - around);
+    const int length = std::min(longest, terminal_columns() - beside - around);
     if (length < shortest) return "";
     const int full = std::clamp(static_cast<int>(done * length), 0, length);
     return fmt::format("[{:=<{}}{: <{}}]  ", "", full, "", length - full);
@@ -122,7 +122,7 @@ void ProgressLine::begin_stage(const char* stage) {
 void ProgressLine::on_equations(std::int64_t unknowns) {
     const std::lock_guard lock(mutex_);
     if (events_) events_->on_equations(unknowns);
-    unknowns_ = fmt::format("  {} unknowns", short_number(static_cast<double>(unknowns)));
+    unknowns_ = fmt::format("  {} unknowns", short_number(unknowns));
 }
 
 void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t total) {
@@ -177,8 +177,8 @@ void ProgressLine::on_part(const PartEvent& event) {
     if (quiet_ || event.part->resumed || (!terminal_ && tenth == last_tenth_)) return;
     last_tenth_ = tenth;
     const double elapsed = of_stage_.seconds();
-    const auto tets = static_cast<double>(event.tets);
-    const double rate = elapsed > 0 ? (tets - static_cast<double>(tets_at_start_)) / elapsed : 0;
+    const double tets = event.tets;
+    const double rate = elapsed > 0 ? (tets - tets_at_start_) / elapsed : 0;
     const std::string text = fmt::format(
         "{}/{} parts  {:.0f} %  {} of about {} tets  {}/s  ETA {}", event.done, event.total, 100 * event.load_done,
         short_number(tets), short_number(event.tets_expected), short_number(rate), time_left(event.seconds_left));

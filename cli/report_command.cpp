@@ -45,8 +45,7 @@ std::string summary(const ReportPage& page, const std::string& output) {
             ? ""
             : fmt::format(", of {} that the run has: the page's surface is coarser", page.triangles_of_run);
     return fmt::format("kerf: {}: {} part{}, {} boundary triangles{}, {:.1f} MB\n", output, page.parts,
-                       page.parts == 1 ? "" : "s", page.triangles, coarser,
-                       static_cast<double>(page.html.size()) * 1e-6);
+                       page.parts == 1 ? "" : "s", page.triangles, coarser, page.html.size() * 1e-6);
 }
 
 int write_report(const ReportRequest& request) {

@@ -38,14 +38,14 @@ bool write_all(int file, const Bytes& bytes) {
         const ssize_t n = write(file, bytes.data() + done, bytes.size() - done);
         if (n < 0 && errno == EINTR) continue;
         if (n <= 0) return false;
-        done += static_cast<std::size_t>(n);
+        done += n;
     }
     return true;
 }
 
 void limit_address_space(std::int64_t megabytes) {
     if (megabytes <= 0) return;
-    const auto bytes = static_cast<rlim_t>(megabytes) << 20;
+    const rlim_t bytes = megabytes << 20;
     const rlimit limit = {bytes, bytes};
     setrlimit(RLIMIT_AS, &limit);
 }

@@ -61,14 +61,14 @@ template <class Wide, std::size_t N>
 void append_rows(std::vector<std::array<std::int32_t, N>>& rows, const py::array& array, const char* name) {
     using Limits = std::numeric_limits<std::int32_t>;
     const py::array_t<Wide> numbers = in_one_piece<Wide>(array);
-    const auto count = static_cast<std::size_t>(numbers.size());
+    const std::size_t count = numbers.size();
     rows.resize(count / N);
     for (std::size_t i = 0; i < count; ++i) {
         const Wide number = numbers.data()[i];
         if (std::cmp_greater(number, Limits::max()) || std::cmp_less(number, Limits::min()))
             throw py::value_error(
                 fmt::format("{} has {} in row {}, which is no number of 32 bits.", name, number, i / N));
-        rows[i / N][i % N] = static_cast<std::int32_t>(number);
+        rows[i / N][i % N] = number;
     }
 }
 
@@ -101,7 +101,7 @@ Doubles doubles_of(const py::object& object, py::ssize_t columns, const char* na
 
 std::vector<std::array<double, 3>> points_of(const py::object& object, const char* name) {
     const Doubles numbers = doubles_of(object, 3, name);
-    std::vector<std::array<double, 3>> rows(static_cast<std::size_t>(numbers.size()) / 3);
+    std::vector<std::array<double, 3>> rows(numbers.size() / 3);
     if (!rows.empty()) std::memcpy(rows.data(), numbers.data(), rows.size() * sizeof(rows[0]));
     return rows;
 }

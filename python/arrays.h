@@ -25,12 +25,11 @@ py::array_t<T> view(const T* data, std::vector<py::ssize_t> shape, py::handle ow
 }
 template <class T, std::size_t N>
 py::array_t<T> view(const std::vector<std::array<T, N>>& rows, py::handle owner) {
-    return view(rows.empty() ? nullptr : rows.front().data(),
-                {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)}, owner);
+    return view(rows.empty() ? nullptr : rows.front().data(), {std::ssize(rows), N}, owner);
 }
 template <class T>
 py::array_t<T> view(const std::vector<T>& values, py::handle owner) {
-    return view(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
+    return view(values.data(), {std::ssize(values)}, owner);
 }
 
 inline py::array_t<double> view(const std::vector<Vec3>& points, py::handle owner) {

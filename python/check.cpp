@@ -15,14 +15,14 @@ namespace py = pybind11;
 namespace {
 
 py::array_t<double> rows_of(const std::vector<std::array<double, 3>>& points) {
-    py::array_t<double> rows({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
+    py::array_t<double> rows({std::ssize(points), py::ssize_t{3}});
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) rows.mutable_at(i, k) = points[i][k];
     return rows;
 }
 
 py::array numbers_of(const std::vector<std::int64_t>& numbers) {
-    return py::array_t<std::int64_t>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+    return py::array_t<std::int64_t>(std::ssize(numbers), numbers.data());
 }
 
 py::object defect_of(const py::object& type, const SurfaceDefect& defect) {

@@ -16,7 +16,7 @@ std::string library_version() {
     std::string text(MPI_MAX_LIBRARY_VERSION_STRING, '\0');
     int length = 0;
     MPI_Get_library_version(text.data(), &length);
-    text.resize(static_cast<std::size_t>(length));
+    text.resize(length);
     return text;
 }
 

@@ -19,9 +19,9 @@ namespace kerf::python {
 template <class T, std::size_t N>
 std::vector<std::array<T, N>> rows_of_state(const pybind11::dict& state, const char* name) {
     const auto array = state[name].cast<pybind11::array_t<T, pybind11::array::c_style | pybind11::array::forcecast>>();
-    if (array.ndim() != 2 || array.shape(1) != static_cast<pybind11::ssize_t>(N))
+    if (array.ndim() != 2 || std::cmp_not_equal(array.shape(1), N))
         throw pybind11::value_error(std::string("The pickle is damaged: its array ") + name + " has another shape.");
-    std::vector<std::array<T, N>> rows(static_cast<std::size_t>(array.shape(0)));
+    std::vector<std::array<T, N>> rows(array.shape(0));
     if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(rows[0]));
     return rows;
 }

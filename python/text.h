@@ -11,7 +11,7 @@ namespace kerf::python {
 /// Returns text as str. Bytes that are no UTF-8 become surrogates, as os.fsdecode() has them; os.fsencode() takes them
 /// back.
 inline pybind11::str decoded(const std::string& text) {
-    PyObject* made = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape");
+    PyObject* made = PyUnicode_DecodeUTF8(text.data(), text.size(), "surrogateescape");
     if (!made) throw pybind11::error_already_set();
     return pybind11::reinterpret_steal<pybind11::str>(made);
 }

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "base/core/version.h"
 #include "base/parallel/processors.h"
 #include "files/export/merged_file.h"
@@ -97,7 +98,7 @@ void refuse_files(const RunRequest& options) {
     if (options.outputs.stl) refuse("stl");
 }
 
-int all_processors() { return static_cast<int>(std::max<std::size_t>(1, allowed_processors().size())); }
+int all_processors() { return std::max(1, count_of(allowed_processors())); }
 
 ClosedSurface remeshed_as(const ClosedSurface& surface, const RunRequest& options, const Progress& progress,
                           const IsCancelled& is_cancelled) {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "files/quality/compared_quality.h"
 #include "fill/mesh/faces.h"
@@ -31,17 +32,11 @@ constexpr double TetQuality::*measure_members[] = {&TetQuality::min_dihedral_deg
 static_assert(std::size(measure_members) == quality_measures.size());
 
 void require_measurable(const MeshArrays& mesh) {
-    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
     if (mesh.vertices.size() > most || mesh.tets.size() > most)
         throw Error(ErrorCode::usage, fmt::format("A mesh of {} vertices and {} tetrahedra is measured part by part in "
                                                   "its run folder, not in memory.",
                                                   mesh.vertices.size(), mesh.tets.size()));
-}
-
-Tetrahedron narrowed(const std::array<std::int64_t, 4>& tet) {
-    Tetrahedron narrow;
-    for (std::size_t i = 0; i < 4; ++i) narrow[i] = static_cast<std::int32_t>(tet[i]);
-    return narrow;
 }
 
 // The parts of the arrays, as far as measures of quality ask for them: of a boundary triangle it is known whether
@@ -51,10 +46,10 @@ class MeasuredParts : public PartSource {
     explicit MeasuredParts(const MeshArrays& mesh) : mesh_(mesh) {
         outline_.vertices = vertex_count_of(mesh);
         outline_.region_names = mesh.region_names;
-        for (std::size_t begin = 0, end = 0; begin < mesh.part.size(); begin = end) {
-            while (end < mesh.part.size() && mesh.part[end] == mesh.part[begin]) ++end;
+        for (std::int64_t begin = 0, end = 0; begin < std::ssize(mesh.part); begin = end) {
+            while (end < std::ssize(mesh.part) && mesh.part[end] == mesh.part[begin]) ++end;
             first_.push_back(begin);
-            outline_.parts.push_back({mesh.part[begin], 0, static_cast<std::int64_t>(end - begin)});
+            outline_.parts.push_back({mesh.part[begin], 0, end - begin});
         }
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
             if (mesh.sides[t][1] < 0) outer_.push_back(sorted(mesh.triangles[t]));
@@ -69,7 +64,7 @@ class MeasuredParts : public PartSource {
         part.id = extent.id;
         part.regions = {{0, RegionIndex(mesh_.region[first_[index]])}};
         std::vector<std::int32_t> number(mesh_.vertices.size(), -1);
-        for (std::size_t t = first_[index]; t < first_[index] + static_cast<std::size_t>(extent.tets); ++t) {
+        for (std::size_t t = first_[index]; t < first_[index] + extent.tets; ++t) {
             Tetrahedron& tet = part.mesh.tets.emplace_back();
             for (std::size_t i = 0; i < 4; ++i) tet[i] = local_number(mesh_.tets[t][i], number, part);
         }
@@ -86,11 +81,11 @@ class MeasuredParts : public PartSource {
     }
 
     std::int32_t local_number(std::int64_t vertex, std::vector<std::int32_t>& number, Part& part) const {
-        std::int32_t& local = number[static_cast<std::size_t>(vertex)];
+        std::int32_t& local = number[vertex];
         if (local < 0) {
-            local = static_cast<std::int32_t>(part.global_id.size());
+            local = count_of(part.global_id);
             part.global_id.push_back(vertex);
-            const auto& [x, y, z] = mesh_.vertices[static_cast<std::size_t>(vertex)];
+            const auto& [x, y, z] = mesh_.vertices[vertex];
             part.mesh.vertices.emplace_back(x, y, z);
         }
         return local;
@@ -100,7 +95,7 @@ class MeasuredParts : public PartSource {
         match_faces(
             part.mesh, [](FaceSide, FaceSide) {},
             [&](FaceSide side) {
-                const Tetrahedron& tet = part.mesh.tets[static_cast<std::size_t>(side.tet())];
+                const Tetrahedron& tet = part.mesh.tets[side.tet()];
                 const auto& [a, b, c] = tet_faces[side.corner()];
                 part.facets.push_back({tet[a], tet[b], tet[c]});
                 const Corners corners =
@@ -120,11 +115,11 @@ class MeasuredParts : public PartSource {
 std::vector<std::array<std::int64_t, 4>> neighbours_of(const MeshArrays& mesh) {
     require_measurable(mesh);
     std::vector<Tetrahedron> tets(mesh.tets.size());
-    std::transform(mesh.tets.begin(), mesh.tets.end(), tets.begin(), narrowed);
+    std::transform(mesh.tets.begin(), mesh.tets.end(), tets.begin(), narrowed<4>);
     std::vector<std::array<std::int64_t, 4>> neighbours(tets.size(), {-1, -1, -1, -1});
     const auto join = [&](FaceSide a, FaceSide b) {
-        neighbours[static_cast<std::size_t>(a.tet())][a.corner()] = b.tet();
-        neighbours[static_cast<std::size_t>(b.tet())][b.corner()] = a.tet();
+        neighbours[a.tet()][a.corner()] = b.tet();
+        neighbours[b.tet()][b.corner()] = a.tet();
     };
     match_faces(mesh.vertices.size(), tets, join, [](FaceSide) {});
     return neighbours;
@@ -148,7 +143,7 @@ std::vector<double> cell_quality(const MeshArrays& mesh, const std::string& meas
     std::vector<double> values(mesh.tets.size());
     for (std::size_t begin = 0; begin < values.size(); begin += at_once) {
         const std::size_t count = std::min(at_once, values.size() - begin);
-        std::transform(&mesh.tets[begin], &mesh.tets[begin] + count, cells.begin(), narrowed);
+        std::transform(&mesh.tets[begin], &mesh.tets[begin] + count, cells.begin(), narrowed<4>);
         measure_cells(points, std::span(cells).first(count), std::span(measured).first(count));
         for (std::size_t i = 0; i < count; ++i) values[begin + i] = measured[i].*member;
     }
@@ -158,8 +153,7 @@ std::vector<double> cell_quality(const MeshArrays& mesh, const std::string& meas
 QualityTexts quality_texts(const MeshArrays& mesh) {
     require_measurable(mesh);
     Box box;
-    for (const auto& [x, y, z] : std::span(mesh.vertices).first(static_cast<std::size_t>(vertex_count_of(mesh))))
-        box.extend(Vec3(x, y, z));
+    for (const auto& [x, y, z] : std::span(mesh.vertices).first(vertex_count_of(mesh))) box.extend(Vec3(x, y, z));
     const double diagonal = box.diagonal().norm();
     const MeasurableMesh measurable(std::make_unique<MeasuredParts>(mesh), "mesh", diagonal);
     const ComparedQuality quality{measurable.measure(diagonal), {}};

@@ -56,7 +56,7 @@ SurfaceDefect surface_defect(const Defect& defect, const Soup& soup) {
     for (const std::int32_t f : soup.file_facets(defect.facets)) result.facets.push_back(f);
     for (const std::int32_t v : soup.file_vertices(defect.vertices)) result.vertices.push_back(v);
     for (const std::int32_t v : defect.vertices) {
-        const Vec3& p = soup.vertices[static_cast<std::size_t>(v)];
+        const Vec3& p = soup.vertices[v];
         result.points.push_back({p.x(), p.y(), p.z()});
     }
     if (result.points.empty()) result.points = {{defect.where.x(), defect.where.y(), defect.where.z()}};

@@ -13,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/core/ids.h"
 #include "base/core/unique_name.h"
 #include "files/io/json.h"
 #include "files/io/obj_writer.h"
@@ -43,7 +44,7 @@ struct ViewedCounts {
     std::set<std::int32_t> regions;
     Vec3 sum = Vec3::Zero();  // sum of the points on the surfaces
 
-    Vec3 centroid() const { return sum / static_cast<double>(vertices); }
+    Vec3 centroid() const { return sum / vertices; }
 
     void add(const ViewedCounts& other) {
         vertices += other.vertices;
@@ -140,15 +141,15 @@ WallGroups group_walls(const Complex& complex, const std::vector<std::string>& p
     std::map<std::array<std::int32_t, 3>, std::int32_t> known;  // patch and regions
     std::set<std::string> taken;
     const auto side = [&](std::int32_t region) {
-        return region < 0 ? Json(nullptr) : Json(complex.region_names()[static_cast<std::size_t>(region)]);
+        return region < 0 ? Json(nullptr) : Json(complex.region_names()[region]);
     };
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
         const auto [low, high] = std::minmax({complex.sides(f).back, complex.sides(f).front});
-        const auto next = static_cast<std::int32_t>(walls.names.size());
+        const auto next = count_of(walls.names);
         const auto [group, is_new] = known.insert({{complex.patch(f), low, high}, next});
         walls.group.push_back(group->second);
         if (!is_new) continue;
-        std::string name = patch_names[static_cast<std::size_t>(complex.patch(f))];
+        std::string name = patch_names[complex.patch(f)];
         std::replace(name.begin(), name.end(), ' ', '_');
         walls.names.push_back(unique_name(name, taken));
         walls.regions[walls.names.back()] = {side(low), side(high)};

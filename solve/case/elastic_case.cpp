@@ -339,7 +339,7 @@ void CaseReader::read_solver(const toml::node& node) {
           [&](const toml::node& n) {
               const auto order = n.value_exact<std::int64_t>();
               if (order != 1 && order != 2) table.refuse(n, "order is 1 or 2.");
-              solver.order = static_cast<int>(*order);
+              solver.order = *order;
           }},
          {"preconditioner",
           [&](const toml::node& n) {
@@ -363,7 +363,7 @@ void CaseReader::read_solver(const toml::node& node) {
               const auto most = n.value_exact<std::int64_t>();
               if (!most || *most < 1 || *most > 1000000)
                   table.refuse(n, "max_iterations is a number from 1 to 1000000.");
-              solver.max_iterations = static_cast<int>(*most);
+              solver.max_iterations = *most;
           }},
          {"inertia_relief", [&](const toml::node& n) { solver.inertia_relief = table.yes(n, "inertia_relief"); }},
          {"petsc", [&](const toml::node& n) {

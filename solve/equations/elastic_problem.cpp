@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "solve/equations/inside/case_forces.h"
 #include "solve/equations/inside/hold_supports.h"
 #include "solve/equations/inside/place_materials.h"
@@ -13,7 +14,7 @@ namespace kerf {
 namespace {
 
 void add_springs(ElasticProblem& problem, const std::vector<Spring>& springs, const SurfaceSelector& selector) {
-    problem.first_spring = static_cast<std::int32_t>(problem.supports.size());
+    problem.first_spring = count_of(problem.supports);
     problem.springs.springs = springs;
     for (std::size_t s = 0; s < springs.size(); ++s) {
         const std::vector<SurfaceFacet> facets =

@@ -61,7 +61,7 @@ class Cubes {
     Cube at(const Vec3& p, double edge) const {
         const double levels = std::ceil(std::log2(width_ / (cube_width * edge)));
         Cube cube{static_cast<std::int32_t>(std::clamp(levels, 0.0, double{deepest})), {}};
-        const auto count = static_cast<double>(1 << cube.level);
+        const double count = 1 << cube.level;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             cube.place[axis] = std::clamp(std::floor((p[axis] - low_[axis]) / width_ * count), 0.0, count - 1);
         }

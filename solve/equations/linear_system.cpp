@@ -151,7 +151,7 @@ void LinearSystem::Impl::check_call(int code) const {
 }
 
 void LinearSystem::Impl::create_matrix() {
-    const auto own = static_cast<PetscInt>(owned_size());
+    const PetscInt own = owned_size();
     check(MatCreateShell(problem.space->ranks().handle(), own, own, PETSC_DETERMINE, PETSC_DETERMINE, this, &matrix));
     check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
     check(MatShellSetOperation(matrix, MATOP_MULT_TRANSPOSE, reinterpret_cast<void (*)()>(multiply)));
@@ -166,7 +166,7 @@ void LinearSystem::Impl::make_own_blocks() {
     std::vector<std::int32_t> place(share.row_count(), -1);
     const auto told = ownership.lists_to_owners([&](const Ownership::Neighbour& neighbour) {
         std::vector<SharedBlock> list;
-        for (std::size_t i = 0; i < neighbour.items.size(); ++i) place[neighbour.items[i]] = static_cast<int>(i);
+        for (std::size_t i = 0; i < neighbour.items.size(); ++i) place[neighbour.items[i]] = i;
         for (const std::int32_t n : neighbour.items)
             for (std::int64_t i = share.first[n]; i < share.first[n + 1]; ++i) {
                 if (place[share.columns[i]] < 0) continue;
@@ -178,7 +178,7 @@ void LinearSystem::Impl::make_own_blocks() {
         return list;
     });
     const std::int32_t owned = stiffness.matrix.owned;
-    const auto first_row = static_cast<PetscInt>(problem.space->first_row());
+    const PetscInt first_row = problem.space->first_row();
     const auto for_all_blocks = [&](auto visit) {
         for (std::int32_t n = 0; n < owned; ++n)
             for (std::int64_t i = share.first[n]; i < share.first[n + 1] && share.columns[i] < owned; ++i)
@@ -206,7 +206,7 @@ void LinearSystem::Impl::make_own_blocks() {
     check(MatSetOption(own_blocks, MAT_SPD, PETSC_TRUE));
     MatInfo info;
     check(MatGetInfo(own_blocks, MAT_GLOBAL_SUM, &info));
-    unprepared = static_cast<std::int64_t>(info.mallocs);
+    unprepared = info.mallocs;
 }
 
 void LinearSystem::Impl::assemble() {
@@ -352,7 +352,7 @@ SolveOutcome LinearSystem::Impl::solve_refined() {
         check(KSPGetConvergedReason(ksp, &reason));
         check(KSPGetIterationNumber(ksp, &iterations));
         outcome.reason = KSPConvergedReasons[reason];
-        outcome.iterations += static_cast<int>(iterations);
+        outcome.iterations += iterations;
         check(VecAXPY(solution, 1, correction));
         take_residual();
         const double before = outcome.residual, rest = energy_norm(residual);

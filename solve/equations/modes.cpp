@@ -33,7 +33,7 @@ constexpr int guard_modes = 4;  // the last of a block are slow, so there are mo
 // nodes.
 double small_frequency_squared(const ElasticProblem& problem) {
     const MpiRanks& ranks = problem.space->ranks();
-    const auto owned = static_cast<std::size_t>(problem.space->owned_count());
+    const std::size_t owned = problem.space->owned_count();
     const auto points = std::span(problem.space->points()).first(owned);
     std::array<double, 4> sums{0, 0, 0, static_cast<double>(owned)};
     for (const Vec3& point : points)
@@ -82,8 +82,7 @@ void ModeSolver::apply(const Eigen::VectorXd& from, Eigen::Ref<Eigen::VectorXd> 
     found_.resize(matrix.size());
     std::copy_n(from.data(), matrix.owned_size(), given_.begin());
     work();
-    for (std::size_t dof = 0; dof < matrix.owned_size(); ++dof)
-        to[static_cast<Eigen::Index>(dof)] = problem_.is_held(dof) ? 0 : found_[dof];
+    for (std::size_t dof = 0; dof < matrix.owned_size(); ++dof) to[dof] = problem_.is_held(dof) ? 0 : found_[dof];
 }
 
 EigenProblem ModeSolver::equations() {
@@ -102,8 +101,8 @@ EigenProblem ModeSolver::equations() {
 
 // Returns fixed numbers that look like random ones, zero where a degree of freedom is held.
 Eigen::MatrixXd ModeSolver::start(int columns) const {
-    Eigen::MatrixXd vectors(static_cast<Eigen::Index>(stiffness_.matrix.owned_size()), columns);
-    RandomSequence random(0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(problem_.space->first_row()));
+    Eigen::MatrixXd vectors(stiffness_.matrix.owned_size(), columns);
+    RandomSequence random(0x9e3779b97f4a7c15 + problem_.space->first_row());
     for (auto column : vectors.colwise())
         for (Eigen::Index dof = 0; dof < vectors.rows(); ++dof) {
             const double number = random.next_centred();  // drawn for held ones, too

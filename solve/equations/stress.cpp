@@ -143,7 +143,7 @@ class StressRecovery {
             const Tetrahedron& corners = part.mesh.tets[t];
             for (std::size_t i = 0; i < 4; ++i) last[corners[i]] = std::max(last[corners[i]], nodes[i]);
             if (of_part.at_edge.empty()) continue;
-            const auto of_tet = part.nodes_of_tet(static_cast<std::int64_t>(t));
+            const auto of_tet = part.nodes_of_tet(t);
             for (std::size_t i = 4; i < 10; ++i) last[of_tet[i]] = std::max(last[of_tet[i]], nodes[i]);
         }
         for (std::size_t n = 0; n < last.size(); ++n)

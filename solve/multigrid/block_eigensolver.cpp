@@ -57,7 +57,7 @@ class BlockEigensolver {
  private:
     MatrixXd dot(const MatrixXd& a, const MatrixXd& b) const {
         MatrixXd sums = a.transpose() * b;
-        ranks_.all_reduce(std::span(sums.data(), static_cast<std::size_t>(sums.size())), Reduction::sum);
+        ranks_.all_reduce(std::span(sums.data(), sums.size()), Reduction::sum);
         return sums;
     }
     MatrixXd applied(const EigenProblem::Apply& apply, const MatrixXd& to) const {
@@ -111,7 +111,7 @@ void BlockEigensolver::measure() {
     const MatrixXd rest = now_.bx - now_.ax * inverse_.asDiagonal();
     preconditioned_ = applied(problem_.precondition, rest);
     VectorXd squares = rest.cwiseProduct(preconditioned_).colwise().sum().transpose();
-    ranks_.all_reduce(std::span(squares.data(), static_cast<std::size_t>(squares.size())), Reduction::sum);
+    ranks_.all_reduce(std::span(squares.data(), squares.size()), Reduction::sum);
     residuals_ = squares.cwiseMax(0).cwiseSqrt().cwiseQuotient(inverse_.cwiseMax(0));
 }
 

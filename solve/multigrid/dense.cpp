@@ -16,7 +16,7 @@ template void invert<3>(Eigen::Map<RowMajorBlock<3, 3>>);
 template void invert<6>(Eigen::Map<RowMajorBlock<6, 6>>);
 
 double largest_tridiagonal_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
-    const auto size = static_cast<Eigen::Index>(diagonal.size());
+    const Eigen::Index size = diagonal.size();
     Eigen::MatrixXd tridiagonal = Eigen::MatrixXd::Zero(size, size);
     for (Eigen::Index k = 0; k < size; ++k) tridiagonal(k, k) = diagonal[k];
     for (Eigen::Index k = 0; k + 1 < size; ++k) tridiagonal(k, k + 1) = tridiagonal(k + 1, k) = beside[k];

@@ -62,7 +62,7 @@ struct LevelMatrix {
 /// Returns the scalar product of two vectors over all ranks, of the entries that each owns. Collective.
 inline double dot_of_owned(const MpiRanks& ranks, std::size_t owned_size, const std::vector<double>& a,
                            const std::vector<double>& b) {
-    const auto size = static_cast<Eigen::Index>(owned_size);
+    const Eigen::Index size = owned_size;
     const double own =
         Eigen::Map<const Eigen::VectorXd>(a.data(), size).dot(Eigen::Map<const Eigen::VectorXd>(b.data(), size));
     return ranks.all_reduce(own, Reduction::sum);

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/geometry/sparse_factors.h"
 
 namespace kerf {
@@ -34,9 +35,9 @@ struct GlobalNumbers {
 template <int B>
 GlobalNumbers global_numbers(MpiRanks& ranks, const LevelMatrix<B>& matrix) {
     GlobalNumbers numbers;
-    const std::vector<std::int64_t> owned = all_gather(ranks, static_cast<std::int64_t>(matrix.owned));
-    for (std::size_t r = 0; r < owned.size(); ++r) {
-        if (static_cast<int>(r) < ranks.rank()) numbers.before += owned[r];
+    const std::vector<std::int64_t> owned = all_gather<std::int64_t>(ranks, matrix.owned);
+    for (int r = 0; r < count_of(owned); ++r) {
+        if (r < ranks.rank()) numbers.before += owned[r];
         numbers.all += owned[r];
     }
     numbers.of_node.resize(matrix.node_count());
@@ -51,14 +52,14 @@ class CoarsestLevel : public MultigridLevel {
  public:
     CoarsestLevel(MpiRanks& ranks, const LevelMatrix<B>& matrix) : ranks_(ranks), size_(matrix.owned_size()) {
         const GlobalNumbers numbers = global_numbers(ranks, matrix);
-        first_ = static_cast<std::size_t>(B * numbers.before);
+        first_ = B * numbers.before;
         right_.resize(B * numbers.all);
         factorise(gathered(matrix, numbers.of_node));
     }
     void cycle(const std::vector<double>& right, std::vector<double>& x) override {
         right_.setZero();
         std::copy_n(right.begin(), size_, right_.data() + first_);
-        ranks_.all_reduce(std::span(right_.data(), static_cast<std::size_t>(right_.size())), Reduction::sum);
+        ranks_.all_reduce(std::span(right_.data(), right_.size()), Reduction::sum);
         if (right_.size() == 0) return;
         const Eigen::VectorXd solution = factors_.solve(right_);
         std::copy_n(solution.data() + first_, size_, x.begin());
@@ -90,7 +91,7 @@ class CoarsestLevel : public MultigridLevel {
         std::vector<SparseEntry> entries;
         std::vector<double> diagonal(right_.size(), 0);
         for (const GatheredBlock& block : blocks) {
-            const auto row = static_cast<int>(block.nodes[0]), column = static_cast<int>(block.nodes[1]);
+            const int row = block.nodes[0], column = block.nodes[1];
             for (int i = 0; i < B; ++i)
                 for (int j = 0; j < B; ++j) {
                     const double value = block.values[B * i + j];
@@ -99,8 +100,8 @@ class CoarsestLevel : public MultigridLevel {
                     if (row == column ? r >= c : true) entries.push_back({std::max(r, c), std::min(r, c), value});
                 }
         }
-        for (std::size_t i = 0; i < diagonal.size(); ++i)  // nothing acts on these
-            if (diagonal[i] == 0) entries.push_back({static_cast<int>(i), static_cast<int>(i), 1.0});
+        for (int i = 0; i < count_of(diagonal); ++i)  // nothing acts on these
+            if (diagonal[i] == 0) entries.push_back({i, i, 1.0});
         if (right_.size() > 0) factors_ = SparseFactors(right_.size(), entries);
         if (!factors_.are_positive())
             throw Error(ErrorCode::convergence,
@@ -126,8 +127,10 @@ bool is_quick_to_factorise(MpiRanks& ranks, const LevelMatrix<B>& matrix, std::i
         for (std::int64_t i = matrix.share.first[n]; i < matrix.share.first[n + 1]; ++i)
             own.push_back({numbers.of_node[n], numbers.of_node[matrix.share.columns[i]]});
     std::vector<SparseEntry> entries;
-    for (const auto& [n, m] : gather_items(ranks, own))
-        entries.push_back({static_cast<std::int32_t>(std::max(n, m)), static_cast<std::int32_t>(std::min(n, m)), 1.0});
+    for (const auto& [n, m] : gather_items(ranks, own)) {
+        const std::int32_t row = std::max(n, m), column = std::min(n, m);
+        entries.push_back({row, column, 1.0});
+    }
     return factor_size(nodes, entries) <= little_fill * std::ssize(entries);
 }
 
@@ -173,7 +176,7 @@ template <int B>
 std::unique_ptr<MultigridLevel> make_level(MpiRanks& ranks, const LevelMatrix<B>& matrix, const NearNullSpace& motions,
                                            const std::vector<std::uint8_t>& is_apart) {
     const auto nodes_of = [&](const auto& level) {
-        return ranks.all_reduce(static_cast<std::int64_t>(level.owned), Reduction::sum);
+        return ranks.all_reduce<std::int64_t>(level.owned, Reduction::sum);
     };
     // Each rank has an aggregate at least: more ranks need more nodes.
     const std::int64_t nodes = nodes_of(matrix);

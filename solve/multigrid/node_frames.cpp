@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "base/core/ids.h"
+
 namespace kerf {
 
 namespace {
@@ -26,7 +28,7 @@ template <class Turn>
 void turn_nodes(const NodeFrames& frames, std::span<double> of_nodes, const Turn& turn) {
     if (frames.empty()) return;
     for (std::size_t n = 0; n < of_nodes.size() / 3; ++n) {
-        const NodeFrames::Frame* frame = frames.at(static_cast<std::int32_t>(n));
+        const NodeFrames::Frame* frame = frames.at(n);
         if (!frame) continue;
         Eigen::Map<Vec3> value(&of_nodes[3 * n]);
         value = turn(frame->axes, Vec3(value));
@@ -82,11 +84,11 @@ bool NodeHolds::is_global() const {
 int NodeHolds::component(int i) const {
     Eigen::Index largest = 0;
     directions_[i].cwiseAbs().maxCoeff(&largest);
-    return static_cast<int>(largest);
+    return largest;
 }
 
 void NodeFrames::set(std::int32_t node, const NodeHolds& holds) {
-    of_node_[node] = static_cast<std::int32_t>(frames_.size());
+    of_node_[node] = count_of(frames_);
     const Eigen::Matrix3d directions = holds.directions();
     frames_.push_back({holds.axes(), directions, directions.inverse()});
 }
@@ -96,7 +98,7 @@ NodeFrames NodeFrames::renumbered(const std::vector<std::int32_t>& number) const
     if (empty()) return some;
     for (std::size_t n = 0; n < number.size(); ++n) {
         if (number[n] < 0) continue;
-        const auto place = static_cast<std::size_t>(number[n]);
+        const std::size_t place = number[n];
         if (place >= some.of_node_.size()) some.of_node_.resize(place + 1, none);
         some.of_node_[place] = of_node_[n];
     }

@@ -63,7 +63,7 @@ class NodeFrames {
     }
     /// Returns the direction of a degree of freedom.
     Vec3 axis(std::size_t dof) const {
-        const Frame* frame = at(static_cast<std::int32_t>(dof / 3));
+        const Frame* frame = at(dof / 3);
         return frame ? Vec3(frame->axes.row(dof % 3)) : Vec3(Vec3::Unit(dof % 3));
     }
     /// Returns, along x, y and z, a vector that is given along the axes of the node.

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "base/core/ids.h"
+
 namespace kerf {
 
 /// A block as it lies in an array, row by row.
@@ -24,7 +26,7 @@ struct SymmetricBlocks {
     std::vector<std::int32_t> columns;
     std::vector<double> values;  ///< B * B of each block, row by row
 
-    std::int32_t row_count() const { return static_cast<std::int32_t>(first.size()) - 1; }
+    std::int32_t row_count() const { return count_of(first) - 1; }
     Eigen::Map<Block> block(std::int64_t at) { return Eigen::Map<Block>(&values[B * B * at]); }
     Eigen::Map<const Block> block(std::int64_t at) const { return Eigen::Map<const Block>(&values[B * B * at]); }
 

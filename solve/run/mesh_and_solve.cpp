@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/core/version.h"
 #include "files/io/file_bytes.h"
@@ -161,7 +162,7 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
         options.sizes.field_file = folders.solution(step) + "/" + size_field_file;
     }
     in_agreement(ranks, [&] {
-        if (ranks.rank() == 0) folders.remove_others(static_cast<std::int32_t>(report.steps.size()));
+        if (ranks.rank() == 0) folders.remove_others(count_of(report.steps));
     });
     return report;
 }

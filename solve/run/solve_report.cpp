@@ -256,11 +256,10 @@ std::string to_text(const SolveReport& report) {
                                         "setup {:.2f}, solve {:.2f}, modes {:.2f}, recover {:.2f}, write {:.2f}",
                                         s.wall, s.read, s.number, s.conditions, s.assemble, s.setup, s.solve, s.modes,
                                         s.recover, s.write));
-    return text +
-           line_of("processes",
-                   fmt::format("{} rank{}, {} with {}, peak memory {:.0f} MB", report.ranks,
-                               report.ranks == 1 ? "" : "s", report.modes.empty() ? "conjugate gradients" : "LOBPCG",
-                               report.wanted.solver.preconditioner, static_cast<double>(report.peak_rss_bytes) * 1e-6));
+    return text + line_of("processes", fmt::format("{} rank{}, {} with {}, peak memory {:.0f} MB", report.ranks,
+                                                   report.ranks == 1 ? "" : "s",
+                                                   report.modes.empty() ? "conjugate gradients" : "LOBPCG",
+                                                   report.wanted.solver.preconditioner, report.peak_rss_bytes * 1e-6));
 }
 
 std::string results_csv(const std::vector<CaseReport>& cases) {

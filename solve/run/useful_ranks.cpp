@@ -19,7 +19,7 @@ constexpr std::int64_t least_tets_of_rank = 20'000;  // with fewer, ranks wait f
 constexpr std::int64_t least_bytes_of_rank = 1'250'000;
 
 int between_one_and(std::int64_t most, std::int64_t ranks) {
-    return static_cast<int>(std::clamp<std::int64_t>(ranks, 1, std::max<std::int64_t>(1, most)));
+    return std::clamp<std::int64_t>(ranks, 1, std::max<std::int64_t>(1, most));
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ int between_one_and(std::int64_t most, std::int64_t ranks) {
 int useful_ranks_of_run(const std::string& folder) {
     try {
         const auto report = parse_json(read_file(folder + "/report.json"));
-        return between_one_and(static_cast<std::int64_t>(report.at("parts").size()),
+        return between_one_and(report.at("parts").size(),
                                report.at("totals").at("tets").get<std::int64_t>() / least_tets_of_rank);
     } catch (const nlohmann::json::exception&) {
         return 1;  // the reader of the run says why
@@ -40,7 +40,7 @@ int useful_ranks_of_surface(const std::string& file, std::int32_t parts) {
     constexpr std::int64_t any = 1 << 20;
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    return error ? 1 : between_one_and(parts > 0 ? parts : any, static_cast<std::int64_t>(bytes) / least_bytes_of_rank);
+    return error ? 1 : between_one_and(parts > 0 ? parts : any, bytes / least_bytes_of_rank);
 }
 
 }  // namespace kerf

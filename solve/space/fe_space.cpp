@@ -201,14 +201,14 @@ std::vector<std::array<std::int32_t, 6>> numbers_at_edges(const std::vector<Tetr
 std::vector<PartIndex> first_parts_of_ranks(const MeshOutline& outline, int ranks) {
     std::vector<PartIndex> first(ranks + 1);
     const std::int32_t parts = std::ssize(outline.parts);
-    const auto total = static_cast<double>(outline.tets());
+    const double total = outline.tets();
     std::int32_t next = 0;
     double before = 0;  // tetrahedra of the parts before `next`
     for (int r = 0; r < ranks; ++r) {
         first[r] = PartIndex(next);
         const std::int32_t others = ranks - 1 - r;  // each gets a part while there are some
         while (next < parts) {
-            const auto tets = static_cast<double>(outline.parts[next].tets);
+            const double tets = outline.parts[next].tets;
             const bool is_first = next == first[r].value();
             const bool fits = before + 0.5 * tets <= total * (r + 1) / ranks && parts - next > others;
             if (!is_first && others > 0 && !fits) break;

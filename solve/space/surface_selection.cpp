@@ -40,8 +40,7 @@ bool matches_pattern(const std::string& pattern, const std::string& text) {
                 if (matched[i]) matched[i + 1] = 1;
             continue;
         }
-        for (std::size_t i = text.size(); i > 0; --i)
-            matched[i] = static_cast<char>(matched[i - 1] && text[i - 1] == c);
+        for (std::size_t i = text.size(); i > 0; --i) matched[i] = matched[i - 1] && text[i - 1] == c;
         matched[0] = 0;
     }
     return matched.back() != 0;

@@ -18,11 +18,11 @@ void take_edge_nodes(const MeshArrays& mesh, const Rows& rows, Part& part) {
     nodes.global_id.resize(nodes.edges.size());
     nodes.points.resize(nodes.edges.size());
     for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
-        const auto& row = mesh.quadratic_tets[static_cast<std::size_t>(rows[t])];
+        const auto& row = mesh.quadratic_tets[rows[t]];
         for (std::size_t e = 0; e < tet_edges.size(); ++e) {
             const auto& [i, j] = tet_edges[e];
             const std::int32_t edge = nodes.edges.find(undirected(part.mesh.tets[t][i], part.mesh.tets[t][j]));
-            const auto& [x, y, z] = mesh.vertices[static_cast<std::size_t>(row[4 + e])];
+            const auto& [x, y, z] = mesh.vertices[row[4 + e]];
             nodes.global_id[edge] = row[4 + e];
             nodes.points[edge] = Vec3(x, y, z);
         }

@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,11 +24,10 @@ namespace {
 class ArrayFiller {
  public:
     explicit ArrayFiller(const MeshOutline& outline) : outline_(outline) {
-        const auto tets = static_cast<std::size_t>(outline.tets());
-        const auto triangles = static_cast<std::size_t>(outline.patch_facets());
+        const std::size_t tets = outline.tets(), triangles = outline.patch_facets();
         mesh_.patch_names = outline.patch_names;
         mesh_.region_names = outline.region_names;
-        mesh_.vertices.resize(static_cast<std::size_t>(outline.nodes()));
+        mesh_.vertices.resize(outline.nodes());
         mesh_.edge_nodes = outline.edge_nodes;
         mesh_.tets.resize(tets);
         mesh_.part.resize(tets);
@@ -49,10 +49,9 @@ class ArrayFiller {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             if (!part.is_listed(f)) continue;
             require(next < end, part);
-            const auto row = static_cast<std::size_t>(next++);
+            const std::int64_t row = next++;
             mesh_.triangles[row] = global_corners(part, part.facets[f]);
-            if (part.order() == 2)
-                mesh_.quadratic_triangles[row] = global_nodes(part, part.nodes_of_facet(static_cast<std::int64_t>(f)));
+            if (part.order() == 2) mesh_.quadratic_triangles[row] = global_nodes(part, part.nodes_of_facet(f));
             mesh_.patch[row] = part.patch[f];
             mesh_.sides[row] = {region, part.is_wall(f) ? part.neighbour[f] : -1};
         }
@@ -64,18 +63,18 @@ class ArrayFiller {
     // Puts points. Several parts have the vertices of their boundaries, with the same coordinates.
     void put_points(const Part& part, std::size_t first, std::span<const Vec3> points) {
         std::unique_lock lock(mutex_, std::defer_lock);
-        if (first < static_cast<std::size_t>(part.mesh.boundary_vertex_count)) lock.lock();
+        if (std::cmp_less(first, part.mesh.boundary_vertex_count)) lock.lock();
         for (std::size_t i = 0; i < points.size(); ++i) {
             const std::int64_t id = part.global_id[first + i];
             require(id >= 0 && id < outline_.vertices, part);
-            mesh_.vertices[static_cast<std::size_t>(id)] = {points[i].x(), points[i].y(), points[i].z()};
+            mesh_.vertices[id] = {points[i].x(), points[i].y(), points[i].z()};
         }
     }
 
     void put_cells(PartIndex index, const Part& part, std::size_t first, std::span<const Tetrahedron> tets) {
         require(std::cmp_less_equal(first + tets.size(), outline_.parts[index].tets), part);
-        const auto begin = static_cast<std::ptrdiff_t>(outline_.first_tet(index)) + static_cast<std::ptrdiff_t>(first);
-        const auto count = static_cast<std::ptrdiff_t>(tets.size());
+        const std::size_t begin = outline_.first_tet(index) + first;
+        const auto count = std::ssize(tets);
         std::transform(tets.begin(), tets.end(), mesh_.tets.begin() + begin,
                        [&](const Tetrahedron& tet) { return global_corners(part, tet); });
         std::fill_n(mesh_.part.begin() + begin, count, part.id);
@@ -88,12 +87,11 @@ class ArrayFiller {
         for (std::size_t e = 0; e < nodes.points.size(); ++e) {
             const std::int64_t id = nodes.global_id[e];
             require(id >= outline_.vertices && id < outline_.nodes(), part);
-            mesh_.vertices[static_cast<std::size_t>(id)] = {nodes.points[e].x(), nodes.points[e].y(),
-                                                            nodes.points[e].z()};
+            mesh_.vertices[id] = {nodes.points[e].x(), nodes.points[e].y(), nodes.points[e].z()};
         }
-        const auto first = static_cast<std::size_t>(outline_.first_tet(index));
+        const std::int64_t first = outline_.first_tet(index);
         for (std::int64_t t = 0; t < part.tet_count(); ++t)
-            mesh_.quadratic_tets[first + static_cast<std::size_t>(t)] = global_nodes(part, part.nodes_of_tet(t));
+            mesh_.quadratic_tets[first + t] = global_nodes(part, part.nodes_of_tet(t));
     }
 
     // Returns the mesh, when all parts are there.
@@ -139,8 +137,7 @@ void by_threads(int threads, std::size_t count, const Work& work) {
     };
     {
         std::vector<std::jthread> others;
-        for (std::size_t i = 1; i < std::min(count, static_cast<std::size_t>(threads)); ++i)
-            others.emplace_back(work_off);
+        for (std::size_t i = 1; i < std::min<std::size_t>(count, threads); ++i) others.emplace_back(work_off);
         work_off();
     }
     if (error) std::rethrow_exception(error);

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "fill/mesh/adjacency.h"
 #include "kerf/inside/array_edge_nodes.h"
 #include "kerf/inside/array_points.h"
@@ -29,10 +30,7 @@ class TriangleRows {
  public:
     explicit TriangleRows(const MeshArrays& mesh) {
         rows_.reserve(mesh.triangles.size());
-        for (const auto& [a, b, c] : mesh.triangles)
-            rows_.emplace_back(
-                sorted({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c)}),
-                static_cast<std::int32_t>(rows_.size()));
+        for (const auto& triangle : mesh.triangles) rows_.emplace_back(sorted(narrowed(triangle)), count_of(rows_));
         std::sort(rows_.begin(), rows_.end());
     }
     /// Returns the row of a triangle with these corners, in any order; -1 if there is none.
@@ -47,7 +45,7 @@ class TriangleRows {
 };
 
 TetMesh joined_mesh(const MeshArrays& mesh) {
-    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
     if (mesh.vertices.size() > most || mesh.tets.size() > most)
         throw Error(ErrorCode::usage,
                     "The mesh is too large to be taken apart: it has more than 2^31 vertices or "
@@ -55,9 +53,7 @@ TetMesh joined_mesh(const MeshArrays& mesh) {
     TetMesh whole;
     whole.vertices = to_points(mesh.vertices);
     whole.tets.reserve(mesh.tets.size());
-    for (const auto& tet : mesh.tets)
-        whole.tets.push_back({static_cast<std::int32_t>(tet[0]), static_cast<std::int32_t>(tet[1]),
-                              static_cast<std::int32_t>(tet[2]), static_cast<std::int32_t>(tet[3])});
+    for (const auto& tet : mesh.tets) whole.tets.push_back(narrowed(tet));
     connect_tets(whole);
     return whole;
 }
@@ -71,8 +67,8 @@ class PartTaker {
     Part take(NodeId id, const std::vector<std::int32_t>& tets) {
         Part part;
         part.id = id;
-        for (std::size_t i = 0; i < tets.size(); ++i) add_boundary(tets[i], static_cast<std::int32_t>(i), part);
-        part.mesh.boundary_vertex_count = static_cast<std::int32_t>(part.mesh.vertices.size());
+        for (std::size_t i = 0; i < tets.size(); ++i) add_boundary(tets[i], i, part);
+        part.mesh.boundary_vertex_count = count_of(part.mesh.vertices);
         for (const std::int32_t tet : tets) {
             const Tetrahedron& t = whole_.tets[tet];
             part.mesh.tets.push_back({number(t[0], part), number(t[1], part), number(t[2], part), number(t[3], part)});
@@ -106,7 +102,7 @@ class PartTaker {
     // Returns the number of a vertex in the part; a vertex that is met first gets one.
     std::int32_t number(std::int32_t vertex, Part& part) {
         if (local_[vertex] < 0) {
-            local_[vertex] = static_cast<std::int32_t>(part.mesh.vertices.size());
+            local_[vertex] = count_of(part.mesh.vertices);
             part.mesh.vertices.push_back(whole_.vertices[vertex]);
             part.global_id.push_back(vertex);
         }
@@ -124,8 +120,7 @@ class PartTaker {
 void for_each_part_of(const MeshArrays& mesh, const std::function<void(const Part&)>& take) {
     PartTaker taker(mesh);
     std::map<NodeId, std::vector<std::int32_t>> tets_of;
-    for (std::size_t tet = 0; tet < mesh.part.size(); ++tet)
-        tets_of[mesh.part[tet]].push_back(static_cast<std::int32_t>(tet));
+    for (std::size_t tet = 0; tet < mesh.part.size(); ++tet) tets_of[mesh.part[tet]].push_back(tet);
     for (const auto& [id, tets] : tets_of) take(taker.take(id, tets));
 }
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "files/export/whole_mesh.h"
 #include "fill/mesh/verification.h"
 #include "kerf/inside/array_edge_nodes.h"
@@ -41,7 +42,7 @@ void require_32_bits(const MeshArrays& mesh) {
 RegionsAsParts::RegionsAsParts(const MeshArrays& mesh) : mesh_(mesh) {
     const std::size_t region_count = std::max<std::size_t>(1, mesh.region_names.size());
     // Parts are leaves of a tree of one depth, so that no number is the ancestor of another.
-    const auto first_leaf = static_cast<NodeId>(std::bit_ceil(region_count));
+    const NodeId first_leaf = std::bit_ceil(region_count);
     outline_.vertices = vertex_count_of(mesh);
     outline_.order = mesh.quadratic_tets.empty() ? 1 : 2;
     outline_.edge_nodes = mesh.edge_nodes;
@@ -98,10 +99,10 @@ Part RegionsAsParts::load(PartIndex index) const {
     part.region_names = NameTable::of_part(outline_.region_names, {region.value()});
     if (!outline_.region_names.empty()) part.regions = {{0, region}};
     part.global_id = boundary_vertices_of(region);
-    part.mesh.boundary_vertex_count = static_cast<std::int32_t>(std::ssize(part.global_id));
+    part.mesh.boundary_vertex_count = count_of(part.global_id);
     std::vector<std::size_t> rows;
     std::vector<std::int32_t> place(mesh_.vertices.size(), -1);
-    for (std::size_t v = 0; v < part.global_id.size(); ++v) place[part.global_id[v]] = static_cast<std::int32_t>(v);
+    for (std::size_t v = 0; v < part.global_id.size(); ++v) place[part.global_id[v]] = v;
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
         if (mesh_.region[t] != region.value()) continue;
         rows.push_back(t);
@@ -109,7 +110,7 @@ Part RegionsAsParts::load(PartIndex index) const {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::int64_t id = mesh_.tets[t][i];
             if (place[id] < 0) {
-                place[id] = static_cast<std::int32_t>(std::ssize(part.global_id));
+                place[id] = count_of(part.global_id);
                 part.global_id.push_back(id);
             }
             tet[i] = place[id];
@@ -126,12 +127,11 @@ Part RegionsAsParts::load(PartIndex index) const {
             const std::array<std::int64_t, 3> corners = seen_from(mesh_.triangles[f], side == 0);
             for (std::size_t i = 0; i < 3; ++i) facet[i] = place[corners[i]];
             part.patch.push_back(mesh_.patch[f]);
-            part.facet.push_back(static_cast<std::int32_t>(f));
+            part.facet.push_back(f);
             part.neighbour.push_back(beyond < 0 ? -1 : part_of_region_[RegionIndex(beyond)]);
         }
     part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
-    part.shared = shared_.groups_of(
-        index, std::span(part.global_id).first(static_cast<std::size_t>(part.mesh.boundary_vertex_count)));
+    part.shared = shared_.groups_of(index, std::span(part.global_id).first(part.mesh.boundary_vertex_count));
     return part;
 }
 

@@ -83,7 +83,7 @@ class MaterialReader {
             const auto number = item.value_exact<std::int64_t>();
             if (!number || *number < 1 || *number > std::numeric_limits<NodeId>::max())
                 table_.refuse(item, "parts is no list of numbers of parts.");
-            parts.push_back(static_cast<NodeId>(*number));
+            parts.push_back(*number);
         }
         return parts;
     }

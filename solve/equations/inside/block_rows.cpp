@@ -42,7 +42,7 @@ class NumberedElements {
     NodeFrames frames(const NodeFrames& of_space) const {
         return numbers_.empty() ? of_space : of_space.renumbered(numbers_);
     }
-    std::int64_t number_of(std::size_t p, std::size_t t) const { return first_tet_[p] + static_cast<std::int64_t>(t); }
+    std::int64_t number_of(std::size_t p, std::size_t t) const { return first_tet_[p] + t; }
     std::array<std::int32_t, most_element_nodes> nodes_of(std::int64_t element) const {
         const auto p = std::upper_bound(first_tet_.begin(), first_tet_.end(), element) - first_tet_.begin() - 1;
         return nodes_of(p, element - first_tet_[p]);

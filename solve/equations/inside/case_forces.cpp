@@ -100,7 +100,7 @@ void CaseForces::add_temperature(const Temperature& temperature) {
                                                       name));
     std::vector<std::int32_t> regions;
     for (const std::string& name : temperature.regions)
-        regions.push_back(static_cast<std::int32_t>(region_called(outline_, name, "A temperature")));
+        regions.push_back(region_called(outline_, name, "A temperature"));
     std::vector<double>& thermal = current().thermal;
     thermal.resize(problem_.materials.size(), 0);
     for (std::size_t m = 0; m < thermal.size(); ++m) {

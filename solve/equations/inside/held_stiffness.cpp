@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/core/ids.h"
 #include "solve/equations/inside/block_rows.h"
 
 namespace kerf {
@@ -96,7 +97,7 @@ CornerNodes corners_of(const FeSpace& space) {
     });
     for (std::int32_t n = 0; n < space.node_count(); ++n) {
         if (found.number[n] < 0) continue;
-        found.number[n] = static_cast<std::int32_t>(found.nodes.size());
+        found.number[n] = count_of(found.nodes);
         found.nodes.push_back(n);
         if (n < space.owned_count()) ++found.owned;
     }

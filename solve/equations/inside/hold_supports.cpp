@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 
 namespace kerf {
 
@@ -31,7 +32,7 @@ class SupportHolder {
           sums_(node_sums * space_.node_count()) {}
 
     void hold(const Support& support) {
-        number_ = static_cast<std::int32_t>(problem_.supports.size());
+        number_ = count_of(problem_.supports);
         problem_.supports.push_back(support.name);
         const std::string who = fmt::format("Support '{}'", support.name);
         if (support.where.point) {
@@ -45,12 +46,11 @@ class SupportHolder {
             return hold_marked(support);
         }
         const std::vector<char> patches = selector_.match(support.where.patches, who);
-        for (std::size_t patch = 0; patch < patches.size(); ++patch) {
+        for (std::int32_t patch = 0; patch < count_of(patches); ++patch) {
             if (!patches[patch]) continue;
             std::vector<SurfaceFacet> of_patch;
             for (const SurfaceFacet& facet : all)
-                if (space_.parts()[facet.part].patch[facet.facet] == static_cast<std::int32_t>(patch))
-                    of_patch.push_back(facet);
+                if (space_.parts()[facet.part].patch[facet.facet] == patch) of_patch.push_back(facet);
             mark(of_patch);
             hold_marked(support);
         }
@@ -104,7 +104,7 @@ class SupportHolder {
         for (std::int32_t n = 0; n < space_.node_count(); ++n) {
             if (sums_[node_sums * n + 3] == 0) continue;
             if (slot_[n] < 0) {
-                slot_[n] = static_cast<std::int32_t>(holds_.size());
+                slot_[n] = count_of(holds_);
                 holds_.emplace_back();
             }
             if (!hold_node(support, n)) failed = n;

@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "solve/equations/elastic_problem.h"
 #include "solve/equations/inside/body_forces.h"
 #include "solve/equations/inside/rigid_motions.h"
@@ -88,7 +89,7 @@ std::vector<std::int64_t> InertiaRelief::next_to_fix(const ElasticProblem& probl
 // Fixes one displacement of each body after the other, as elimination with pivots does.
 void InertiaRelief::fix_motions(ElasticProblem& problem) const {
     const FeSpace& space = *problem.space;
-    const auto holder = static_cast<std::int32_t>(problem.supports.size());
+    const auto holder = count_of(problem.supports);
     problem.supports.emplace_back("inertia relief");
     problem.places.push_back(motions_.front().middle);
     std::vector<Eigen::MatrixXd> left;

@@ -23,8 +23,7 @@ MassShares mass_shares(int order) {
         return tet_edges[edge][0] == corner || tet_edges[edge][1] == corner;
     };
     for (std::size_t e = 0; e < 6; ++e) {
-        for (std::size_t a = 0; a < 4; ++a)
-            shares[a][4 + e] = shares[4 + e][a] = (has(e, static_cast<int>(a)) ? -4 : -6) / 420.0;
+        for (std::size_t a = 0; a < 4; ++a) shares[a][4 + e] = shares[4 + e][a] = (has(e, a) ? -4 : -6) / 420.0;
         for (std::size_t f = 0; f < 6; ++f) {
             const bool do_meet = has(f, tet_edges[e][0]) || has(f, tet_edges[e][1]);
             shares[4 + e][4 + f] = (e == f ? 32 : do_meet ? 16 : 8) / 420.0;
@@ -35,7 +34,7 @@ MassShares mass_shares(int order) {
 
 MassShares mass_shares(const TetElement& element) {
     MassShares shares{};
-    const auto nodes = static_cast<std::size_t>(element.node_count());
+    const std::size_t nodes = element.node_count();
     if (!element.is_curved()) {
         shares = mass_shares(element.order());
         for (auto& row : shares)
@@ -56,7 +55,7 @@ MassMatrix::MassMatrix(const ElasticProblem& problem, const SymmetricBlocks<3>& 
     share_.first = stiffness.first;
     share_.columns = stiffness.columns;
     share_.values.assign(share_.columns.size(), 0);
-    const auto nodes_each = static_cast<std::size_t>(element_nodes(space.order()));
+    const std::size_t nodes_each = element_nodes(space.order());
     for_all_tets(space, [&](std::size_t p, std::size_t t) {
         const double density = problem.material(p, t).density;
         const MassShares shares = mass_shares(space.element(p, t));
@@ -111,7 +110,7 @@ double MassMatrix::mean_diagonal() const {
     const FeSpace& space = *problem_.space;
     double sum = 0;
     for (std::int32_t n = 0; n < share_.row_count(); ++n) sum += share_.values[share_.first[n]];
-    return space.ranks().all_reduce(sum, Reduction::sum) / static_cast<double>(space.total_rows());
+    return space.ranks().all_reduce(sum, Reduction::sum) / space.total_rows();
 }
 
 }  // namespace kerf

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <compare>
 
+#include "base/core/ids.h"
+
 namespace kerf {
 
 struct MaterialNodes::Pair {
@@ -52,9 +54,9 @@ MaterialNodes::MaterialNodes(const ElasticProblem& problem) : problem_(problem) 
     const std::vector<Ownership::Neighbour>& sharers = space.ownership().owned();
     const auto told = space.ownership().lists_to_owners([&](const Ownership::Neighbour& neighbour) {
         std::vector<Told> list;
-        for (std::size_t place = 0; place < neighbour.items.size(); ++place)
+        for (std::int32_t place = 0; place < count_of(neighbour.items); ++place)
             for (std::int32_t i = first_[neighbour.items[place]]; i < first_[neighbour.items[place] + 1]; ++i)
-                list.push_back({static_cast<std::int32_t>(place), material_[i]});
+                list.push_back({place, material_[i]});
         return list;
     });
     const auto for_all_told = [&](std::size_t r, auto take) {
@@ -80,8 +82,7 @@ MaterialNodes::MaterialNodes(const ElasticProblem& problem) : problem_(problem) 
 
 std::int32_t MaterialNodes::number(std::int32_t node, MaterialNumber material) const {
     const auto begin = material_.begin();
-    return static_cast<std::int32_t>(std::lower_bound(begin + first_[node], begin + first_[node + 1], material) -
-                                     begin);
+    return std::lower_bound(begin + first_[node], begin + first_[node + 1], material) - begin;
 }
 
 std::array<std::int32_t, most_element_nodes> MaterialNodes::of(std::size_t p, std::size_t tet) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "solve/equations/elastic_problem.h"
 
 namespace kerf {
@@ -18,7 +19,7 @@ class MaterialNodes {
     /// Numbers the pairs. Collective. O(n), and O(k log k) in the k cells at nodes between materials.
     explicit MaterialNodes(const ElasticProblem& problem);
 
-    std::int32_t count() const { return static_cast<std::int32_t>(material_.size()); }
+    std::int32_t count() const { return count_of(material_); }
     /// Returns the first of the node's numbers; `local_node` may be FeSpace::node_count().
     std::int32_t first_of(std::int32_t local_node) const { return first_[local_node]; }
     /// Returns the numbers of the nodes of a tetrahedron of the part `p` of this rank, in its material.

@@ -28,7 +28,7 @@ struct MaterialPlaces {
 
     MaterialNumber at(NodeId part, RegionIndex region, std::int32_t body) const {
         if (const auto named = of_part.find(part); named != of_part.end()) return named->second;
-        const auto r = static_cast<std::size_t>(region.value());
+        const std::size_t r = region.value();
         if (r < of_region.size() && of_region[r] != no_material) return of_region[r];
         return of_body[body] != no_material ? of_body[body] : of_rest;
     }
@@ -91,8 +91,7 @@ void MaterialPlacer::place() {
         const Part& part = space_.parts()[p];
         std::vector<MaterialNumber>& of_tet = problem_.material_of_tet.emplace_back();
         for (std::size_t t = 0; t < part.mesh.tets.size(); ++t) {
-            of_tet.push_back(places.at(part.id, part.region_of(static_cast<std::int32_t>(t)),
-                                       bodies_.of_node[space_.nodes_of(p, t)[0]]));
+            of_tet.push_back(places.at(part.id, part.region_of(t), bodies_.of_node[space_.nodes_of(p, t)[0]]));
             if (of_tet.back() == no_material) ++without;
         }
     }
@@ -113,7 +112,7 @@ void MaterialPlacer::place_in_regions(const MaterialUse& use, const std::vector<
         if (of_region != no_material)
             throw Error(ErrorCode::usage, fmt::format("The region '{}' has two materials: '{}' and '{}'.", wanted,
                                                       problem_.materials[of_region].name, use.material.name));
-        of_region = static_cast<MaterialNumber>(problem_.materials.size() - 1);
+        of_region = problem_.materials.size() - 1;
     }
 }
 
@@ -172,8 +171,8 @@ std::vector<std::int32_t> MaterialPlacer::split_by_regions(const std::vector<cha
             throw Error(ErrorCode::usage,
                         "A case may have up to 65,534 materials, those of regions with a temperature of "
                         "their own counted by themselves.");
-        number[at] = static_cast<MaterialNumber>(region_of.size());
-        region_of.push_back(static_cast<std::int32_t>(at / count));
+        number[at] = region_of.size();
+        region_of.push_back(at / count);
         problem_.materials.push_back(problem_.materials[at % count]);
     }
     for_parts_there([&](std::size_t p, std::size_t region) {
@@ -206,7 +205,7 @@ std::size_t region_called(const MeshOutline& outline, const std::string& name, c
                     fmt::format("{} names the region '{}', but {}.", who, name,
                                 names.empty() ? std::string("the mesh has no regions with names")
                                               : fmt::format("those of the mesh are '{}'", fmt::join(names, "', '"))));
-    return static_cast<std::size_t>(found - names.begin());
+    return found - names.begin();
 }
 
 }  // namespace kerf

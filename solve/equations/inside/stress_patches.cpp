@@ -76,7 +76,7 @@ void PatchFit::number_vertices() {
     const std::int32_t first_ghost = numbers_.first_of(space_.owned_count());
     for (std::int32_t n = 0; n < numbers_.count(); ++n) {
         if (vertex_of_[n] < 0) continue;
-        vertex_of_[n] = static_cast<std::int32_t>(vertices_++);
+        vertex_of_[n] = vertices_++;
         if (n < first_ghost) owned_ = vertices_;
     }
     ownership_ = numbers_.ownership().renumbered(vertex_of_);
@@ -114,7 +114,7 @@ void PatchFit::solve(std::size_t vertex) {
     if (!(matrix(0, 0) > 0)) return;  // the volume
     const Monomials scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
-    auto found = polynomial(static_cast<std::int32_t>(vertex));
+    auto found = polynomial(vertex);
     const Coefficients right = scale.asDiagonal() * found;
     found.setZero();
     for (int degree = 2; degree >= 0; --degree) {

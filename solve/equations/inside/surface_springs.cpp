@@ -23,8 +23,7 @@ TriangleShapes triangle_shapes(int order, const std::array<double, 3>& l) {
         shapes.slope_b[i] = slope * in_b[i];
     }
     for (std::size_t e = 0; order == 2 && e < 3; ++e) {
-        const auto i = static_cast<std::size_t>(triangle_edges[e][0]),
-                   j = static_cast<std::size_t>(triangle_edges[e][1]);
+        const auto& [i, j] = triangle_edges[e];
         shapes.value[3 + e] = 4 * l[i] * l[j];
         shapes.slope_a[3 + e] = 4 * (in_a[i] * l[j] + l[i] * in_a[j]);
         shapes.slope_b[3 + e] = 4 * (in_b[i] * l[j] + l[i] * in_b[j]);

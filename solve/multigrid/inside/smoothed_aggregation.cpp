@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/core/ids.h"
 #include "solve/multigrid/inside/aggregates.h"
 
 namespace kerf {
@@ -125,6 +126,7 @@ class Coarsening {
  private:
     using Block = RowMajorBlock<B, rigid_motions>;
     static constexpr int block_size = Prolongation<B>::block_size;
+    static constexpr std::size_t motion_block_size = rigid_motions * rigid_motions;
 
     std::int64_t first_own() const { return starts_[ranks_.rank()]; }
     Eigen::Map<const Block> tentative(std::int32_t n) const {
@@ -148,7 +150,7 @@ class Coarsening {
             const SparseRow<B>& row = row_of(neighbour.items[place]);
             for (std::size_t i = 0; i < row.ids.size(); ++i) {
                 SentBlock<B>& sent = all.emplace_back();
-                sent.place = static_cast<std::int32_t>(place);
+                sent.place = place;
                 sent.id = row.ids[i];
                 std::copy_n(row.blocks[i].data(), block_size, sent.block.begin());
             }
@@ -190,13 +192,13 @@ void Coarsening<B>::make_tentative(const NearNullSpace& motions) {
         if (const std::int32_t a = aggregates_.of_node[n]; a >= 0) members[next[a]++] = n;
     tentative_.assign(static_cast<std::size_t>(block_size) * fine_.node_count(), 0);
     aggregate_of_.assign(fine_.node_count(), Aggregates::none);
-    made_.motions.resize(static_cast<std::size_t>(rigid_motions * rigid_motions) * aggregates_.count);
+    made_.motions.resize(motion_block_size * aggregates_.count);
     Eigen::MatrixXd columns;
     for (std::int32_t a = 0; a < aggregates_.count; ++a) {
         columns.resize(B * (first[a + 1] - first[a]), rigid_motions);
         for (std::int32_t i = first[a]; i < first[a + 1]; ++i)
             columns.middleRows<B>(B * (i - first[a])) = Eigen::Map<const Block>(&motions[block_size * members[i]]);
-        Eigen::Map<MotionBlock> factor(&made_.motions[static_cast<std::size_t>(rigid_motions * rigid_motions) * a]);
+        Eigen::Map<MotionBlock> factor(&made_.motions[motion_block_size * a]);
         MotionBlock found;
         orthonormalise(columns, found);
         factor = found;
@@ -220,7 +222,7 @@ template <int B>
 void Coarsening<B>::append_row(const SparseRow<B>& row) {
     ids_.insert(ids_.end(), row.ids.begin(), row.ids.end());
     for (const Block& block : row.blocks)
-        for (Eigen::Index i = 0; i < block_size; ++i) result_.values.push_back(static_cast<float>(block.data()[i]));
+        for (Eigen::Index i = 0; i < block_size; ++i) result_.values.push_back(block.data()[i]);
     result_.first.push_back(std::ssize(ids_));
 }
 
@@ -291,7 +293,7 @@ void Coarsening<B>::number_coarse_nodes() {
 // Makes the pattern of P^T A P: coarse nodes that meet in a row of A P.
 template <int B>
 void Coarsening<B>::make_pattern() {
-    const std::int32_t coarse = aggregates_.count + static_cast<std::int32_t>(ghosts_.size());
+    const std::int32_t coarse = aggregates_.count + count_of(ghosts_);
     std::vector<std::vector<std::int32_t>> rows(coarse);
     for (std::int32_t c = 0; c < coarse; ++c) rows[c] = {c};
     std::vector<std::int32_t> seen_by(coarse, -1), met;
@@ -324,7 +326,7 @@ void Coarsening<B>::make_pattern() {
         product.first.push_back(std::ssize(product.columns));
     }
     product.columns.shrink_to_fit();
-    product.values.assign(static_cast<std::size_t>(rigid_motions * rigid_motions) * product.columns.size(), 0);
+    product.values.assign(motion_block_size * product.columns.size(), 0);
 }
 
 template <int B>
@@ -340,7 +342,7 @@ void Coarsening<B>::make_product() {
             for (std::int64_t i = result_.first[m]; i < result_.first[m + 1]; ++i) {
                 std::int32_t& at = place[result_.columns[i]];
                 if (at < 0) {
-                    at = static_cast<std::int32_t>(row.ids.size());
+                    at = count_of(row.ids);
                     row.ids.push_back(result_.columns[i]);
                     row.blocks.emplace_back(Block::Zero());
                 }

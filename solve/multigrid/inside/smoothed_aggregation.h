@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "solve/multigrid/inside/chebyshev_smoother.h"
 #include "solve/multigrid/level_matrix.h"
 #include "solve/multigrid/symmetric_blocks.h"
@@ -25,7 +26,7 @@ struct Prolongation {
     std::vector<std::int32_t> columns;
     std::vector<float> values;
 
-    std::int32_t row_count() const { return static_cast<std::int32_t>(first.size()) - 1; }
+    std::int32_t row_count() const { return count_of(first) - 1; }
     RowMajorBlock<B, rigid_motions> block(std::int64_t at) const {
         return Eigen::Map<const Block>(&values[block_size * at]).template cast<double>();
     }

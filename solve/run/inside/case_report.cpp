@@ -79,7 +79,7 @@ class CaseResults {
                 for (const std::int32_t v : part.mesh.tets[t])
                     tell(&StressExtremes::use_of_yield, at_node[v] / yield, v);
                 if (stress.at_edge.empty()) continue;
-                const auto nodes = part.nodes_of_tet(static_cast<std::int64_t>(t));
+                const auto nodes = part.nodes_of_tet(t);
                 for (std::size_t i = 4; i < nodes.size(); ++i)
                     tell(&StressExtremes::use_of_yield, at_node[nodes[i]] / yield, nodes[i]);
             }

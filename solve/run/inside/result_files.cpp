@@ -15,8 +15,8 @@ void add_stresses(const std::vector<SymmetricTensor>& stresses, PartValues::Of o
     tensors.reserve(6 * stresses.size());
     mises.reserve(stresses.size());
     for (const SymmetricTensor& stress : stresses) {
-        for (const double value : stress) tensors.push_back(static_cast<float>(value));
-        mises.push_back(static_cast<float>(von_mises(stress)));
+        for (const double value : stress) tensors.push_back(value);
+        mises.push_back(von_mises(stress));
     }
     all.push_back({"Stress" + suffix, of, 6, std::move(tensors)});
     all.push_back({"VonMises" + suffix, of, 1, std::move(mises)});

@@ -6,10 +6,11 @@
 // order of the parts and cells in that of their part, so that ghosts are ascending without a sort; nodes are sorted,
 // since several parts may have one.
 #include "files/export/inside/ghosts.h"
-#include "base/core/ids.h"
 
 #include <algorithm>
 #include <exception>
+
+#include "base/core/ids.h"
 
 namespace kerf {
 

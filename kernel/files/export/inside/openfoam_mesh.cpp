@@ -6,11 +6,12 @@
 // seen from its own side there. Lists are binary and written an entry at a time, behind their length, which is known
 // before: of n tetrahedra with b boundary faces there are (4 n + b) / 2 faces.
 #include "files/export/inside/openfoam_mesh.h"
-#include "base/core/ids.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
+
+#include "base/core/ids.h"
 
 namespace kerf::openfoam {
 
