@@ -29,9 +29,9 @@ RecordedCut record(const Surface& parent, const Cut& cut) {
         RecordedTry& kept = record.tries.emplace_back(RecordedTry{each, segments_of(parent, each.contour)});
         kept.what.contour.clear();
     }
-    for (const std::vector<std::int32_t>& loop : cut.loops) {
+    for (const std::vector<Vertex>& loop : cut.loops) {
         std::vector<Vec3>& points = record.contour.emplace_back();
-        for (const std::int32_t vertex : loop) points.push_back(parent.point(vertex));
+        for (const Vertex vertex : loop) points.push_back(parent.point(vertex));
     }
     record.stages = {segments_of(parent, cut.stages.crossed_edges),
                      segments_of(parent, cut.stages.hanging_edges_removed),

@@ -45,7 +45,7 @@ std::optional<InterfacePlace> smallest_dihedral(const Interface& interface, cons
             const std::int32_t a = t[i], b = t[(i + 1) % 3];
             if (a >= count || b >= count) continue;
             const auto [low, high] = std::minmax(interface.contour[a], interface.contour[b]);
-            at_edge[{low, high}].push_back(corners_of(interface.points, {a, b, t[(i + 2) % 3]}));
+            at_edge[{low.value(), high.value()}].push_back(corners_of(interface.points, {a, b, t[(i + 2) % 3]}));
         }
     std::optional<InterfacePlace> worst;
     for (const Triangle& facet : parent.facets)

@@ -29,6 +29,10 @@ class Id {
     template <std::integral Number>
     constexpr explicit Id(Number value) : value_(static_cast<std::int32_t>(value)) {}
 
+    /// The id of no thing. It is less than all others.
+    static constexpr Id none() { return Id(-1); }
+    constexpr bool is_valid() const { return value_ >= 0; }
+
     constexpr std::int32_t value() const { return value_; }
     constexpr auto operator<=>(const Id&) const = default;
     constexpr Id& operator++() {
@@ -70,6 +74,11 @@ class Array : public std::vector<T> {
     const T& operator[](I id) const { return (*this)[static_cast<std::size_t>(id.value())]; }
     /// The ids of all items.
     IdRange<I> ids() const { return kerf::ids<I>(this->size()); }
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(static_cast<std::vector<T>&>(*this));
+    }
 };
 
 /// The place of a part in the order of the tree (MeshOutline::parts), which is not its NodeId, nor an MPI rank.

@@ -73,7 +73,7 @@ class Ladder {
     bool try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tries);
 
     const Surface& surface_;
-    const std::vector<char> copied_;
+    const Array<Vertex, char> copied_;
     const MassProperties& mass_;
     NodeId node_;
     const CutPlace& place_;

@@ -49,20 +49,10 @@ const char* name(Refusal refusal) {
 }
 
 CutSummary summary_of(const Cut& cut) {
-    return {cut.plane,
-            cut.method,
-            cut.strategy,
-            static_cast<std::int32_t>(cut.tries.size()),
-            static_cast<std::int32_t>(cut.loops.size()),
-            cut.contour_edges,
-            cut.contour_length,
-            cut.max_deviation,
-            cut.place,
-            cut.section_area,
-            cut.interface_area,
-            static_cast<std::int32_t>(cut.interface.triangles.size()),
-            cut.quality,
-            cut.seconds};
+    return {cut.plane,           cut.method,        cut.strategy,       count_of(cut.tries),
+            count_of(cut.loops), cut.contour_edges, cut.contour_length, cut.max_deviation,
+            cut.place,           cut.section_area,  cut.interface_area, count_of(cut.interface.triangles),
+            cut.quality,         cut.seconds};
 }
 
 void describe_contour(const Surface& parent, Cut& cut) {

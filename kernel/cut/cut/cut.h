@@ -89,7 +89,7 @@ struct InterfaceQuality {
 };
 
 /// An edge of the parent surface by its vertices; a contour edge has the half below on its left.
-using SurfaceEdge = std::array<std::int32_t, 2>;
+using SurfaceEdge = std::array<Vertex, 2>;
 
 /// Two triangles that meet off their common corners.
 struct Collision {
@@ -139,11 +139,11 @@ struct ContourStages {
 
 /// The triangulation of the section inside of the contour, in the plane and lifted to meet the surface.
 struct Interface {
-    std::vector<std::int32_t> contour;  ///< #C; vertex of the parent surface of each contour vertex
-    std::vector<Vec2> planar;           ///< #P; contour vertices first; coordinates in the plane during the
-                                        ///< triangulation
-    std::vector<Vec3> points;           ///< #P; contour vertices are at their place on the surface
-    std::vector<Triangle> triangles;    ///< indices into `planar`; counter-clockwise seen from above
+    std::vector<Vertex> contour;      ///< #C; vertex of the parent surface of each contour vertex
+    std::vector<Vec2> planar;         ///< #P; contour vertices first; coordinates in the plane during the
+                                      ///< triangulation
+    std::vector<Vec3> points;         ///< #P; contour vertices are at their place on the surface
+    std::vector<Triangle> triangles;  ///< indices into `planar`; counter-clockwise seen from above
 
     template <class Archive>
     void archive(Archive& a) {
@@ -170,12 +170,12 @@ struct Cut {
     CutStrategy strategy = CutStrategy::whole;
     ContourMethod method = ContourMethod::min_cut;
     Plane plane;
-    std::vector<CutTry> tries;                     ///< all tries, the accepted one included
-    std::vector<std::vector<std::int32_t>> loops;  ///< closed contours as parent vertices; the half below is on the
-                                                   ///< left
-    std::vector<Side> side;                        ///< per facet of the parent; empty without a listener
-    ContourStages stages;                          ///< empty without a listener
-    SurfaceArrays split_parent;                    ///< in a straight cut with a listener: the parent, its facets split
+    std::vector<CutTry> tries;               ///< all tries, the accepted one included
+    std::vector<std::vector<Vertex>> loops;  ///< closed contours as parent vertices; the half below is on the
+                                             ///< left
+    Array<Facet, Side> side;                 ///< per facet of the parent; empty without a listener
+    ContourStages stages;                    ///< empty without a listener
+    SurfaceArrays split_parent;              ///< in a straight cut with a listener: the parent, its facets split
     Interface interface;
     InterfaceQuality quality;
     std::int64_t contour_edges = 0;

@@ -29,7 +29,7 @@ struct SectionProfile {
     // The section where the given share of the load lies below.
     double area_at(double fraction) const {
         const auto it = std::lower_bound(load.begin(), load.end(), fraction * load.back());
-        return area[static_cast<std::size_t>(std::min(it, load.end() - 1) - load.begin())];
+        return area[std::min(it, load.end() - 1) - load.begin()];
     }
 };
 
@@ -40,9 +40,8 @@ struct SectionBins {
     std::array<double, bins> count{}, area_z{};
 
     SectionBins(const Surface& surface, const Vec3& along) : direction(along) {
-        const auto [lowest, highest] =
-            bounds_on_threads(static_cast<std::size_t>(surface.vertex_count()),
-                              [&](std::size_t v) { return along.dot(surface.point(static_cast<std::int32_t>(v))); });
+        const auto [lowest, highest] = bounds_on_threads(
+            surface.vertex_count(), [&](std::size_t v) { return along.dot(surface.point(Vertex(v))); });
         low = lowest;
         bin_height = (highest - lowest) / bins;
     }
@@ -80,7 +79,7 @@ std::vector<SectionProfile> section_profiles(const Surface& surface, const std::
     for (const Vec3& direction : directions) sections.emplace_back(surface, direction);
     KERF_CHECK(sections.size() <= 3);
     const auto term_of = [&](std::size_t f) {
-        const Triangle t = surface.vertices(static_cast<std::int32_t>(f));
+        const auto t = surface.corners(Facet(f));
         const Vec3 &a = surface.point(t[0]), &b = surface.point(t[1]), &c = surface.point(t[2]);
         const Vec3 sum = a + b + c, doubled_area = doubled_area_vector(a, b, c);
         Term term;
@@ -90,7 +89,7 @@ std::vector<SectionProfile> section_profiles(const Surface& surface, const std::
         }
         return term;
     };
-    add_in_order(static_cast<std::size_t>(surface.facet_count()), term_of, [&](const Term& term) {
+    add_in_order(surface.facet_count(), term_of, [&](const Term& term) {
         for (std::size_t i = 0; i < sections.size(); ++i) {
             sections[i].count[term.bin[i]] += 1;
             sections[i].area_z[term.bin[i]] += term.area_z[i];
@@ -132,10 +131,10 @@ CutPlace place_of(const Plane& plane, const Surface& surface, const MassProperti
     const std::vector<Vec3> directions = cut_directions(surface, mass, options);
     CutPlace place;
     for (std::size_t axis = 1; axis < directions.size(); ++axis) {
-        const double nearest = std::abs(plane.normal.dot(directions[static_cast<std::size_t>(place.axis)]));
+        const double nearest = std::abs(plane.normal.dot(directions[place.axis]));
         if (std::abs(plane.normal.dot(directions[axis])) > nearest) place.axis = static_cast<std::int32_t>(axis);
     }
-    const Plane through_centroid(mass.centroid, directions[static_cast<std::size_t>(place.axis)]);
+    const Plane through_centroid(mass.centroid, directions[place.axis]);
     const LoadProfile profile(surface, through_centroid, options.bisected_load());
     const double height = through_centroid.distance(plane.origin);
     const double extent = profile.highest() - profile.lowest();

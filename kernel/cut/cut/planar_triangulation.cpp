@@ -202,8 +202,7 @@ void Triangulator::refine() {
         for (const std::int32_t v : t) size = std::min(size, size_[v] + growth * (points_[v] - centre).norm());
         const double least = least_at(centre, t);
         if (!insert_interior(centre, std::min(size, largest_at(centre, least)), least, &*face)) continue;
-        for (const Triangle& around : delaunay_.triangles_around(static_cast<std::int32_t>(points_.size()) - 1))
-            consider(around);
+        for (const Triangle& around : delaunay_.triangles_around(count_of(points_) - 1)) consider(around);
     }
 }
 

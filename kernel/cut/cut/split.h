@@ -17,7 +17,7 @@ struct Half {
 /// Returns the halves below and above. Facets keep their order, key and patch, and those of the interface follow: its
 /// facet i has the key (node, i) in both halves and opposite orientations, its interior point i the key (node, i). O(#V
 /// + #F), each half on a thread of its own.
-std::array<Half, 2> split(const Surface& surface, const std::vector<Side>& side, const Interface& interface,
+std::array<Half, 2> split(const Surface& surface, const Array<Facet, Side>& side, const Interface& interface,
                           NodeId node);
 
 }  // namespace kerf

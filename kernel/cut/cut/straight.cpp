@@ -56,7 +56,7 @@ Heights heights_of(const Surface& surface, int axis, const Window& window) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double before = -infinity, after = infinity;
     Heights heights{{}, infinity, -infinity};
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+    for (const Vertex v : surface.vertices()) {
         const double x = surface.point(v)[axis];
         heights.lowest = std::min(heights.lowest, x);
         heights.highest = std::max(heights.highest, x);
@@ -78,8 +78,8 @@ Heights heights_of(const Surface& surface, int axis, const Window& window) {
 class CrossingCount {
  public:
     CrossingCount(const Surface& surface, int axis, const Window& window) : facets_(surface.facet_count()) {
-        for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-            const Triangle t = surface.vertices(f);
+        for (const Facet f : surface.facets()) {
+            const auto t = surface.corners(f);
             const auto [low, high] =
                 std::minmax({surface.point(t[0])[axis], surface.point(t[1])[axis], surface.point(t[2])[axis]});
             low_.add(low, window);
@@ -89,7 +89,7 @@ class CrossingCount {
         sort_on_threads(high_.within);
     }
     double share(double height) const {
-        return static_cast<double>(low_.below(height) - high_.below(height)) / static_cast<double>(facets_);
+        return static_cast<double>(low_.below(height) - high_.below(height)) / facets_;
     }
 
  private:
@@ -155,9 +155,9 @@ void rate_planes(const Surface& surface, int axis, double largest_extent, double
 
 std::vector<SurfaceEdge> contour_of(const Surface& parent, const PlaneSplit& split) {
     std::vector<SurfaceEdge> edges;
-    for (std::int32_t f = 0; f < parent.facet_count(); ++f) {
+    for (const Facet f : parent.facets()) {
         if (split.side[f] != Side::below) continue;
-        for (const std::int32_t h : parent.half_edges(f))
+        for (const HalfEdge h : parent.half_edges(f))
             if (split.side[parent.facet_of(Surface::opposite(h))] == Side::above)
                 edges.push_back({parent.from_vertex(h), parent.to_vertex(h)});
     }
@@ -170,8 +170,7 @@ Refusal span_plane(const Surface& parent, Cut& cut) {
     region.refined = false;
     Interface& interface = cut.interface;
     for (const auto& loop : cut.loops) {
-        const auto first = static_cast<std::int32_t>(interface.contour.size());
-        const auto n = static_cast<std::int32_t>(loop.size());
+        const std::int32_t first = count_of(interface.contour), n = count_of(loop);
         for (std::int32_t i = 0; i < n; ++i) {
             interface.contour.push_back(loop[i]);
             interface.points.push_back(parent.point(loop[i]));
@@ -193,11 +192,11 @@ Refusal span_plane(const Surface& parent, Cut& cut) {
 // A piece of a split or of an untested facet that meets another facet, with that. Facets may meet at copies of a
 // vertex.
 std::vector<Collision> first_collision(const Surface& surface, const PlaneSplit& split,
-                                       const std::vector<char>& untested) {
+                                       const Array<Facet, char>& untested) {
     const bool has_copies = !copied_vertices(surface).empty();
     const SurfaceArrays joined = has_copies ? joined_by_key(split.arrays) : SurfaceArrays();
     const SurfaceArrays& arrays = has_copies ? joined : split.arrays;
-    const std::vector<std::int32_t>& parent = split.parent;
+    const Array<Facet, Facet>& parent = split.parent;
     std::vector<char> chosen(parent.size(), 0);
     for (std::size_t i = 0; i < parent.size(); ++i)
         chosen[i] = (!untested.empty() && untested[parent[i]]) || (i > 0 && parent[i - 1] == parent[i]) ||
@@ -217,7 +216,7 @@ bool has_both_sides(const PlaneSplit& split) {
     return std::adjacent_find(split.side.begin(), split.side.end(), std::not_equal_to<>()) != split.side.end();
 }
 
-Refusal try_plane(const Surface& surface, const StraightPlane& plane, const std::vector<char>& untested,
+Refusal try_plane(const Surface& surface, const StraightPlane& plane, const Array<Facet, char>& untested,
                   StraightCut& result, std::vector<Collision>& collisions) {
     Cut& cut = result.cut;
     cut.plane = coordinate_plane(plane.axis, plane.height);
@@ -248,12 +247,12 @@ std::vector<StraightPlane> straight_planes(const Surface& surface, double fracti
     KERF_CHECK(surface.facet_count() > 0);
     KERF_CHECK(fraction > 0 && fraction < 1);
     Eigen::AlignedBox3d box;
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) box.extend(surface.point(v));
+    for (const Vertex v : surface.vertices()) box.extend(surface.point(v));
     std::vector<RatedPlane> rated;
     for (int axis = 0; axis < 3; ++axis)
         if (options.axis < 0 || options.axis == axis)
             rate_planes(surface, axis, box.sizes().maxCoeff(), fraction, options, rated);
-    const auto kept = rated.begin() + static_cast<std::ptrdiff_t>(std::min(max_planes, rated.size()));
+    const auto kept = rated.begin() + std::min(max_planes, rated.size());
     std::partial_sort(rated.begin(), kept, rated.end());
     std::vector<StraightPlane> planes;
     for (auto it = rated.begin(); it != kept; ++it) planes.push_back(it->plane);
@@ -261,7 +260,7 @@ std::vector<StraightPlane> straight_planes(const Surface& surface, double fracti
 }
 
 std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, double fraction, const CutOptions& options,
-                                        std::vector<CutTry>& tries, const std::vector<char>& untested) {
+                                        std::vector<CutTry>& tries, const Array<Facet, char>& untested) {
     std::int32_t step = 0;
     for (const StraightPlane& plane : straight_planes(surface, fraction, options)) {
         StraightCut result;

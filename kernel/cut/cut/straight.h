@@ -35,6 +35,6 @@ struct StraightCut {
 /// `tries` has the reasons. `untested` (#F, or empty for none) are facets of `surface` that may intersect others; the
 /// rest must not.
 std::optional<StraightCut> cut_straight(const Surface& surface, NodeId node, double fraction, const CutOptions& options,
-                                        std::vector<CutTry>& tries, const std::vector<char>& untested = {});
+                                        std::vector<CutTry>& tries, const Array<Facet, char>& untested = {});
 
 }  // namespace kerf

@@ -74,7 +74,7 @@ bool StraightDivision::cut(TreeNode& node, const FaceComplex::Part& part) {
                      tries, part.untested);
     node.cut_tried = true;
     if (!made) {
-        node.tries += static_cast<std::int32_t>(tries.size());
+        node.tries += count_of(tries);
         return false;
     }
     complex_.divide(node.id, part, *made);

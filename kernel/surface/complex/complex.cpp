@@ -170,13 +170,13 @@ std::int32_t Complex::facet_count() const {
     return names_.empty() ? only_.facet_count() : static_cast<std::int32_t>(facets_.facets.size());
 }
 const Vec3& Complex::point(std::int32_t vertex) const {
-    return names_.empty() ? only_.point(vertex) : facets_.vertices[vertex];
+    return names_.empty() ? only_.point(Vertex(vertex)) : facets_.vertices[vertex];
 }
 Triangle Complex::vertices(std::int32_t facet) const {
-    return names_.empty() ? only_.vertices(facet) : facets_.facets[facet];
+    return names_.empty() ? only_.triangle(Facet(facet)) : facets_.facets[facet];
 }
 std::int32_t Complex::patch(std::int32_t facet) const {
-    return names_.empty() ? only_.patch(facet) : facets_.patch[facet];
+    return names_.empty() ? only_.patch(Facet(facet)) : facets_.patch[facet];
 }
 
 Surface Complex::take_only_region() {

@@ -82,10 +82,10 @@ BoundedVolume bounded_volume(const std::vector<Vec3>& vertices, const std::vecto
 
 double enclosed_volume(const Surface& surface) {
     if (surface.vertex_count() == 0) return 0;
-    const Vec3& base = surface.point(0);
+    const Vec3& base = surface.point(Vertex(0));
     VolumeSum sum;
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Triangle t = surface.vertices(f);
+    for (const Facet f : surface.facets()) {
+        const auto t = surface.corners(f);
         sum.add(surface.point(t[0]) - base, surface.point(t[1]) - base, surface.point(t[2]) - base);
     }
     return sum.volume();
@@ -98,14 +98,14 @@ bool is_outward(const std::vector<Vec3>& vertices, const std::vector<Triangle>& 
 namespace {
 
 void find_inertia(const Surface& surface, MassProperties& m) {
-    const Vec3& base = surface.point(0);
+    const Vec3& base = surface.point(Vertex(0));
     const double n = surface.vertex_count();
     Vec3 sum = Vec3::Zero();
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) sum += surface.point(v) - base;
+    for (const Vertex v : surface.vertices()) sum += surface.point(v) - base;
     m.centroid = base + sum / n;
 
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+    for (const Vertex v : surface.vertices()) {
         const Vec3 r = surface.point(v) - m.centroid;
         moment += r * r.transpose();
     }
@@ -118,8 +118,8 @@ void find_inertia(const Surface& surface, MassProperties& m) {
 // Calls add(a, b, c) for the corners of each facet.
 template <class Add>
 void for_each_facet(const Surface& surface, const Add& add) {
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Triangle t = surface.vertices(f);
+    for (const Facet f : surface.facets()) {
+        const auto t = surface.corners(f);
         add(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
     }
 }
@@ -130,7 +130,7 @@ void for_each_facet(const Surface& surface, const Add& add) {
 MassProperties mass_properties(const Surface& surface) {
     MassProperties m;
     if (surface.vertex_count() == 0) return m;
-    const Vec3& base = surface.point(0);
+    const Vec3& base = surface.point(Vertex(0));
     VolumeErrorSum error;
     const std::array<std::function<void()>, 2> sums = {
         [&] {

@@ -42,7 +42,7 @@ std::vector<std::int32_t> number_half_edges(std::vector<std::int32_t> partner) {
     });
     for_ranges_on_threads(partner.size(), grain, [&](const IndexRange& range) {
         for (std::size_t c = range.first; c < range.last; ++c)
-            if (partner[c] >= 0) number[c] = Surface::opposite(~number[partner[c]]);
+            if (partner[c] >= 0) number[c] = ~number[partner[c]] ^ 1;
     });
     for_ranges_on_threads(partner.size(), grain, [&](const IndexRange& range) {
         for (std::size_t c = range.first; c < range.last; ++c) number[c] = number[c] < 0 ? ~number[c] : number[c];
@@ -144,18 +144,18 @@ Surface::Surface(SurfaceArrays arrays) {
     *this = std::move(std::get<Surface>(built));
 }
 
-std::int32_t Surface::find_half_edge(std::int32_t from, std::int32_t to) const {
-    for (const auto h : around(from))
-        if (h.to().idx() == to) return h.idx();
-    return -1;
+HalfEdge Surface::find_half_edge(Vertex from, Vertex to) const {
+    for (const HalfEdge h : around(from))
+        if (to_vertex(h) == to) return h;
+    return HalfEdge::none();
 }
 
 SurfaceArrays Surface::arrays() const {
     SurfaceArrays arrays;
     arrays.vertices.reserve(vertex_count());
-    for (std::int32_t v = 0; v < vertex_count(); ++v) arrays.vertices.push_back(point(v));
+    for (const Vertex v : vertices()) arrays.vertices.push_back(point(v));
     arrays.facets.reserve(facet_count());
-    for (std::int32_t f = 0; f < facet_count(); ++f) arrays.facets.push_back(vertices(f));
+    for (const Facet f : facets()) arrays.facets.push_back(triangle(f));
     arrays.vertex_key = vertex_key_;
     arrays.facet_key = facet_key_;
     arrays.patch = patch_;
@@ -163,9 +163,11 @@ SurfaceArrays Surface::arrays() const {
 }
 
 Components find_shells(const Surface& surface) {
-    UnionFind facets(static_cast<std::size_t>(surface.facet_count()));
-    for (std::int32_t h = 0; h < 3 * surface.facet_count(); h += 2)
-        facets.join(surface.facet_of(h), surface.facet_of(Surface::opposite(h)));
+    UnionFind facets(surface.facet_count());
+    for (const Edge e : surface.edges()) {
+        const HalfEdge h = Surface::first_half_edge(e);
+        facets.join(surface.facet_of(h).value(), surface.facet_of(Surface::opposite(h)).value());
+    }
     return facets.take();
 }
 

@@ -11,6 +11,7 @@
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 #include "base/core/types.h"
 #include "base/geometry/union_find.h"
 
@@ -58,8 +59,43 @@ struct ManifoldDefect {
 /// Vertices without facets are allowed. O(#V + #F).
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
 
-/// A closed, oriented 2-manifold. Facets and vertices have the numbers of the arrays that it was built from. Immutable;
-/// copies share the half-edges. Numbers of vertices, facets and half-edges passed to it must be in range.
+using Vertex = Id<struct VertexTag>;
+using Facet = Id<struct FacetTag>;
+using Edge = Id<struct EdgeTag>;
+using HalfEdge = Id<struct HalfEdgeTag>;
+
+/// The half-edges that start at a vertex, clockwise seen from outside, for loops.
+class HalfEdgesAround {
+ public:
+    class Iterator {
+     public:
+        Iterator(const HalfEdgeMesh& mesh, HalfEdge first) : mesh_(&mesh), first_(first), at_(first) {}
+
+        HalfEdge operator*() const { return at_; }
+        Iterator& operator++() {
+            at_ = HalfEdge(mesh_->cw_rotated_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(at_.value())).idx());
+            is_round_ = at_ == first_;
+            return *this;
+        }
+        bool operator==(std::default_sentinel_t) const { return is_round_; }
+
+     private:
+        const HalfEdgeMesh* mesh_;
+        HalfEdge first_, at_;
+        bool is_round_ = false;
+    };
+
+    HalfEdgesAround(const HalfEdgeMesh& mesh, HalfEdge first) : mesh_(mesh), first_(first) {}
+    Iterator begin() const { return {mesh_, first_}; }
+    static std::default_sentinel_t end() { return {}; }
+
+ private:
+    const HalfEdgeMesh& mesh_;
+    HalfEdge first_;
+};
+
+/// A closed, oriented 2-manifold. Facets and vertices have the numbers of the arrays that it was built from, and the
+/// half-edges of edge e are 2 e and 2 e + 1. Immutable; copies share the half-edges. Ids passed to it must be in range.
 class Surface {
  public:
     Surface();
@@ -74,72 +110,81 @@ class Surface {
     /// Builds from arrays that are known to be a closed 2-manifold. Throws Error(internal) naming the defect.
     explicit Surface(SurfaceArrays arrays);
 
-    const HalfEdgeMesh& mesh() const { return *mesh_; }
-    std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertex_key_.size()); }
-    std::int32_t facet_count() const { return static_cast<std::int32_t>(facet_key_.size()); }
+    std::int32_t vertex_count() const { return count_of(vertex_key_); }
+    std::int32_t facet_count() const { return count_of(facet_key_); }
+    std::int32_t edge_count() const { return 3 * facet_count() / 2; }
+    IdRange<Vertex> vertices() const { return ids<Vertex>(vertex_count()); }
+    IdRange<Facet> facets() const { return ids<Facet>(facet_count()); }
+    IdRange<Edge> edges() const { return ids<Edge>(edge_count()); }
+    bool has_vertex(Vertex vertex) const { return vertex.is_valid() && vertex.value() < vertex_count(); }
 
-    const Vec3& point(std::int32_t vertex) const {
+    const Vec3& point(Vertex vertex) const {
         KERF_CHECK(has_vertex(vertex));
-        return points_[vertex];
+        return points_[vertex.value()];
     }
-    Key vertex_key(std::int32_t vertex) const {
+    Key vertex_key(Vertex vertex) const {
         KERF_CHECK(has_vertex(vertex));
-        return vertex_key_[vertex];
+        return vertex_key_[vertex.value()];
     }
-    Key facet_key(std::int32_t facet) const {
+    Key facet_key(Facet facet) const {
         KERF_CHECK(has_facet(facet));
-        return facet_key_[facet];
+        return facet_key_[facet.value()];
     }
-    std::int32_t patch(std::int32_t facet) const {
+    std::int32_t patch(Facet facet) const {
         KERF_CHECK(has_facet(facet));
-        return patch_[facet];
+        return patch_[facet.value()];
     }
 
-    /// Half-edges of a facet in the order of its vertices: half-edge i runs from vertex i to vertex i+1.
-    std::array<std::int32_t, 3> half_edges(std::int32_t facet) const {
+    /// Half-edges of a facet in the order of its corners: half-edge i runs from corner i to corner i+1.
+    std::array<HalfEdge, 3> half_edges(Facet facet) const {
         KERF_CHECK(has_facet(facet));
-        const std::int32_t h = mesh_->halfedge_handle(HalfEdgeMesh::FaceHandle(facet)).idx();
-        const std::int32_t n = next(h);
+        const HalfEdge h(mesh_->halfedge_handle(HalfEdgeMesh::FaceHandle(facet.value())).idx());
+        const HalfEdge n = next(h);
         return {h, n, next(n)};
     }
-    Triangle vertices(std::int32_t facet) const {
+    std::array<Vertex, 3> corners(Facet facet) const {
         const auto h = half_edges(facet);
         return {to_vertex(h[2]), to_vertex(h[0]), to_vertex(h[1])};
     }
+    /// Returns the corners as SurfaceArrays has them.
+    Triangle triangle(Facet facet) const {
+        const auto [a, b, c] = corners(facet);
+        return {a.value(), b.value(), c.value()};
+    }
     /// Returns for each i the facet across half-edge i.
-    std::array<std::int32_t, 3> neighbours(std::int32_t facet) const {
+    std::array<Facet, 3> neighbours(Facet facet) const {
         const auto h = half_edges(facet);
         return {facet_of(opposite(h[0])), facet_of(opposite(h[1])), facet_of(opposite(h[2]))};
     }
-    std::int32_t from_vertex(std::int32_t half_edge) const { return to_vertex(half_edge ^ 1); }
-    std::int32_t to_vertex(std::int32_t half_edge) const {
-        KERF_CHECK(half_edge >= 0 && half_edge < 3 * facet_count());
-        return mesh_->to_vertex_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
-    }
-    std::int32_t facet_of(std::int32_t half_edge) const {
-        KERF_CHECK(half_edge >= 0 && half_edge < 3 * facet_count());
-        return mesh_->face_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
-    }
-    std::int32_t next(std::int32_t half_edge) const {
-        KERF_CHECK(half_edge >= 0 && half_edge < 3 * facet_count());
-        return mesh_->next_halfedge_handle(HalfEdgeMesh::HalfedgeHandle(half_edge)).idx();
-    }
-    static std::int32_t opposite(std::int32_t half_edge) { return half_edge ^ 1; }
-    /// The half-edges that start at a vertex, which must have facets, clockwise seen from outside: a range of handles h
-    /// with h.idx().
-    auto around(std::int32_t vertex) const {
-        KERF_CHECK(has_vertex(vertex) && !mesh_->is_isolated(HalfEdgeMesh::VertexHandle(vertex)));
-        return mesh_->voh_cw_range(HalfEdgeMesh::VertexHandle(vertex));
+    Vertex from_vertex(HalfEdge half_edge) const { return to_vertex(opposite(half_edge)); }
+    Vertex to_vertex(HalfEdge half_edge) const { return Vertex(mesh_->to_vertex_handle(handle(half_edge)).idx()); }
+    Facet facet_of(HalfEdge half_edge) const { return Facet(mesh_->face_handle(handle(half_edge)).idx()); }
+    HalfEdge next(HalfEdge half_edge) const { return HalfEdge(mesh_->next_halfedge_handle(handle(half_edge)).idx()); }
+    static HalfEdge opposite(HalfEdge half_edge) { return HalfEdge(half_edge.value() ^ 1); }
+    static Edge edge_of(HalfEdge half_edge) { return Edge(half_edge.value() / 2); }
+    static HalfEdge first_half_edge(Edge edge) { return HalfEdge(2 * edge.value()); }
+    /// The half-edges that start at a vertex, which must have facets.
+    HalfEdgesAround around(Vertex vertex) const {
+        KERF_CHECK(has_vertex(vertex));
+        const HalfEdge first(mesh_->halfedge_handle(HalfEdgeMesh::VertexHandle(vertex.value())).idx());
+        KERF_CHECK(first.is_valid());
+        return {*mesh_, first};
     }
 
-    /// Returns the half-edge between two vertices, or -1 if there is none. `from` must have facets. O(degree).
-    std::int32_t find_half_edge(std::int32_t from, std::int32_t to) const;
+    /// Returns the half-edge between two vertices, or none. `from` must have facets. O(degree).
+    HalfEdge find_half_edge(Vertex from, Vertex to) const;
 
     SurfaceArrays arrays() const;
 
  private:
-    bool has_vertex(std::int32_t vertex) const { return vertex >= 0 && vertex < vertex_count(); }
-    bool has_facet(std::int32_t facet) const { return facet >= 0 && facet < facet_count(); }
+    bool has_facet(Facet facet) const { return facet.is_valid() && facet.value() < facet_count(); }
+    bool has_half_edge(HalfEdge half_edge) const {
+        return half_edge.is_valid() && half_edge.value() < 3 * facet_count();
+    }
+    HalfEdgeMesh::HalfedgeHandle handle(HalfEdge half_edge) const {
+        KERF_CHECK(has_half_edge(half_edge));
+        return HalfEdgeMesh::HalfedgeHandle(half_edge.value());
+    }
 
     struct Paired {};  // every corner has its partner
     Surface(Paired, SurfaceArrays&& arrays, std::vector<std::int32_t> partner);

@@ -106,7 +106,7 @@ KeyRow& row_of(std::vector<KeyRow>& rows, NodeId node) {
 
 std::vector<Key> repeated_sorted_keys(const Surface& surface) {
     std::vector<Key> keys, repeated;
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) keys.push_back(surface.vertex_key(v));
+    for (const Vertex v : surface.vertices()) keys.push_back(surface.vertex_key(v));
     std::sort(keys.begin(), keys.end());
     for (std::size_t i = 1; i < keys.size(); ++i)
         if (keys[i] == keys[i - 1]) repeated.push_back(keys[i]);
@@ -116,7 +116,7 @@ std::vector<Key> repeated_sorted_keys(const Surface& surface) {
 // Returns the keys that several vertices have, ascending, perhaps several times each.
 std::vector<Key> repeated_keys(const Surface& surface) {
     std::vector<KeyRow> rows;
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+    for (const Vertex v : surface.vertices()) {
         const Key key = surface.vertex_key(v);
         KeyRow& row = row_of(rows, key_node(key));
         row.size = std::max(row.size, std::size_t{static_cast<std::uint32_t>(key_index(key))} + 1);
@@ -126,7 +126,7 @@ std::vector<Key> repeated_keys(const Surface& surface) {
     if (bits > bits_per_key * static_cast<std::size_t>(surface.vertex_count())) return repeated_sorted_keys(surface);
     std::vector<bool> is_seen(bits, false);
     std::vector<Key> repeated;
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+    for (const Vertex v : surface.vertices()) {
         const Key key = surface.vertex_key(v);
         auto bit = is_seen[row_of(rows, key_node(key)).first + static_cast<std::uint32_t>(key_index(key))];
         if (bit) repeated.push_back(key);
@@ -205,18 +205,18 @@ SurfaceArrays joined_by_key(SurfaceArrays arrays) {
     return arrays;
 }
 
-std::vector<char> copied_vertices(const Surface& surface) {
+Array<Vertex, char> copied_vertices(const Surface& surface) {
     const std::vector<Key> repeated = repeated_keys(surface);
     if (repeated.empty()) return {};
-    std::vector<char> is_copied(surface.vertex_count(), 0);
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v)
+    Array<Vertex, char> is_copied(surface.vertex_count(), 0);
+    for (const Vertex v : surface.vertices())
         is_copied[v] = std::binary_search(repeated.begin(), repeated.end(), surface.vertex_key(v));
     return is_copied;
 }
 
-bool has_touching_edge(const Surface& surface, std::int32_t vertex) {
+bool has_touching_edge(const Surface& surface, Vertex vertex) {
     std::vector<Key> ends;
-    for (const auto h : surface.around(vertex)) ends.push_back(surface.vertex_key(surface.to_vertex(h.idx())));
+    for (const HalfEdge h : surface.around(vertex)) ends.push_back(surface.vertex_key(surface.to_vertex(h)));
     std::sort(ends.begin(), ends.end());
     return std::adjacent_find(ends.begin(), ends.end()) != ends.end();
 }

@@ -41,10 +41,10 @@ SurfaceArrays joined_by_key(SurfaceArrays arrays);
 
 /// Returns for each vertex whether others have its key, as copies do; empty if all keys differ. O(#V) if the indices of
 /// keys are dense, as in an input and in cuts, else O(#V log #V).
-std::vector<char> copied_vertices(const Surface& surface);
+Array<Vertex, char> copied_vertices(const Surface& surface);
 
 /// Whether the surface touches itself along an edge at the vertex, which must have facets: two of its edges lead to
 /// vertices of the same key. O(degree log degree).
-bool has_touching_edge(const Surface& surface, std::int32_t vertex);
+bool has_touching_edge(const Surface& surface, Vertex vertex);
 
 }  // namespace kerf

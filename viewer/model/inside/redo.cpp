@@ -51,12 +51,13 @@ Leaf with_own_keys(const Surface& surface, NodeId node) {
 
 // Returns the faces of the cap as the interface of the cut. `parent_vertex` has the vertex of the parent for each
 // vertex of the complex that is one of the parent's.
-Interface interface_of(const FaceComplex& complex, const Cut& cut, const std::vector<std::int32_t>& parent_vertex) {
+Interface interface_of(const FaceComplex& complex, const Cut& cut, const std::vector<Vertex>& parent_vertex) {
     Interface interface;
     interface.contour = cut.interface.contour;
     const std::int32_t corners = count_of(interface.contour);
     interface.points.assign(cut.interface.points.begin(), cut.interface.points.begin() + corners);
-    std::map<std::int32_t, std::int32_t> number_of_parent, number_of_new;
+    std::map<Vertex, std::int32_t> number_of_parent;
+    std::map<std::int32_t, std::int32_t> number_of_new;
     for (std::int32_t i = 0; i < corners; ++i) number_of_parent[interface.contour[i]] = i;
     const auto number = [&](std::int32_t vertex) {
         if (vertex < count_of(parent_vertex)) return number_of_parent.at(parent_vertex[vertex]);
@@ -81,13 +82,13 @@ bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, co
         kerf::cut_straight(separated_surface(part.arrays), node, place.fraction, options, tries, part.untested);
     if (!straight) return false;
     complex.divide(node, part, *straight);
-    std::vector<std::int32_t> parent_vertex(part.vertex.size());  // of a vertex of the surface, and then of the complex
-    for (std::int32_t i = 0; i < count_of(part.vertex); ++i) parent_vertex[part.vertex[i]] = i;
+    std::vector<Vertex> parent_vertex(part.vertex.size());  // of a vertex of the surface, and then of the complex
+    for (const Vertex v : part.vertex.ids()) parent_vertex[part.vertex[v]] = v;
     for (CutTry& one : tries)
         for (SurfaceEdge& edge : one.contour)
-            for (std::int32_t& v : edge) v = parent_vertex[v];
+            for (Vertex& v : edge) v = parent_vertex[v.value()];
     for (std::int32_t i = count_of(parent_vertex); i < count_of(straight->split.arrays.vertices); ++i)
-        parent_vertex.push_back(i);
+        parent_vertex.emplace_back(i);
     triangulate_caps(complex, [&](NodeId, const Vec3& point) { return options.max_interface_edge(point); });
     straight->cut.tries = std::move(tries);
     made.cut = std::move(straight->cut);
@@ -101,7 +102,7 @@ bool cut_straight(const Surface& surface, NodeId node, const CutPlace& place, co
     const std::int32_t old_vertices = count_of(part.vertex);
     for (std::int32_t i = 0; i < count_of(arrays.vertices); ++i)
         arrays.vertex_key[i] =
-            i < old_vertices ? surface.vertex_key(part.vertex[i]) : make_key(node, interior + i - old_vertices);
+            i < old_vertices ? surface.vertex_key(Vertex(part.vertex[i])) : make_key(node, interior + i - old_vertices);
     for (std::size_t f = 0; f < arrays.facets.size(); ++f)
         arrays.facet_key[f] = surface.facet_key(straight->split.parent[f]);
     return true;

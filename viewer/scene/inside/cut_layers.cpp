@@ -24,18 +24,18 @@ constexpr float flat_shading = 0, interface_shading = 0.4f;        // so that se
 std::vector<std::array<Vec3, 2>> ends_of(const std::vector<SurfaceEdge>& edges, const NodeSurface& surface) {
     std::vector<std::array<Vec3, 2>> ends;
     for (const SurfaceEdge& edge : edges)
-        if (std::max(edge[0], edge[1]) < count_of(surface.vertices))
-            ends.push_back({surface.vertices[edge[0]], surface.vertices[edge[1]]});
+        if (std::max(edge[0], edge[1]).value() < count_of(surface.vertices))
+            ends.push_back({surface.vertices[edge[0].value()], surface.vertices[edge[1].value()]});
     return ends;
 }
 
 std::vector<std::array<Vec3, 2>> loops_of(const Cut& cut, const NodeSurface& surface, bool projected) {
     std::vector<std::array<Vec3, 2>> ends;
-    const auto place = [&](std::int32_t v) -> Vec3 {
-        const Vec3& p = surface.vertices[v];
+    const auto place = [&](Vertex v) -> Vec3 {
+        const Vec3& p = surface.vertices[v.value()];
         return projected ? cut.plane.lift(cut.plane.project(p), 0) : p;
     };
-    for (const std::vector<std::int32_t>& loop : cut.loops)
+    for (const std::vector<Vertex>& loop : cut.loops)
         for (std::size_t i = 0; i < loop.size(); ++i)
             ends.push_back({place(loop[i]), place(loop[(i + 1) % loop.size()])});
     return ends;

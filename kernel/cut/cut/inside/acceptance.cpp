@@ -22,34 +22,33 @@ class InterfaceJudge {
  public:
     InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface);
 
-    std::vector<std::int32_t> chords() const;
-    std::vector<std::int32_t> intersections(const CancellationCheck& check_cancelled,
-                                            std::vector<Collision>& collisions);
+    std::vector<Vertex> chords() const;
+    std::vector<Vertex> intersections(const CancellationCheck& check_cancelled, std::vector<Collision>& collisions);
     // Quality, with the vertices below the thresholds of the options.
-    InterfaceQuality measure(const CutOptions& options, std::vector<std::int32_t>& soft);
+    InterfaceQuality measure(const CutOptions& options, std::vector<Vertex>& soft);
 
  private:
     struct NearFacet : SlabFacet {
         PlanarBox box;
     };
     std::int32_t id(std::int32_t point) const {
-        return point < contour_count_ ? interface_.contour[point] : surface_.vertex_count() + point;
+        return point < contour_count_ ? interface_.contour[point].value() : surface_.vertex_count() + point;
     }
     Triangle ids(const Triangle& t) const { return {id(t[0]), id(t[1]), id(t[2])}; }
     std::array<Vec3, 3> corners(const Triangle& t) const {
         return {interface_.points[t[0]], interface_.points[t[1]], interface_.points[t[2]]};
     }
-    std::array<Vec3, 3> facet_corners(const Triangle& t) const {
+    std::array<Vec3, 3> facet_corners(const std::array<Vertex, 3>& t) const {
         return {surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])};
     }
-    void add_contour_corners(const Triangle& t, std::vector<std::int32_t>& vertices) const {
+    void add_contour_corners(const Triangle& t, std::vector<Vertex>& vertices) const {
         for (std::int32_t point : t)
             if (point < contour_count_) vertices.push_back(interface_.contour[point]);
     }
     void find_slab_facets();
-    void measure_angles(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
-    void measure_dihedrals(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) const;
-    void measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft);
+    void measure_angles(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft) const;
+    void measure_dihedrals(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft) const;
+    void measure_gaps(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft);
 
     const Surface& surface_;
     const Band& band_;
@@ -72,7 +71,7 @@ InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const I
     : surface_(surface),
       band_(band),
       interface_(interface),
-      contour_count_(static_cast<std::int32_t>(interface.contour.size())),
+      contour_count_(count_of(interface.contour)),
       boxes_(triangle_boxes(interface, band.plane)),
       grid_(boxes_) {
     for (const Triangle& t : interface.triangles) {
@@ -90,14 +89,14 @@ void InterfaceJudge::find_slab_facets() {
     const double high = *std::max_element(high_.begin(), high_.end()) + band_.rounding;
     band_.for_each_facet_between(surface_, low, high, [&](const SlabFacet& facet) {
         PlanarBox box;
-        for (std::int32_t v : surface_.vertices(facet.facet)) box.extend(band_.plane.project(surface_.point(v)));
+        for (const Vertex v : surface_.corners(facet.facet)) box.extend(band_.plane.project(surface_.point(v)));
         slab_.push_back({facet, box});
     });
 }
 
 // Contour edges appear once as directed edges of interface triangles, all others twice. An edge between contour points
 // that the surface has too would get four facets.
-std::vector<std::int32_t> InterfaceJudge::chords() const {
+std::vector<Vertex> InterfaceJudge::chords() const {
     std::vector<std::array<std::int32_t, 2>> between;
     for (const Triangle& t : interface_.triangles)
         for (int i = 0; i < 3; ++i) {
@@ -105,27 +104,27 @@ std::vector<std::int32_t> InterfaceJudge::chords() const {
             if (a < contour_count_ && b < contour_count_) between.push_back({std::min(a, b), std::max(a, b)});
         }
     std::sort(between.begin(), between.end());
-    std::vector<std::int32_t> vertices;
+    std::vector<Vertex> vertices;
     for (std::size_t i = 1; i < between.size(); ++i) {
         if (between[i] != between[i - 1]) continue;
-        const std::int32_t a = interface_.contour[between[i][0]], b = interface_.contour[between[i][1]];
-        if (surface_.find_half_edge(a, b) >= 0) vertices.insert(vertices.end(), {a, b});
+        const Vertex a = interface_.contour[between[i][0]], b = interface_.contour[between[i][1]];
+        if (surface_.find_half_edge(a, b).is_valid()) vertices.insert(vertices.end(), {a, b});
     }
     return vertices;
 }
 
-std::vector<std::int32_t> InterfaceJudge::intersections(const CancellationCheck& check_cancelled,
-                                                        std::vector<Collision>& collisions) {
-    std::vector<std::int32_t> vertices;
+std::vector<Vertex> InterfaceJudge::intersections(const CancellationCheck& check_cancelled,
+                                                  std::vector<Collision>& collisions) {
+    std::vector<Vertex> vertices;
     const auto keep = [&](const std::array<Vec3, 3>& first, const std::array<Vec3, 3>& second) {
         if (collisions.size() < max_collisions) collisions.push_back({first, second});
     };
     for (const NearFacet& f : slab_) {
-        const Triangle t = surface_.vertices(f.facet);
+        const auto t = surface_.corners(f.facet);
         grid_.for_each_overlap(grown(f.box, band_.rounding), [&](std::int32_t i) {
             if (low_[i] > f.high + band_.rounding || high_[i] < f.low - band_.rounding) return;
             const Triangle& s = interface_.triangles[i];
-            if (!triangles_intersect(corners(s), ids(s), facet_corners(t), t)) return;
+            if (!triangles_intersect(corners(s), ids(s), facet_corners(t), surface_.triangle(f.facet))) return;
             keep(corners(s), facet_corners(t));
             vertices.insert(vertices.end(), t.begin(), t.end());
             add_contour_corners(s, vertices);
@@ -145,8 +144,7 @@ std::vector<std::int32_t> InterfaceJudge::intersections(const CancellationCheck&
     return vertices;
 }
 
-void InterfaceJudge::measure_angles(double threshold, InterfaceQuality& quality,
-                                    std::vector<std::int32_t>& soft) const {
+void InterfaceJudge::measure_angles(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft) const {
     for (const Triangle& t : interface_.triangles) {
         const auto p = corners(t);
         for (int i = 0; i < 3; ++i) {
@@ -157,17 +155,16 @@ void InterfaceJudge::measure_angles(double threshold, InterfaceQuality& quality,
     }
 }
 
-void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quality,
-                                       std::vector<std::int32_t>& soft) const {
+void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft) const {
     for (const Triangle& t : interface_.triangles)
         for (int i = 0; i < 3; ++i) {
             if (t[i] >= contour_count_ || t[(i + 1) % 3] >= contour_count_) continue;
-            const std::int32_t from = interface_.contour[t[i]], to = interface_.contour[t[(i + 1) % 3]];
-            const std::int32_t h = surface_.find_half_edge(from, to);
-            if (h < 0) continue;  // an interior edge between contour points
+            const Vertex from = interface_.contour[t[i]], to = interface_.contour[t[(i + 1) % 3]];
+            const HalfEdge h = surface_.find_half_edge(from, to);
+            if (!h.is_valid()) continue;  // an interior edge between contour points
             const Vec3 &a = surface_.point(from), &b = surface_.point(to);
             const Vec3 inward = towards_apex(a, b, interface_.points[t[(i + 2) % 3]]);
-            for (std::int32_t side : {h, Surface::opposite(h)}) {
+            for (const HalfEdge side : {h, Surface::opposite(h)}) {
                 const Vec3 along = towards_apex(a, b, surface_.point(surface_.to_vertex(surface_.next(side))));
                 const double angle = degrees_of_cosine(inward.dot(along));
                 quality.dihedral_deg = std::min(quality.dihedral_deg, angle);
@@ -177,10 +174,10 @@ void InterfaceJudge::measure_dihedrals(double threshold, InterfaceQuality& quali
 }
 
 // Distances off the contour: surface vertices to interface triangles and interior interface points to facets.
-void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, std::vector<std::int32_t>& soft) {
+void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft) {
     std::vector<char> seen(band_.vertices.size(), 0);
-    for (std::int32_t v : interface_.contour) seen[band_.vertex_index_of[v]] = 1;
-    const auto on_contour = [&](std::int32_t v) {
+    for (const Vertex v : interface_.contour) seen[band_.vertex_index_of[v]] = 1;
+    const auto on_contour = [&](Vertex v) {
         const std::int32_t i = band_.vertex_index_of[v];
         return i >= 0 && seen[i];
     };
@@ -190,7 +187,7 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
         size[i] = ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
     }
     for (const NearFacet& f : slab_) {
-        const Triangle t = surface_.vertices(f.facet);
+        const auto t = surface_.corners(f.facet);
         const auto facet = facet_corners(t);
         const double margin = threshold * f.box.diagonal().norm();
         grid_.for_each_overlap(grown(f.box, margin), [&](std::int32_t i) {
@@ -212,7 +209,7 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
     }
 }
 
-InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<std::int32_t>& soft) {
+InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<Vertex>& soft) {
     InterfaceQuality quality;
     measure_angles(options.good_angle_deg, quality, soft);
     measure_dihedrals(options.good_dihedral_deg, quality, soft);

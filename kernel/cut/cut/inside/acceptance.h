@@ -11,7 +11,7 @@ namespace kerf {
 /// The verdict on an interface.
 struct Verdict {
     Refusal refusal = Refusal::none;
-    std::vector<std::int32_t> failed;        ///< vertices of the surface at which the interface fails
+    std::vector<Vertex> failed;              ///< vertices of the surface at which the interface fails
     InterfaceQuality quality;                ///< set if the refusal is none or soft
     std::vector<Collision> collisions = {};  ///< if the refusal is intersection; at most max_collisions
 };

@@ -20,20 +20,20 @@ constexpr double width = 3;  // of the band on either side, in crossing edges
 
 bool crosses(double d_from, double d_to) { return (d_from < 0) != (d_to < 0); }
 
-std::vector<double> vertex_distances(const Surface& surface, const Plane& plane) {
-    std::vector<double> distance(surface.vertex_count());
+Array<Vertex, double> vertex_distances(const Surface& surface, const Plane& plane) {
+    Array<Vertex, double> distance(surface.vertex_count());
     for_ranges_on_threads(distance.size(), items_of_thread, [&](const IndexRange& range) {
-        for (std::size_t v = range.first; v < range.last; ++v)
-            distance[v] = plane.distance(surface.point(static_cast<std::int32_t>(v)));
+        for (const Vertex v : IdRange(Vertex(range.first), Vertex(range.last)))
+            distance[v] = plane.distance(surface.point(v));
     });
     return distance;
 }
 
-double mean_crossing_length(const Surface& surface, const std::vector<double>& distance) {
+double mean_crossing_length(const Surface& surface, const Array<Vertex, double>& distance) {
     const std::vector<double> lengths =
-        selected_on_threads<double>(surface.mesh().n_edges(), [&](std::size_t edge, std::vector<double>& selected) {
-            const auto h = static_cast<std::int32_t>(2 * edge);
-            const std::int32_t a = surface.from_vertex(h), b = surface.to_vertex(h);
+        selected_on_threads<double>(surface.edge_count(), [&](std::size_t edge, std::vector<double>& selected) {
+            const HalfEdge h = Surface::first_half_edge(Edge(edge));
+            const Vertex a = surface.from_vertex(h), b = surface.to_vertex(h);
             if (crosses(distance[a], distance[b])) selected.push_back((surface.point(b) - surface.point(a)).norm());
         });
     double sum = 0;
@@ -43,17 +43,17 @@ double mean_crossing_length(const Surface& surface, const std::vector<double>& d
 
 // Lifting a point and projecting it again are each a few sums of products of coordinates.
 double rounding_of(const Surface& surface, const Plane& plane) {
-    const double largest = bounds_on_threads(static_cast<std::size_t>(surface.vertex_count()), [&](std::size_t v) {
-                               return surface.point(static_cast<std::int32_t>(v)).cwiseAbs().maxCoeff();
+    const double largest = bounds_on_threads(surface.vertex_count(), [&](std::size_t v) {
+                               return surface.point(Vertex(v)).cwiseAbs().maxCoeff();
                            }).second;
     return 64 * std::numeric_limits<double>::epsilon() * std::max(largest, plane.origin.cwiseAbs().maxCoeff());
 }
 
 // The body lies on the left of the cut line seen from above: it enters the facet where the boundary passes downwards.
-double section_triangle(const Surface& surface, const Band& band, const std::array<std::int32_t, 3>& half_edges) {
+double section_triangle(const Surface& surface, const Band& band, const std::array<HalfEdge, 3>& half_edges) {
     Vec2 in = Vec2::Zero(), out = Vec2::Zero();
-    for (std::int32_t h : half_edges) {
-        const std::int32_t a = surface.from_vertex(h), b = surface.to_vertex(h);
+    for (const HalfEdge h : half_edges) {
+        const Vertex a = surface.from_vertex(h), b = surface.to_vertex(h);
         const double da = band.distance[a], db = band.distance[b];
         if (!crosses(da, db)) continue;
         const Vec2 q =
@@ -72,11 +72,11 @@ struct SlabItem {
 // The slab and its band; fills the labels of all facets.
 std::vector<SlabItem> find_slab(const Surface& surface, Band& band) {
     band.majority.resize(surface.facet_count());
-    return selected_on_threads<SlabItem>(band.majority.size(), [&](std::size_t f, std::vector<SlabItem>& slab) {
-        const auto half_edges = surface.half_edges(static_cast<std::int32_t>(f));
+    return selected_on_threads<SlabItem>(band.majority.size(), [&](std::size_t index, std::vector<SlabItem>& slab) {
+        const Facet f(index);
         double low = INFINITY, high = -INFINITY, sum = 0;
         int above = 0;
-        for (const std::int32_t h : half_edges) {
+        for (const HalfEdge h : surface.half_edges(f)) {
             const double d = band.distance[surface.to_vertex(h)];
             low = std::min(low, d);
             high = std::max(high, d);
@@ -87,18 +87,18 @@ std::vector<SlabItem> find_slab(const Surface& surface, Band& band) {
         if (low > band.half_width || high < -band.half_width) return;
         const bool meets_plane = low <= 0 && high >= 0;
         const bool in_band = meets_plane || std::abs(sum) < 3 * width * band.edge_length;
-        slab.push_back({{static_cast<std::int32_t>(f), low, high}, in_band});
+        slab.push_back({{f, low, high}, in_band});
     });
 }
 
 void add_facet(const Surface& surface, const SlabFacet& facet, Band& band) {
     const auto half_edges = surface.half_edges(facet.facet);
-    band.index_of[facet.facet] = static_cast<std::int32_t>(band.facets.size());
+    band.index_of[facet.facet] = count_of(band.facets);
     band.facets.push_back(facet.facet);
     band.half_edges.push_back(half_edges);
-    for (const std::int32_t v : surface.vertices(facet.facet))
+    for (const Vertex v : surface.corners(facet.facet))
         if (band.vertex_index_of[v] < 0) {
-            band.vertex_index_of[v] = static_cast<std::int32_t>(band.vertices.size());
+            band.vertex_index_of[v] = count_of(band.vertices);
             band.vertices.push_back(v);
         }
     if (facet.low < 0 && facet.high >= 0) band.section_area += section_triangle(surface, band, half_edges);
@@ -130,7 +130,7 @@ double crossing_edge_length(const Surface& surface, const Plane& plane) {
 std::vector<SurfaceEdge> crossed_edges(const Surface& surface, const Band& band) {
     std::vector<SurfaceEdge> edges;
     for (const auto& half_edges : band.half_edges)
-        for (std::int32_t h : half_edges) {
+        for (const HalfEdge h : half_edges) {
             const SurfaceEdge edge = {surface.from_vertex(h), surface.to_vertex(h)};
             if (band.distance[edge[0]] < 0 && band.distance[edge[1]] >= 0) edges.push_back(edge);
         }

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include "base/core/check.h"
-#include "base/core/elements.h"
 #include "base/geometry/triangle.h"
 #include "surface/complex/touching.h"
 
@@ -25,7 +24,7 @@ constexpr double ear_size = 0.5;         // largest area x distance of an ear th
 
 class LabelCleaner {
  public:
-    LabelCleaner(const Surface& surface, const Band& band, std::vector<Side>& side)
+    LabelCleaner(const Surface& surface, const Band& band, Array<Facet, Side>& side)
         : surface_(surface), band_(band), side_(side), degree_(band.vertices.size(), 0), mark_(band.facets.size(), 0) {}
 
     bool turn_ears();
@@ -34,36 +33,36 @@ class LabelCleaner {
     bool close_pockets();
 
  private:
-    bool in_band(std::int32_t facet) const { return band_.index_of[facet] >= 0; }
-    std::int32_t& degree(std::int32_t contour_vertex) { return degree_[band_.vertex_index_of[contour_vertex]]; }
-    bool on_contour_vertex(std::int32_t vertex) const {
+    bool in_band(Facet facet) const { return band_.index_of[facet] >= 0; }
+    std::int32_t& degree(Vertex contour_vertex) { return degree_[band_.vertex_index_of[contour_vertex]]; }
+    bool on_contour_vertex(Vertex vertex) const {
         return band_.vertex_index_of[vertex] >= 0 && degree_[band_.vertex_index_of[vertex]] > 0;
     }
-    void turn(std::int32_t facet) { side_[facet] = other(side_[facet]); }
-    std::int32_t across(std::int32_t half_edge) const { return surface_.facet_of(Surface::opposite(half_edge)); }
-    bool on_contour(std::int32_t half_edge) const {
+    void turn(Facet facet) { side_[facet] = other(side_[facet]); }
+    Facet across(HalfEdge half_edge) const { return surface_.facet_of(Surface::opposite(half_edge)); }
+    bool on_contour(HalfEdge half_edge) const {
         return side_[surface_.facet_of(half_edge)] != side_[across(half_edge)];
     }
-    double length(std::int32_t half_edge) const {
+    double length(HalfEdge half_edge) const {
         return (surface_.point(surface_.to_vertex(half_edge)) - surface_.point(surface_.from_vertex(half_edge))).norm();
     }
     // Price of turning a facet by its place alone: negative if it returns to its own side.
-    double turning_cost(std::int32_t facet) const;
-    std::vector<std::vector<std::int32_t>> fans_around(std::int32_t vertex) const;
-    double fan_cost(const std::vector<std::int32_t>& fan) const;
-    std::vector<std::int32_t> pocket_behind(std::int32_t chord);
-    std::vector<std::int32_t> contour_vertices();
+    double turning_cost(Facet facet) const;
+    std::vector<std::vector<Facet>> fans_around(Vertex vertex) const;
+    double fan_cost(const std::vector<Facet>& fan) const;
+    std::vector<Facet> pocket_behind(HalfEdge chord);
+    std::vector<Vertex> contour_vertices();
 
     const Surface& surface_;
     const Band& band_;
-    std::vector<Side>& side_;
+    Array<Facet, Side>& side_;
     std::vector<std::int32_t> degree_;  // contour edges per band vertex; zero outside of contour_vertices()
     std::vector<std::int32_t> mark_;    // per band facet, scratch of the floods
     std::int32_t stamp_ = 0;
 };
 
-double LabelCleaner::turning_cost(std::int32_t facet) const {
-    const Triangle t = surface_.vertices(facet);
+double LabelCleaner::turning_cost(Facet facet) const {
+    const auto t = surface_.corners(facet);
     const double area = triangle_area(surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2]));
     const double d = band_.facet_distance(surface_, facet);
     return side_[facet] == Side::below ? -area * d : area * d;
@@ -75,7 +74,7 @@ bool LabelCleaner::turn_ears() {
     for (std::size_t i = 0; i < band_.facets.size(); ++i) {
         const auto& half_edges = band_.half_edges[i];
         const auto contour_sides = std::count_if(half_edges.begin(), half_edges.end(),
-                                                 [&](std::int32_t half_edge) { return on_contour(half_edge); });
+                                                 [&](HalfEdge half_edge) { return on_contour(half_edge); });
         // Unguarded, ears unravel whole sides of bodies with long triangles.
         if (contour_sides < 2 || turning_cost(band_.facets[i]) > ear_size * h * h * h) continue;
         turn(band_.facets[i]);
@@ -89,17 +88,18 @@ bool LabelCleaner::absorb_islands() {
     bool changed = false;
     const std::int32_t before = stamp_;
     std::vector<std::int32_t> island;
-    for (std::size_t seed = 0; seed < band_.facets.size(); ++seed) {
+    for (std::int32_t seed = 0; seed < count_of(band_.facets); ++seed) {
         if (mark_[seed] > before) continue;
         mark_[seed] = ++stamp_;
-        island.assign(1, static_cast<std::int32_t>(seed));
+        island.assign(1, seed);
         bool anchored = false, whole_shell = true;
         double far = 0;
         for (std::size_t i = 0; i < island.size(); ++i) {
-            const std::int32_t facet = band_.facets[island[i]];
+            const Facet facet = band_.facets[island[i]];
             far = std::max(far, std::abs(band_.facet_distance(surface_, facet)));
-            for (std::int32_t half_edge : band_.half_edges[island[i]]) {
-                const std::int32_t neighbour = across(half_edge), j = band_.index_of[neighbour];
+            for (const HalfEdge half_edge : band_.half_edges[island[i]]) {
+                const Facet neighbour = across(half_edge);
+                const std::int32_t j = band_.index_of[neighbour];
                 if (side_[neighbour] != side_[facet])
                     whole_shell = false;
                 else if (j < 0)
@@ -120,35 +120,35 @@ bool LabelCleaner::absorb_islands() {
 }
 
 // Vertices on the contour, ascending by first contour edge; fills degree_, which the caller resets.
-std::vector<std::int32_t> LabelCleaner::contour_vertices() {
-    std::vector<std::int32_t> vertices;
+std::vector<Vertex> LabelCleaner::contour_vertices() {
+    std::vector<Vertex> vertices;
     for (const SurfaceEdge& edge : contour_edges(surface_, band_, side_))
-        for (std::int32_t v : edge)
+        for (const Vertex v : edge)
             if (degree(v)++ == 0) vertices.push_back(v);
     return vertices;
 }
 
 // Runs of equally labelled facets around a vertex, in rotational order.
-std::vector<std::vector<std::int32_t>> LabelCleaner::fans_around(std::int32_t vertex) const {
-    std::vector<std::vector<std::int32_t>> fans;
-    std::vector<std::int32_t> before;  // of the last fan, which goes on beyond the first half-edge
-    for (const auto h : surface_.around(vertex)) {
-        if (on_contour(h.idx())) fans.emplace_back();
-        (fans.empty() ? before : fans.back()).push_back(across(h.idx()));
+std::vector<std::vector<Facet>> LabelCleaner::fans_around(Vertex vertex) const {
+    std::vector<std::vector<Facet>> fans;
+    std::vector<Facet> before;  // of the last fan, which goes on beyond the first half-edge
+    for (const HalfEdge h : surface_.around(vertex)) {
+        if (on_contour(h)) fans.emplace_back();
+        (fans.empty() ? before : fans.back()).push_back(across(h));
     }
     if (!fans.empty()) fans.back().insert(fans.back().end(), before.begin(), before.end());
     return fans;
 }
 
 // Growth of the contour and the price of the places if the fan is turned; infinite if a facet lies beyond the band.
-double LabelCleaner::fan_cost(const std::vector<std::int32_t>& fan) const {
+double LabelCleaner::fan_cost(const std::vector<Facet>& fan) const {
     const double h = band_.edge_length;
     double cost = 0;
-    for (std::int32_t facet : fan) {
+    for (const Facet facet : fan) {
         const std::int32_t i = band_.index_of[facet];
         if (i < 0) return INFINITY;
         cost += turning_cost(facet) / (h * h);
-        for (std::int32_t half_edge : band_.half_edges[i]) {
+        for (const HalfEdge half_edge : band_.half_edges[i]) {
             if (on_contour(half_edge))
                 cost -= length(half_edge);
             else if (std::find(fan.begin(), fan.end(), across(half_edge)) == fan.end())
@@ -160,8 +160,8 @@ double LabelCleaner::fan_cost(const std::vector<std::int32_t>& fan) const {
 
 bool LabelCleaner::open_pinches() {
     bool changed = false;
-    const std::vector<std::int32_t> vertices = contour_vertices();
-    for (std::int32_t v : vertices) {
+    const std::vector<Vertex> vertices = contour_vertices();
+    for (const Vertex v : vertices) {
         if (degree(v) <= 2) continue;
         const auto fans = fans_around(v);  // earlier turns may have opened this vertex too
         if (fans.size() <= 2) continue;
@@ -169,23 +169,24 @@ bool LabelCleaner::open_pinches() {
         for (const auto& fan : fans) costs.push_back(fan_cost(fan));
         const auto cheapest = std::min_element(costs.begin(), costs.end());
         if (std::isinf(*cheapest)) continue;
-        for (std::int32_t facet : fans[cheapest - costs.begin()]) turn(facet);
+        for (const Facet facet : fans[cheapest - costs.begin()]) turn(facet);
         changed = true;
     }
-    for (std::int32_t v : vertices) degree(v) = 0;
+    for (const Vertex v : vertices) degree(v) = 0;
     return changed;
 }
 
 // Facets of one label between the chord and the contour, on the side of the half-edge; empty if there are too many.
-std::vector<std::int32_t> LabelCleaner::pocket_behind(std::int32_t chord) {
-    const std::int32_t first = surface_.facet_of(chord);
+std::vector<Facet> LabelCleaner::pocket_behind(HalfEdge chord) {
+    const Facet first = surface_.facet_of(chord);
     if (!in_band(first)) return {};
-    std::vector<std::int32_t> pocket = {first};
+    std::vector<Facet> pocket = {first};
     mark_[band_.index_of[first]] = ++stamp_;
     for (std::size_t i = 0; i < pocket.size(); ++i)
-        for (std::int32_t half_edge : band_.half_edges[band_.index_of[pocket[i]]]) {
+        for (const HalfEdge half_edge : band_.half_edges[band_.index_of[pocket[i]]]) {
             if (half_edge == chord || half_edge == Surface::opposite(chord) || on_contour(half_edge)) continue;
-            const std::int32_t neighbour = across(half_edge), j = band_.index_of[neighbour];
+            const Facet neighbour = across(half_edge);
+            const std::int32_t j = band_.index_of[neighbour];
             if (j < 0) return {};
             if (mark_[j] == stamp_) continue;
             if (pocket.size() == max_pocket) return {};
@@ -197,20 +198,19 @@ std::vector<std::int32_t> LabelCleaner::pocket_behind(std::int32_t chord) {
 
 bool LabelCleaner::close_pockets() {
     bool changed = false;
-    const std::vector<std::int32_t> vertices = contour_vertices();
-    for (std::int32_t v : vertices) {
-        for (const auto h : surface_.around(v)) {
-            const std::int32_t half_edge = h.idx();
+    const std::vector<Vertex> vertices = contour_vertices();
+    for (const Vertex v : vertices) {
+        for (const HalfEdge half_edge : surface_.around(v)) {
             if (on_contour_vertex(surface_.to_vertex(half_edge)) && !on_contour(half_edge)) {
-                std::vector<std::int32_t> pocket = pocket_behind(half_edge);
-                const std::vector<std::int32_t> behind = pocket_behind(Surface::opposite(half_edge));
+                std::vector<Facet> pocket = pocket_behind(half_edge);
+                const std::vector<Facet> behind = pocket_behind(Surface::opposite(half_edge));
                 if (pocket.empty() || (!behind.empty() && behind.size() < pocket.size())) pocket = behind;
-                for (std::int32_t facet : pocket) turn(facet);
+                for (const Facet facet : pocket) turn(facet);
                 changed |= !pocket.empty();
             }
         }
     }
-    for (std::int32_t v : vertices) degree(v) = 0;
+    for (const Vertex v : vertices) degree(v) = 0;
     return changed;
 }
 
@@ -219,22 +219,22 @@ constexpr std::int32_t repeated_start = -2;
 // Per edge the one that starts where it ends, -1 where none does; repeated_start for edges that start where an earlier
 // one does.
 std::vector<std::int32_t> followers(const std::vector<SurfaceEdge>& edges) {
-    std::vector<std::array<std::int32_t, 2>> starts;  // vertex, edge
-    for (std::size_t i = 0; i < edges.size(); ++i) starts.push_back({edges[i][0], static_cast<std::int32_t>(i)});
+    std::vector<std::pair<Vertex, std::int32_t>> starts;
+    for (std::int32_t i = 0; i < count_of(edges); ++i) starts.emplace_back(edges[i][0], i);
     std::sort(starts.begin(), starts.end());
     std::vector<std::int32_t> follower;
     for (const SurfaceEdge& edge : edges) {
-        const auto found = std::lower_bound(starts.begin(), starts.end(), std::array{edge[1], 0});
-        follower.push_back(found != starts.end() && (*found)[0] == edge[1] ? (*found)[1] : -1);
+        const auto found = std::lower_bound(starts.begin(), starts.end(), std::pair(edge[1], 0));
+        follower.push_back(found != starts.end() && found->first == edge[1] ? found->second : -1);
     }
     for (std::size_t i = 1; i < starts.size(); ++i)
-        if (starts[i][0] == starts[i - 1][0]) follower[starts[i][1]] = repeated_start;
+        if (starts[i].first == starts[i - 1].first) follower[starts[i].second] = repeated_start;
     return follower;
 }
 
 }  // namespace
 
-void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& side, ContourStages* stages) {
+void clean_labels(const Surface& surface, const Band& band, Array<Facet, Side>& side, ContourStages* stages) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));
     LabelCleaner cleaner(surface, band, side);
     for (int pass = 0; pass < max_passes; ++pass) {
@@ -248,12 +248,12 @@ void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& s
     }
 }
 
-std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band, const std::vector<Side>& side) {
+std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band, const Array<Facet, Side>& side) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));
     std::vector<SurfaceEdge> edges;
     for (std::size_t i = 0; i < band.facets.size(); ++i)
-        for (std::int32_t h : band.half_edges[i]) {
-            const std::int32_t neighbour = surface.facet_of(Surface::opposite(h));
+        for (const HalfEdge h : band.half_edges[i]) {
+            const Facet neighbour = surface.facet_of(Surface::opposite(h));
             if (side[band.facets[i]] == side[neighbour]) continue;
             if (side[band.facets[i]] == Side::below)
                 edges.push_back({surface.from_vertex(h), surface.to_vertex(h)});
@@ -264,21 +264,23 @@ std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band,
 }
 
 ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges,
-                         const std::vector<char>& copied) {
-    KERF_CHECK(are_in_range(edges, static_cast<std::size_t>(surface.vertex_count())));
+                         const Array<Vertex, char>& copied) {
+    KERF_CHECK(std::all_of(edges.begin(), edges.end(), [&](const SurfaceEdge& edge) {
+        return surface.has_vertex(edge[0]) && surface.has_vertex(edge[1]);
+    }));
     ContourLoops result;
     const std::vector<std::int32_t> follower = followers(edges);
     std::vector<char> is_traced(edges.size(), 0);
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        const std::int32_t v = edges[i][0];
+        const Vertex v = edges[i][0];
         if ((!copied.empty() && copied[v]) || has_touching_edge(surface, v) || follower[i] == repeated_start)
             result.pinched.push_back(v);
     }
     if (!result.pinched.empty()) return result;
-    for (std::size_t first = 0; first < edges.size(); ++first) {
+    for (std::int32_t first = 0; first < count_of(edges); ++first) {
         if (is_traced[first]) continue;
-        std::vector<std::int32_t> loop;
-        for (auto i = static_cast<std::int32_t>(first); i >= 0 && !is_traced[i]; i = follower[i]) {
+        std::vector<Vertex> loop;
+        for (std::int32_t i = first; i >= 0 && !is_traced[i]; i = follower[i]) {
             loop.push_back(edges[i][0]);
             is_traced[i] = 1;
         }

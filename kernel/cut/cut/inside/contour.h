@@ -12,19 +12,19 @@ namespace kerf {
 /// two contour vertices) with a small pocket. Facets outside of the band keep their label; whole shells are no islands.
 /// Defects that cannot be mended within a bounded number of passes stay, and are found by later checks. `stages`, if
 /// given, receives closed_loops and multiple_paths_removed. O(band) per pass.
-void clean_labels(const Surface& surface, const Band& band, std::vector<Side>& side, ContourStages* stages);
+void clean_labels(const Surface& surface, const Band& band, Array<Facet, Side>& side, ContourStages* stages);
 
 /// Returns the edges between the labels, oriented with the half below on their left, ascending by facet.
-std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band, const std::vector<Side>& side);
+std::vector<SurfaceEdge> contour_edges(const Surface& surface, const Band& band, const Array<Facet, Side>& side);
 
 /// The closed loops of contour edges, or the vertices at which there are none: more than two contour edges meet there,
 /// or the surface touches itself, so that halves could not be told from each other by their vertices.
 struct ContourLoops {
-    std::vector<std::vector<std::int32_t>> loops;  ///< each starts at the edge that comes first in `contour_edges`
-    std::vector<std::int32_t> pinched;             ///< if not empty, `loops` is meaningless
+    std::vector<std::vector<Vertex>> loops;  ///< each starts at the edge that comes first in `contour_edges`
+    std::vector<Vertex> pinched;             ///< if not empty, `loops` is meaningless
 };
 /// Traces the loops of contour edges. `copied`: copied_vertices() of the surface (surface/complex/touching.h).
 ContourLoops trace_loops(const Surface& surface, const std::vector<SurfaceEdge>& edges,
-                         const std::vector<char>& copied = {});
+                         const Array<Vertex, char>& copied = {});
 
 }  // namespace kerf

@@ -20,12 +20,12 @@ constexpr double size_in_space = 0.8;   // of the mean length of the edges
 constexpr int unfolding_passes = 30;    // a run of vertical edges spreads over about so many others
 
 // Smallest angle between the surface and the triangle that cuts off vertex v of the contour.
-double ear_angle_deg(const Surface& surface, std::int32_t previous, std::int32_t v, std::int32_t next) {
+double ear_angle_deg(const Surface& surface, Vertex previous, Vertex v, Vertex next) {
     double smallest = 180;
-    for (const auto& [from, to, apex] : {Triangle{previous, v, next}, Triangle{v, next, previous}}) {
-        const std::int32_t h = surface.find_half_edge(from, to);
-        for (const std::int32_t side : {h, Surface::opposite(h)}) {
-            const std::int32_t facet_apex = surface.to_vertex(surface.next(side));
+    for (const auto& [from, to, apex] : {std::array{previous, v, next}, std::array{v, next, previous}}) {
+        const HalfEdge h = surface.find_half_edge(from, to);
+        for (const HalfEdge side : {h, Surface::opposite(h)}) {
+            const Vertex facet_apex = surface.to_vertex(surface.next(side));
             smallest = std::min(smallest, dihedral_degrees(surface.point(from), surface.point(to), surface.point(apex),
                                                            surface.point(facet_apex)));
         }
@@ -35,7 +35,7 @@ double ear_angle_deg(const Surface& surface, std::int32_t previous, std::int32_t
 
 class Unfolding {
  public:
-    Unfolding(const Surface& surface, const std::vector<std::int32_t>& vertices, double good_dihedral_deg,
+    Unfolding(const Surface& surface, const std::vector<Vertex>& vertices, double good_dihedral_deg,
               ContourInPlane& contour);
     bool smooth_once();
 
@@ -48,11 +48,11 @@ class Unfolding {
     std::vector<char> flat_if_cut_;  // per vertex: its ear would lie flat on the surface
 };
 
-Unfolding::Unfolding(const Surface& surface, const std::vector<std::int32_t>& vertices, double good_dihedral_deg,
+Unfolding::Unfolding(const Surface& surface, const std::vector<Vertex>& vertices, double good_dihedral_deg,
                      ContourInPlane& contour)
     : contour_(contour) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const std::int32_t before = vertices[contour.previous[i]], after = vertices[contour.next[i]];
+        const Vertex before = vertices[contour.previous[i]], after = vertices[contour.next[i]];
         length_.push_back((surface.point(after) - surface.point(vertices[i])).norm());
         flat_if_cut_.push_back(ear_angle_deg(surface, before, vertices[i], after) < good_dihedral_deg);
     }
@@ -75,7 +75,7 @@ bool Unfolding::is_shrunk(std::int32_t i) const {
 bool Unfolding::smooth_once() {
     std::vector<char> smoothed(contour_.points.size(), 0);
     bool any = false;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(smoothed.size()); ++i) {
+    for (std::int32_t i = 0; i < count_of(smoothed); ++i) {
         if (!is_folded(i) && !is_shrunk(i)) continue;
         any = true;
         for (const std::int32_t v : {contour_.previous[i], i, contour_.next[i]})
@@ -91,10 +91,10 @@ bool Unfolding::smooth_once() {
 }  // namespace
 
 ContourInPlane project_contour(const Surface& surface, const Plane& plane,
-                               const std::vector<std::vector<std::int32_t>>& loops) {
+                               const std::vector<std::vector<Vertex>>& loops) {
     ContourInPlane contour;
     for (const auto& loop : loops) {
-        const auto first = static_cast<std::int32_t>(contour.points.size()), n = static_cast<std::int32_t>(loop.size());
+        const auto first = count_of(contour.points), n = count_of(loop);
         for (std::int32_t i = 0; i < n; ++i) {
             contour.points.push_back(plane.project(surface.point(loop[i])));
             contour.edges.push_back({first + (i + 1) % n, first + i});
@@ -105,7 +105,7 @@ ContourInPlane project_contour(const Surface& surface, const Plane& plane,
     return contour;
 }
 
-bool unfold(const Surface& surface, const std::vector<std::int32_t>& vertices, double good_dihedral_deg,
+bool unfold(const Surface& surface, const std::vector<Vertex>& vertices, double good_dihedral_deg,
             ContourInPlane& contour) {
     Unfolding unfolding(surface, vertices, good_dihedral_deg, contour);
     int passes = 0;
@@ -113,7 +113,7 @@ bool unfold(const Surface& surface, const std::vector<std::int32_t>& vertices, d
     return passes > 0;
 }
 
-std::vector<double> sizes_in_space(const Surface& surface, const std::vector<std::int32_t>& vertices,
+std::vector<double> sizes_in_space(const Surface& surface, const std::vector<Vertex>& vertices,
                                    const ContourInPlane& contour) {
     std::vector<double> sizes;
     for (std::size_t i = 0; i < vertices.size(); ++i) {

@@ -22,17 +22,17 @@ struct ContourInPlane {
 };
 
 ContourInPlane project_contour(const Surface& surface, const Plane& plane,
-                               const std::vector<std::vector<std::int32_t>>& loops);
+                               const std::vector<std::vector<Vertex>>& loops);
 
 /// Smooths the contour where its projection is spiked, has lost most of the length of an edge, or has a corner that, if
 /// it were cut off, would leave less than `good_dihedral_deg` between interface and surface. `vertices` (#C) are the
 /// contour's vertices in the surface. Returns false if there is no such place. Bounded passes; O(#C) each.
-bool unfold(const Surface& surface, const std::vector<std::int32_t>& vertices, double good_dihedral_deg,
+bool unfold(const Surface& surface, const std::vector<Vertex>& vertices, double good_dihedral_deg,
             ContourInPlane& contour);
 
 /// Returns the edge lengths for the interior at each vertex of an unfolded contour: 0.8 of the mean length in space of
 /// its two edges, because edges between inner points get about that long by lifting.
-std::vector<double> sizes_in_space(const Surface& surface, const std::vector<std::int32_t>& vertices,
+std::vector<double> sizes_in_space(const Surface& surface, const std::vector<Vertex>& vertices,
                                    const ContourInPlane& contour);
 
 }  // namespace kerf

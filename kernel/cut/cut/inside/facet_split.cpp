@@ -34,16 +34,16 @@ bool any_alike(std::vector<Vec3> points) {
 }
 
 // Divides the edges that cross the plane; the number of the new vertex per edge, -1 for none.
-std::vector<std::int32_t> divide_edges(const Surface& surface, int axis, double height, PlaneSplit& split) {
-    const auto edge_count = static_cast<std::int32_t>(surface.mesh().n_edges());
-    std::vector<std::int32_t> on_edge(edge_count, -1);
+Array<Edge, std::int32_t> divide_edges(const Surface& surface, int axis, double height, PlaneSplit& split) {
+    Array<Edge, std::int32_t> on_edge(surface.edge_count(), -1);
     std::int32_t next = surface.vertex_count();
-    for (std::int32_t e = 0; e < edge_count; ++e) {
-        std::int32_t below = surface.from_vertex(2 * e), above = surface.to_vertex(2 * e);
+    for (const Edge e : surface.edges()) {
+        const HalfEdge h = Surface::first_half_edge(e);
+        Vertex below = surface.from_vertex(h), above = surface.to_vertex(h);
         if ((surface.point(below)[axis] < height) == (surface.point(above)[axis] < height)) continue;
         if (surface.point(below)[axis] > height) std::swap(below, above);
         on_edge[e] = next;
-        split.edges.push_back({below, above, next++});
+        split.edges.push_back({below.value(), above.value(), next++});
     }
     return on_edge;
 }
@@ -69,30 +69,30 @@ TrianglePieces split_triangle(const Triangle& t, const std::array<std::int32_t, 
 
 std::optional<PlaneSplit> split_at_plane(const Surface& surface, int axis, double height, NodeId node) {
     KERF_CHECK(axis >= 0 && axis < 3 && node >= 1);
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v)
+    for (const Vertex v : surface.vertices())
         if (surface.point(v)[axis] == height) return std::nullopt;
     PlaneSplit split;
-    const std::vector<std::int32_t> on_edge = divide_edges(surface, axis, height, split);
+    const Array<Edge, std::int32_t> on_edge = divide_edges(surface, axis, height, split);
     SurfaceArrays whole = surface.arrays();
     split.arrays.vertices = std::move(whole.vertices);
     split.arrays.vertex_key = std::move(whole.vertex_key);
+    std::vector<Vec3>& points = split.arrays.vertices;
     std::vector<Vec3> added;
-    for (std::size_t i = 0; i < split.edges.size(); ++i) {
-        const SplitEdge& e = split.edges[i];
-        added.push_back(point_on_edge(surface.point(e.below), surface.point(e.above), axis, height));
-        split.arrays.vertex_key.push_back(make_key(node, static_cast<std::int32_t>(i)));
+    for (const SplitEdge& e : split.edges) {
+        split.arrays.vertex_key.push_back(make_key(node, count_of(added)));
+        added.push_back(point_on_edge(points[e.below], points[e.above], axis, height));
     }
     if (any_alike(added)) return std::nullopt;
-    split.arrays.vertices.insert(split.arrays.vertices.end(), added.begin(), added.end());
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+    points.insert(points.end(), added.begin(), added.end());
+    for (const Facet f : surface.facets()) {
         const auto h = surface.half_edges(f);
-        const TrianglePieces pieces = split_triangle(
-            whole.facets[f], {on_edge[h[0] / 2], on_edge[h[1] / 2], on_edge[h[2] / 2]}, split.arrays.vertices);
+        const auto added_on = [&](int i) { return on_edge[Surface::edge_of(h[i])]; };
+        const TrianglePieces pieces =
+            split_triangle(whole.facets[f.value()], {added_on(0), added_on(1), added_on(2)}, points);
         for (int i = 0; i < pieces.count; ++i) {
             const Triangle& t = pieces.pieces[i];
-            const bool below = std::any_of(t.begin(), t.end(), [&](std::int32_t v) {
-                return v < surface.vertex_count() && surface.point(v)[axis] < height;
-            });
+            const bool below =
+                std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return points[v][axis] < height; });
             split.arrays.facets.push_back(t);
             split.arrays.facet_key.push_back(surface.facet_key(f));
             split.arrays.patch.push_back(surface.patch(f));

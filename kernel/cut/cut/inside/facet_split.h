@@ -30,10 +30,10 @@ struct SplitEdge {
 
 /// A closed surface after its facets have been split at a coordinate plane, so that none crosses it.
 struct PlaneSplit {
-    SurfaceArrays arrays;              ///< the surface's vertices, then the new ones with the keys (node, 0, 1, ...)
-    std::vector<SplitEdge> edges;      ///< ascending by new vertex
-    std::vector<std::int32_t> parent;  ///< #F of `arrays`: the surface's facet that each comes from, ascending
-    std::vector<Side> side;            ///< #F of `arrays`
+    SurfaceArrays arrays;          ///< the surface's vertices, then the new ones with the keys (node, 0, 1, ...)
+    std::vector<SplitEdge> edges;  ///< ascending by new vertex
+    Array<Facet, Facet> parent;    ///< #F of `arrays`: the surface's facet that each comes from, ascending
+    Array<Facet, Side> side;       ///< #F of `arrays`
 };
 
 /// Splits the facets that cross the plane x[axis] = height. Every crossed edge gets one new vertex, which is computed

@@ -41,11 +41,11 @@ struct VertexRing {
 };
 
 // `on_contour`: per vertex of the band.
-VertexRing ring_of(const Surface& surface, const Band& band, std::int32_t vertex, const std::vector<char>& on_contour) {
+VertexRing ring_of(const Surface& surface, const Band& band, Vertex vertex, const std::vector<char>& on_contour) {
     VertexRing ring;
     int count = 0;
-    for (const auto h : surface.around(vertex)) {
-        const std::int32_t neighbour = h.to().idx();
+    for (const HalfEdge h : surface.around(vertex)) {
+        const Vertex neighbour = surface.to_vertex(h);
         ring.mean_edge += (surface.point(neighbour) - surface.point(vertex)).norm();
         const std::int32_t i = band.vertex_index_of[neighbour];
         ring.touches_contour |= i >= 0 && on_contour[i];
@@ -58,12 +58,12 @@ VertexRing ring_of(const Surface& surface, const Band& band, std::int32_t vertex
 // Returns the distance of a vertex from the plane on its own side; negative beyond the plane.
 double depth(double height, Side side) { return side == Side::below ? -height : height; }
 
-std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, const std::vector<Side>& side,
+std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, const Array<Facet, Side>& side,
                                      const std::vector<char>& on_contour, const std::vector<std::int32_t>& hits) {
     std::vector<Obstacle> obstacles;
     std::vector<char> seen = on_contour;
     for (std::size_t i = 0; i < band.facets.size(); ++i)
-        for (std::int32_t v : surface.vertices(band.facets[i])) {
+        for (const Vertex v : surface.corners(band.facets[i])) {
             const std::int32_t index = band.vertex_index_of[v];
             if (seen[index]) continue;
             seen[index] = 1;
@@ -78,9 +78,9 @@ std::vector<Obstacle> find_obstacles(const Surface& surface, const Band& band, c
     return obstacles;
 }
 
-bool is_closed_path(const Surface& surface, const std::vector<std::int32_t>& loop) {
+bool is_closed_path(const Surface& surface, const std::vector<Vertex>& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i)
-        if (surface.find_half_edge(loop[i], loop[(i + 1) % loop.size()]) < 0) return false;
+        if (!surface.find_half_edge(loop[i], loop[(i + 1) % loop.size()]).is_valid()) return false;
     return loop.size() >= 3;
 }
 
@@ -97,10 +97,10 @@ EdgeFrame edge_frame(const Vec3& from, const Vec3& to, const Vec3& normal) {
 }
 
 // Angles of the surface below and above; the material lies between them.
-std::array<double, 2> surface_angles(const Surface& surface, const std::vector<Side>& side, std::int32_t half_edge,
+std::array<double, 2> surface_angles(const Surface& surface, const Array<Facet, Side>& side, HalfEdge half_edge,
                                      const EdgeFrame& frame, const Vec3& from, const Vec3& to) {
     std::array<double, 2> angle = {0, 0};
-    for (const std::int32_t h : {half_edge, Surface::opposite(half_edge)}) {
+    for (const HalfEdge h : {half_edge, Surface::opposite(half_edge)}) {
         const Vec3& apex = surface.point(surface.to_vertex(surface.next(h)));
         angle[side[surface.facet_of(h)] == Side::above] = frame.angle(towards_apex(from, to, apex));
     }
@@ -117,21 +117,20 @@ std::array<double, 2> surface_angles(const Surface& surface, const std::vector<S
 // at least `angle_deg` with the surface on either side; unbounded for points off these triangles. Where the two sides
 // enclose less than twice the angle, the range is the middle between them. `contour` are vertices of the surface, the
 // first of the points; `places` (#P) are the points in the plane. O(#triangles).
-std::vector<HeightRange> dihedral_ranges(const Surface& surface, const Band& band, const std::vector<Side>& side,
-                                         const std::vector<std::int32_t>& contour,
-                                         const std::vector<Triangle>& triangles, const std::vector<Vec2>& places,
-                                         double angle_deg) {
+std::vector<HeightRange> dihedral_ranges(const Surface& surface, const Band& band, const Array<Facet, Side>& side,
+                                         const std::vector<Vertex>& contour, const std::vector<Triangle>& triangles,
+                                         const std::vector<Vec2>& places, double angle_deg) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));
     KERF_CHECK(contour.size() <= places.size());
-    const auto contour_count = static_cast<std::int32_t>(contour.size());
+    const std::int32_t contour_count = count_of(contour);
     const double wanted = angle_deg * std::numbers::pi / 180;
     std::vector<HeightRange> ranges(places.size());
     for (const Triangle& t : triangles)
         for (int i = 0; i < 3; ++i) {
             const std::int32_t a = t[i], b = t[(i + 1) % 3], apex = t[(i + 2) % 3];
             if (a >= contour_count || b >= contour_count || apex < contour_count) continue;
-            const std::int32_t h = surface.find_half_edge(contour[a], contour[b]);
-            if (h < 0) continue;  // an edge across the section
+            const HalfEdge h = surface.find_half_edge(contour[a], contour[b]);
+            if (!h.is_valid()) continue;  // an edge across the section
             const Vec3 &from = surface.point(contour[a]), &to = surface.point(contour[b]);
             const EdgeFrame frame = edge_frame(from, to, band.plane.normal);
             auto [low, high] = surface_angles(surface, side, h, frame, from, to);
@@ -151,20 +150,19 @@ std::vector<HeightRange> dihedral_ranges(const Surface& surface, const Band& ban
 
 }  // namespace
 
-InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
-                                 const std::vector<std::vector<std::int32_t>>& loops,
-                                 const std::vector<std::int32_t>& hits, const CutOptions& options,
-                                 ContourLayout layout) {
+InterfaceAttempt build_interface(const Surface& surface, const Band& band, const Array<Facet, Side>& side,
+                                 const std::vector<std::vector<Vertex>>& loops, const std::vector<std::int32_t>& hits,
+                                 const CutOptions& options, ContourLayout layout) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));
     KERF_CHECK(hits.size() == band.vertices.size());
     KERF_CHECK(
         std::all_of(loops.begin(), loops.end(), [&](const auto& loop) { return is_closed_path(surface, loop); }));
     InterfaceAttempt attempt;
-    std::vector<std::int32_t>& contour = attempt.interface.contour;
+    std::vector<Vertex>& contour = attempt.interface.contour;
     std::vector<double> contour_height;
     std::vector<char> on_contour(band.vertices.size(), 0);
     for (const auto& loop : loops) contour.insert(contour.end(), loop.begin(), loop.end());
-    for (const std::int32_t v : contour) {
+    for (const Vertex v : contour) {
         on_contour[band.vertex_index_of[v]] = 1;
         contour_height.push_back(band.distance[v]);
     }

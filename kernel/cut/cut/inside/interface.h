@@ -12,7 +12,7 @@ namespace kerf {
 /// An interface, or the reason why there is none and the vertices of the surface at which it failed.
 struct InterfaceAttempt {
     Refusal refusal = Refusal::none;
-    std::vector<std::int32_t> failed;
+    std::vector<Vertex> failed;
     Interface interface;
 };
 
@@ -20,10 +20,9 @@ struct InterfaceAttempt {
 /// of `options` asks for. `hits` (per vertex of the band) counts how often an interface has run into the vertex before:
 /// its clearance grows with that. With ContourLayout::unfolded, a contour that needs no unfolding is refused
 /// (crossing_projection, at no vertex), since the interface would be the same as for its projection.
-InterfaceAttempt build_interface(const Surface& surface, const Band& band, const std::vector<Side>& side,
-                                 const std::vector<std::vector<std::int32_t>>& loops,
-                                 const std::vector<std::int32_t>& hits, const CutOptions& options,
-                                 ContourLayout layout = ContourLayout::projected);
+InterfaceAttempt build_interface(const Surface& surface, const Band& band, const Array<Facet, Side>& side,
+                                 const std::vector<std::vector<Vertex>>& loops, const std::vector<std::int32_t>& hits,
+                                 const CutOptions& options, ContourLayout layout = ContourLayout::projected);
 
 /// Returns the area of the lifted triangles.
 double interface_area(const Interface& interface);

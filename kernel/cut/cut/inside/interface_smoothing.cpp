@@ -30,10 +30,9 @@ class InterfaceSmoother {
     bool sweep();
 
  private:
-    bool on_contour(std::int32_t point) const { return point < static_cast<std::int32_t>(interface_.contour.size()); }
+    bool on_contour(std::int32_t point) const { return point < count_of(interface_.contour); }
     std::span<const std::int32_t> around(std::int32_t point) const {
-        const auto p = static_cast<std::size_t>(point);
-        return std::span(around_).subspan(first_around_[p], first_around_[p + 1] - first_around_[p]);
+        return std::span(around_).subspan(first_around_[point], first_around_[point + 1] - first_around_[point]);
     }
     double measure(const Triangle& t) const;
     double measure_around(std::int32_t point);
@@ -53,15 +52,15 @@ class InterfaceSmoother {
 InterfaceSmoother::InterfaceSmoother(const Surface& surface, const CutOptions& options, Interface& interface)
     : surface_(surface), options_(options), interface_(interface), first_around_(interface.points.size() + 1) {
     const auto for_interior_corners = [&](auto visit) {
-        for (std::size_t i = 0; i < interface.triangles.size(); ++i)
+        for (std::int32_t i = 0; i < count_of(interface.triangles); ++i)
             for (const std::int32_t point : interface.triangles[i])
-                if (!on_contour(point)) visit(static_cast<std::size_t>(point), static_cast<std::int32_t>(i));
+                if (!on_contour(point)) visit(point, i);
     };
-    for_interior_corners([&](std::size_t point, std::int32_t) { ++first_around_[point + 1]; });
+    for_interior_corners([&](std::int32_t point, std::int32_t) { ++first_around_[point + 1]; });
     std::partial_sum(first_around_.begin(), first_around_.end(), first_around_.begin());
     around_.resize(first_around_.back());
     std::vector<std::size_t> next = first_around_;
-    for_interior_corners([&](std::size_t point, std::int32_t i) { around_[next[point]++] = i; });
+    for_interior_corners([&](std::int32_t point, std::int32_t i) { around_[next[point]++] = i; });
     measures_.reserve(interface.triangles.size());
     for (const Triangle& t : interface.triangles) measures_.push_back(measure(t));
 }
@@ -74,9 +73,9 @@ double InterfaceSmoother::measure(const Triangle& t) const {
         const Vec3 &a = interface_.points[from], &b = interface_.points[to], &c = interface_.points[apex];
         smallest = std::min(smallest, angle_degrees(a, b, c) / options_.good_angle_deg);
         if (!on_contour(from) || !on_contour(to)) continue;
-        const std::int32_t h = surface_.find_half_edge(interface_.contour[from], interface_.contour[to]);
-        if (h < 0) continue;  // an edge across the section
-        for (const std::int32_t side : {h, Surface::opposite(h)}) {
+        const HalfEdge h = surface_.find_half_edge(interface_.contour[from], interface_.contour[to]);
+        if (!h.is_valid()) continue;  // an edge across the section
+        for (const HalfEdge side : {h, Surface::opposite(h)}) {
             const Vec3& facet_apex = surface_.point(surface_.to_vertex(surface_.next(side)));
             smallest = std::min(smallest, dihedral_degrees(a, b, c, facet_apex) / options_.good_dihedral_deg);
         }
@@ -123,9 +122,8 @@ bool InterfaceSmoother::improve(std::int32_t point) {
 
 bool InterfaceSmoother::sweep() {
     bool any = false;
-    for (auto point = static_cast<std::int32_t>(interface_.contour.size());
-         point < static_cast<std::int32_t>(interface_.points.size()); ++point) {
-        options_.check_cancelled.at(static_cast<std::size_t>(point));
+    for (std::int32_t point = count_of(interface_.contour); point < count_of(interface_.points); ++point) {
+        options_.check_cancelled.at(point);
         any |= improve(point);
     }
     return any;

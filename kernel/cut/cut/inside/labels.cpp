@@ -23,8 +23,8 @@ struct FacetTerms {
     double distance = 0;  // of the centroid
 };
 
-FacetTerms facet_terms(const Surface& surface, const Band& band, std::int32_t facet) {
-    const Triangle t = surface.vertices(facet);
+FacetTerms facet_terms(const Surface& surface, const Band& band, Facet facet) {
+    const auto t = surface.corners(facet);
     const Vec3 cross = doubled_area_vector(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
     const double norm = cross.norm();
     const double n_z = norm > 0 ? cross.dot(band.plane.normal) / norm : 1;
@@ -34,11 +34,11 @@ FacetTerms facet_terms(const Surface& surface, const Band& band, std::int32_t fa
 }  // namespace
 
 bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
-                        std::vector<Side>& side, std::int64_t& step_budget) {
+                        Array<Facet, Side>& side, std::int64_t& step_budget) {
     KERF_CHECK(band.fits(surface) && fit(side, surface));
     KERF_CHECK(penalty.size() == band.facets.size());
     KERF_CHECK(std::all_of(penalty.begin(), penalty.end(), [](double p) { return p >= 1; }));
-    const auto count = static_cast<std::int32_t>(band.facets.size());
+    const std::int32_t count = count_of(band.facets);
     const double h = band.edge_length;
     if (h == 0) return true;  // the plane crosses no edge: there is no contour to be made shorter
     std::vector<FacetTerms> terms(count);
@@ -48,11 +48,11 @@ bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vec
     for (std::int32_t i = 0; i < count; ++i) {
         const double wrong_side = terms[i].area * std::abs(terms[i].distance) / (h * h);
         flow.add_terminal(i, terms[i].distance < 0 ? wrong_side : 0, terms[i].distance < 0 ? 0 : wrong_side);
-        for (std::int32_t half_edge : band.half_edges[i]) {
-            const std::int32_t neighbour = surface.facet_of(Surface::opposite(half_edge));
+        for (const HalfEdge half_edge : band.half_edges[i]) {
+            const Facet neighbour = surface.facet_of(Surface::opposite(half_edge));
             const std::int32_t j = band.index_of[neighbour];
             if (j >= 0 && j < i) continue;  // the edge was added with its other facet
-            const std::int32_t a = surface.from_vertex(half_edge), b = surface.to_vertex(half_edge);
+            const Vertex a = surface.from_vertex(half_edge), b = surface.to_vertex(half_edge);
             const double deviation = std::max(std::abs(band.distance[a]), std::abs(band.distance[b])) / h;
             const double slope = j >= 0 ? std::max(terms[i].slope, terms[j].slope) : terms[i].slope;
             const double raised = j >= 0 ? std::max(penalty[i], penalty[j]) : penalty[i];

@@ -14,6 +14,6 @@ namespace kerf {
 /// their label, and so do all facets if the plane crosses no edge. The steps of the flow are taken from `step_budget`;
 /// returns false, with `side` unchanged, if the budget does not suffice.
 bool minimum_cut_labels(const Surface& surface, const Band& band, const std::vector<double>& penalty,
-                        std::vector<Side>& side, std::int64_t& step_budget);
+                        Array<Facet, Side>& side, std::int64_t& step_budget);
 
 }  // namespace kerf

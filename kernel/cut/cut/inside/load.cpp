@@ -71,10 +71,9 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
         std::sort(samples_.begin(), samples_.end());
         for (std::size_t i = 1; i < samples_.size(); ++i) samples_[i].second += samples_[i - 1].second;
     }
-    std::vector<double> height(surface.vertex_count());
-    std::tie(lowest_, highest_) = bounds_on_threads(height.size(), [&](std::size_t v) {
-        return height[v] = plane.distance(surface.point(static_cast<std::int32_t>(v)));
-    });
+    Array<Vertex, double> height(surface.vertex_count());
+    std::tie(lowest_, highest_) = bounds_on_threads(
+        height.size(), [&](std::size_t v) { return height[v] = plane.distance(surface.point(Vertex(v))); });
     if (model_.needs_volume() && !model_.depends_on_place())
         find_items(surface, plane, height);
     else if (model_.balance == Balance::nodes)
@@ -85,11 +84,11 @@ LoadProfile::LoadProfile(const Surface& surface, const Plane& plane, const LoadM
         items_.empty() ? load_of(count_up_to(centroids_, highest_), 0, highest_) : load_below(items_, {}, highest_);
 }
 
-void LoadProfile::find_items(const Surface& surface, const Plane& plane, const std::vector<double>& height) {
+void LoadProfile::find_items(const Surface& surface, const Plane& plane, const Array<Vertex, double>& height) {
     items_.resize(surface.facet_count());
     for_ranges_on_threads(items_.size(), items_of_thread, [&](const IndexRange& range) {
         for (std::size_t f = range.first; f < range.last; ++f) {
-            const Triangle t = surface.vertices(static_cast<std::int32_t>(f));
+            const auto t = surface.corners(Facet(f));
             const Vec3 normal_area = area_vector(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
             std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
             std::sort(z.begin(), z.end());
@@ -103,11 +102,11 @@ void LoadProfile::find_items(const Surface& surface, const Plane& plane, const s
     });
 }
 
-void LoadProfile::find_centroids(const Surface& surface, const std::vector<double>& height) {
+void LoadProfile::find_centroids(const Surface& surface, const Array<Vertex, double>& height) {
     centroids_.resize(surface.facet_count());
     for_ranges_on_threads(centroids_.size(), items_of_thread, [&](const IndexRange& range) {
         for (std::size_t f = range.first; f < range.last; ++f) {
-            const Triangle t = surface.vertices(static_cast<std::int32_t>(f));
+            const auto t = surface.corners(Facet(f));
             std::array<double, 3> z = {height[t[0]], height[t[1]], height[t[2]]};
             std::sort(z.begin(), z.end());  // the sum of three depends on their order
             centroids_[f] = (z[0] + z[1] + z[2]) / 3;

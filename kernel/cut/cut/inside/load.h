@@ -72,8 +72,8 @@ class LoadProfile {
         double integral = 0;  // of the potential over area_z
         void add(const Item& item);
     };
-    void find_items(const Surface& surface, const Plane& plane, const std::vector<double>& height);
-    void find_centroids(const Surface& surface, const std::vector<double>& height);
+    void find_items(const Surface& surface, const Plane& plane, const Array<Vertex, double>& height);
+    void find_centroids(const Surface& surface, const Array<Vertex, double>& height);
     double load_of(double count, double integral, double height) const;
     double bisect_count(double fraction) const;
     double potential(double height) const;

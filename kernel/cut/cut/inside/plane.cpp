@@ -29,8 +29,8 @@ double bisecting_height(const LoadProfile& profile, double fraction, Criterion c
 // Heights over the plane in the middle of each gap, ascending: nothing of the surface lies there.
 std::vector<double> middles_of_gaps(const Surface& surface, const Plane& plane) {
     constexpr std::int32_t slices = 1024;
-    std::vector<double> heights(static_cast<std::size_t>(surface.vertex_count()));
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) heights[v] = plane.distance(surface.point(v));
+    Array<Vertex, double> heights(surface.vertex_count());
+    for (const Vertex v : surface.vertices()) heights[v] = plane.distance(surface.point(v));
     const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
     const double low = *lowest, thickness = (*highest - low) / slices;
     if (!(thickness > 0)) return {};
@@ -38,8 +38,8 @@ std::vector<double> middles_of_gaps(const Surface& surface, const Plane& plane) 
         return std::min(slices - 1, static_cast<std::int32_t>((height - low) / thickness));
     };
     std::array<std::int32_t, slices + 1> change = {};  // of the number of facets from one slice to the next
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const auto& [a, b, c] = surface.vertices(f);
+    for (const Facet f : surface.facets()) {
+        const auto [a, b, c] = surface.corners(f);
         const auto [least, most] = std::minmax({heights[a], heights[b], heights[c]});
         ++change[slice_of(least)];
         --change[slice_of(most) + 1];
@@ -61,7 +61,7 @@ std::vector<Vec3> cut_directions(const Surface& surface, const MassProperties& m
     if (options.axis >= 0) return {Vec3::Unit(options.axis)};
     if (options.criterion == Criterion::inertia) return {mass.axes.col(0), mass.axes.col(1), mass.axes.col(2)};
     Eigen::AlignedBox3d box;
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) box.extend(surface.point(v));
+    for (const Vertex v : surface.vertices()) box.extend(surface.point(v));
     std::array<int, 3> order = {0, 1, 2};
     const Vec3 extent = box.sizes();
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return extent[a] > extent[b]; });

@@ -47,7 +47,7 @@ double rating(const Verdict& verdict, const CutOptions& options) {
     return verdict.refusal == Refusal::soft ? goodness(verdict.quality, options) : 0;
 }
 
-bool divides(const std::vector<Side>& side) {
+bool divides(const Array<Facet, Side>& side) {
     return std::adjacent_find(side.begin(), side.end(), std::not_equal_to<>()) != side.end();
 }
 
@@ -58,17 +58,17 @@ double goodness(const InterfaceQuality& quality, const CutOptions& options) {
                      quality.gap_rel / options.good_gap_rel});
 }
 
-void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const {
+void PlaneTrial::refuse(Attempt& attempt, Refusal refusal, std::vector<Vertex> vertices) const {
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     attempt.record.refusal = refusal;
     attempt.failed = std::move(vertices);
-    for (std::int32_t v : attempt.failed) attempt.record.places.push_back(surface_.point(v));
+    for (const Vertex v : attempt.failed) attempt.record.places.push_back(surface_.point(v));
 }
 
 // False if the minimum cut was not found.
 bool PlaneTrial::label_facets(Attempt& attempt) {
-    for (const std::int32_t f : band_.facets) side_[f] = band_.majority[f];
+    for (const Facet f : band_.facets) side_[f] = band_.majority[f];
     if (record_) {
         attempt.stages.crossed_edges = crossed_edges(surface_, band_);
         attempt.stages.hanging_edges_removed = contour_edges(surface_, band_, side_);
@@ -140,7 +140,7 @@ void PlaneTrial::complete(Attempt& attempt) const {
     const bool in_doubt = may_misplace_shells(surface_, band_, side_, shared);
     std::array<Half, 2> halves = split(surface_, side_, attempt.interface, node_);
     std::array<std::optional<ManifoldDefect>, 2> defect;
-    std::array<std::int32_t, 2> misplaced = {-1, -1};
+    std::array<Vertex, 2> misplaced = {Vertex::none(), Vertex::none()};
     for_each_on_threads(halves.size(), [&](std::size_t i) {
         options_.check_cancelled();
         auto built = Surface::build(std::move(halves[i].arrays), std::move(halves[i].partner));
@@ -154,7 +154,7 @@ void PlaneTrial::complete(Attempt& attempt) const {
     for (std::size_t i = 0; i < halves.size() && attempt.valid(); ++i)
         if (defect[i])
             refuse_half(Refusal::not_manifold, defect[i]->where);
-        else if (misplaced[i] >= 0)
+        else if (misplaced[i].is_valid())
             refuse_half(Refusal::misplaced_shell, attempt.halves[i].point(misplaced[i]));
     if (!attempt.valid()) return;
     attempt.hash = hash_of(attempt);
@@ -164,7 +164,7 @@ void PlaneTrial::complete(Attempt& attempt) const {
 FileHash PlaneTrial::hash_of(const Attempt& attempt) const {
     Hasher hasher;
     hasher.add(std::span<const Side>(side_));
-    hasher.add(std::span<const std::int32_t>(attempt.interface.contour));
+    hasher.add(std::span<const Vertex>(attempt.interface.contour));
     hasher.add(std::span<const Vec3>(attempt.interface.points));
     hasher.add(std::span<const Triangle>(attempt.interface.triangles));
     return hasher.digest();
@@ -191,17 +191,17 @@ bool PlaneTrial::learn(const Attempt& attempt) {
     last_failed_ = attempt.failed;
     const bool is_hit = attempt.record.refusal == Refusal::intersection || attempt.record.refusal == Refusal::soft;
     std::vector<char> bad(band_.vertices.size(), 0);
-    for (const std::int32_t v : attempt.failed) {
+    for (const Vertex v : attempt.failed) {
         const std::int32_t i = band_.vertex_index_of[v];
         if (i < 0) continue;
         bad[i] = 1;
         hits_[i] += is_hit;
     }
-    const auto is_bad = [&](std::int32_t v) { return bad[band_.vertex_index_of[v]] != 0; };
+    const auto is_bad = [&](Vertex v) { return bad[band_.vertex_index_of[v]] != 0; };
     penalty_factor_ = penalty_factor(attempt.record.refusal);
     bad_facets_.clear();
     for (std::size_t i = 0; i < band_.facets.size(); ++i) {
-        const Triangle t = surface_.vertices(band_.facets[i]);
+        const auto t = surface_.corners(band_.facets[i]);
         if (std::any_of(t.begin(), t.end(), is_bad)) bad_facets_.push_back(i);
     }
     raise_penalty();

@@ -15,14 +15,14 @@ namespace kerf {
 /// The result of one try. It has no labels, as those of facets off the band follow from the plane.
 struct Attempt {
     CutTry record;
-    std::vector<Side> side;  ///< set by complete(), with a listener
-    std::vector<std::vector<std::int32_t>> loops;
+    Array<Facet, Side> side;  ///< set by complete(), with a listener
+    std::vector<std::vector<Vertex>> loops;
     Interface interface;
     ContourStages stages;
     double section_area = 0;
     std::array<Surface, 2> halves;
-    FileHash hash = {0, 0};            ///< set by complete()
-    std::vector<std::int32_t> failed;  ///< vertices at which the attempt failed
+    FileHash hash = {0, 0};      ///< set by complete()
+    std::vector<Vertex> failed;  ///< vertices at which the attempt failed
 
     bool valid() const { return record.refusal == Refusal::none || record.refusal == Refusal::soft; }
 };
@@ -35,7 +35,7 @@ class PlaneTrial {
  public:
     /// `copied` are the copied_vertices() of the surface, `step_budget` is that of the minimum cuts of all planes. All
     /// arguments must outlive the trial. O(#V + #F).
-    PlaneTrial(const Surface& surface, const std::vector<char>& copied, const PlaneCandidate& candidate, NodeId node,
+    PlaneTrial(const Surface& surface, const Array<Vertex, char>& copied, const PlaneCandidate& candidate, NodeId node,
                const CutOptions& options, bool record, std::int64_t& step_budget)
         : surface_(surface),
           copied_(copied),
@@ -57,7 +57,7 @@ class PlaneTrial {
     bool learn(const Attempt& attempt);
 
  private:
-    void refuse(Attempt& attempt, Refusal refusal, std::vector<std::int32_t> vertices) const;
+    void refuse(Attempt& attempt, Refusal refusal, std::vector<Vertex> vertices) const;
     bool label_facets(Attempt& attempt);
     FileHash hash_of(const Attempt& attempt) const;
     bool find_contour(Attempt& attempt);
@@ -72,21 +72,21 @@ class PlaneTrial {
     void raise_penalty();
 
     const Surface& surface_;
-    const std::vector<char>& copied_;  // vertices with a copy, or empty
+    const Array<Vertex, char>& copied_;  // vertices with a copy, or empty
     const PlaneCandidate& candidate_;
     NodeId node_;
     const CutOptions& options_;
     bool record_;
     std::int64_t& step_budget_;  // shared by the minimum cuts of all planes
     Band band_;
-    std::vector<Side> side_;               // labels of the last attempt
+    Array<Facet, Side> side_;              // labels of the last attempt
     std::vector<double> penalty_;          // per band facet
     std::vector<std::int32_t> hits_;       // per band vertex
     std::vector<std::size_t> bad_facets_;  // of the band, around the places of the last failure
     double penalty_factor_ = 1;
     std::vector<SurfaceEdge> last_contour_;
-    std::vector<std::vector<std::int32_t>> last_loops_;
-    std::vector<std::int32_t> last_failed_;
+    std::vector<std::vector<Vertex>> last_loops_;
+    std::vector<Vertex> last_failed_;
     int stalled_ = 0;  // rounds that ended like the one before
 };
 

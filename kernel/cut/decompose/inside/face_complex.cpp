@@ -56,7 +56,7 @@ FaceComplex::FaceComplex(const std::vector<Leaf>& leaves) {
             touches_ |= v.leaf == last_leaf;
         }
         last_leaf = v.leaf;
-        number[v.leaf][v.index] = static_cast<std::int32_t>(vertex_key_.size()) - 1;
+        number[v.leaf][v.index] = count_of(vertex_key_) - 1;
     }
     is_new_.assign(points_.size(), 0);
     for (const KeyedItem& f : sorted_items(
@@ -88,13 +88,13 @@ void FaceComplex::list_face(std::int32_t face) {
         if (part != 0) faces_of_[part].push_back(face);
     for (const std::int32_t v : faces_[face].corners) {
         at_vertex_.push_back({face, last_at_vertex_[v]});
-        last_at_vertex_[v] = static_cast<std::int32_t>(at_vertex_.size()) - 1;
+        last_at_vertex_[v] = count_of(at_vertex_) - 1;
     }
 }
 
 void FaceComplex::add_face(const ComplexFace& face) {
     faces_.push_back(face);
-    list_face(static_cast<std::int32_t>(faces_.size()) - 1);
+    list_face(count_of(faces_) - 1);
 }
 
 // Puts a face in the place of another one with the same owners; with other owners, the caller mends faces_of_.
@@ -103,7 +103,7 @@ void FaceComplex::replace_face(std::int32_t at, const ComplexFace& face) {
     for (const std::int32_t v : face.corners) {
         if (std::find(before.begin(), before.end(), v) != before.end()) continue;
         at_vertex_.push_back({at, last_at_vertex_[v]});
-        last_at_vertex_[v] = static_cast<std::int32_t>(at_vertex_.size()) - 1;
+        last_at_vertex_[v] = count_of(at_vertex_) - 1;
     }
 }
 
@@ -125,7 +125,7 @@ std::vector<std::int32_t> FaceComplex::faces_at(std::vector<std::int32_t> vertic
 FaceComplex::Part FaceComplex::part(NodeId id) const {
     KERF_CHECK(faces_of_.contains(id));
     Part part;
-    part.face = faces_of_.at(id);
+    part.face.assign(faces_of_.at(id).begin(), faces_of_.at(id).end());
     number_in_part_.resize(points_.size(), -1);
     for (const std::int32_t f : part.face) {
         const ComplexFace& face = faces_[f];
@@ -133,7 +133,7 @@ FaceComplex::Part FaceComplex::part(NodeId id) const {
         for (std::int32_t& v : t) {
             std::int32_t& number = number_in_part_[v];
             if (number < 0) {
-                number = static_cast<std::int32_t>(part.vertex.size());
+                number = count_of(part.vertex);
                 part.vertex.push_back(v);
                 part.arrays.vertices.push_back(points_[v]);
                 part.arrays.vertex_key.push_back(vertex_key_[v]);
@@ -171,9 +171,9 @@ void FaceComplex::note_division(const ComplexFace& face) {
 
 void FaceComplex::divide(NodeId id, const Part& whole, const StraightCut& cut) {
     const PlaneSplit& split = cut.split;
-    KERF_CHECK(cut.cut.node == id && split.parent.back() + 1 == static_cast<std::int32_t>(whole.face.size()));
+    KERF_CHECK(cut.cut.node == id && count_of(whole.face) == split.parent.back().value() + 1);
     const std::array<NodeId, 2> children = children_of(id);
-    std::vector<std::int32_t> vertex = whole.vertex;
+    Array<Vertex, std::int32_t> vertex = whole.vertex;
     for (std::size_t i = vertex.size(); i < split.arrays.vertices.size(); ++i)
         vertex.push_back(add_point(split.arrays.vertices[i], id));
     std::vector<SplitEdge> edges;

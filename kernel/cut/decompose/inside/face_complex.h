@@ -35,9 +35,9 @@ class FaceComplex {
     /// itself it is taken apart as by separate_touching(), so that several of its vertices have the same number there.
     struct Part {
         SurfaceArrays arrays;
-        std::vector<std::int32_t> vertex;
-        std::vector<std::int32_t> face;
-        std::vector<char> untested;  ///< per facet, as ComplexFace::untested
+        Array<Vertex, std::int32_t> vertex;
+        Array<Facet, std::int32_t> face;
+        Array<Facet, char> untested;  ///< per facet, as ComplexFace::untested
     };
     /// Returns the surface of part `id`, which must exist. One call at a time. O(n) for n faces of the part, if no part
     /// touches itself.
@@ -52,7 +52,7 @@ class FaceComplex {
         KERF_CHECK(vertex >= 0 && vertex < vertex_count());
         return points_[vertex];
     }
-    std::int32_t vertex_count() const { return static_cast<std::int32_t>(points_.size()); }
+    std::int32_t vertex_count() const { return count_of(points_); }
     const std::vector<ComplexFace>& faces() const { return faces_; }
     /// Returns the plane of a straight cut that was made.
     const Plane& plane(NodeId cut) const;

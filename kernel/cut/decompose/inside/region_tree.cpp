@@ -24,8 +24,8 @@ namespace {
 
 RegionMeasures measure(const SurfaceArrays& region, const LoadModel& model) {
     RegionMeasures measures;
-    measures.vertices = static_cast<std::int32_t>(region.vertices.size());
-    measures.facets = static_cast<std::int32_t>(region.facets.size());
+    measures.vertices = count_of(region.vertices);
+    measures.facets = count_of(region.facets);
     const BoundedVolume volume = bounded_volume(region.vertices, region.facets);
     measures.volume = volume.value;
     measures.volume_error = volume.error;
@@ -82,7 +82,7 @@ std::vector<std::int32_t> share_out(std::span<const RegionMeasures> measures, st
     };
     std::priority_queue<Share> queue;
     for (std::size_t r = 0; r < measures.size(); ++r) queue.push({measures[r].load, static_cast<std::int32_t>(r)});
-    for (auto left = parts - static_cast<std::int32_t>(measures.size()); left > 0; --left) {
+    for (auto left = parts - count_of(measures); left > 0; --left) {
         const std::int32_t region = queue.top().region;
         queue.pop();
         ++leaves[region];

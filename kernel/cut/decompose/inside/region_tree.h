@@ -36,7 +36,7 @@ class RegionTree {
         NodeId id = 1;
         std::int32_t first = 0, regions = 1;
     };
-    Node root() const { return {1, 0, static_cast<std::int32_t>(order_.size())}; }
+    Node root() const { return {1, 0, count_of(order_)}; }
     std::array<Node, 2> halves(const Node& node) const;
     RegionIndex region(const Node& root_of_region) const {
         return order_[static_cast<std::size_t>(root_of_region.first)];

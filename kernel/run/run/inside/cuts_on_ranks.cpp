@@ -42,13 +42,13 @@ struct TravellingBranch {
 
 std::vector<std::int32_t> partners_of(const Surface& surface) {
     const auto corners = static_cast<std::size_t>(3) * static_cast<std::size_t>(surface.facet_count());
-    std::vector<std::int32_t> corner_of(corners), partner(corners);
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const std::array<std::int32_t, 3> h = surface.half_edges(f);
-        for (std::int32_t i = 0; i < 3; ++i) corner_of[h[i]] = 3 * f + i;
+    Array<HalfEdge, std::int32_t> corner_of(corners);
+    for (const Facet f : surface.facets()) {
+        const std::array<HalfEdge, 3> h = surface.half_edges(f);
+        for (std::int32_t i = 0; i < 3; ++i) corner_of[h[i]] = 3 * f.value() + i;
     }
-    for (std::size_t h = 0; h < corners; ++h)
-        partner[corner_of[h]] = corner_of[Surface::opposite(static_cast<std::int32_t>(h))];
+    std::vector<std::int32_t> partner(corners);
+    for (const HalfEdge h : corner_of.ids()) partner[corner_of[h]] = corner_of[Surface::opposite(h)];
     return partner;
 }
 
