@@ -22,13 +22,16 @@ namespace kerf::bench {
 inline Surface quartered(const Surface& surface) {
     SurfaceArrays fine;
     const std::int32_t old_count = surface.vertex_count();
-    for (std::int32_t v = 0; v < old_count; ++v) fine.vertices.push_back(surface.point(v));
-    for (std::int32_t h = 0; h < 3 * surface.facet_count(); h += 2)
+    for (const Vertex v : surface.vertices()) fine.vertices.push_back(surface.point(v));
+    for (const Edge e : surface.edges()) {
+        const HalfEdge h = Surface::first_half_edge(e);
         fine.vertices.push_back((surface.point(surface.from_vertex(h)) + surface.point(surface.to_vertex(h))) / 2);
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-        const Triangle corner = surface.vertices(f);
-        Triangle middle = surface.half_edges(f);
-        for (std::int32_t& h : middle) h = old_count + h / 2;
+    }
+    for (const Facet f : surface.facets()) {
+        const Triangle corner = surface.triangle(f);
+        const auto h = surface.half_edges(f);
+        Triangle middle;
+        for (int i = 0; i < 3; ++i) middle[i] = old_count + Surface::edge_of(h[i]).value();
         fine.facets.push_back(middle);
         for (int i = 0; i < 3; ++i) fine.facets.push_back({corner[i], middle[i], middle[(i + 2) % 3]});
     }

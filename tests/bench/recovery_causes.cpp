@@ -93,9 +93,10 @@ class Causes {
     // Whether is_so(a, b, p, q) for one of the edges a-b between the facet, whose other corner is p, and its neighbour.
     template <class IsSo>
     bool any_edge(std::int32_t facet, IsSo is_so) const {
-        const auto end = [&](std::int32_t h) { return surface_.point(surface_.to_vertex(h)); };
-        return std::ranges::any_of(surface_.half_edges(facet), [&](std::int32_t h) {
-            return is_so(end(h ^ 1), end(h), end(surface_.next(h)), end(surface_.next(h ^ 1)));
+        const auto end = [&](HalfEdge h) { return surface_.point(surface_.to_vertex(h)); };
+        return std::ranges::any_of(surface_.half_edges(Facet(facet)), [&](HalfEdge h) {
+            const HalfEdge back = Surface::opposite(h);
+            return is_so(end(back), end(h), end(surface_.next(h)), end(surface_.next(back)));
         });
     }
 

@@ -25,7 +25,7 @@ class PlaneWitness : public RunListener {
         normals.push_back(cut.plane.normal);
         if (cut.strategy != CutStrategy::first_try && cut.strategy != CutStrategy::local_repair) return;
         double low = 0, high = 0;
-        for (std::int32_t v = 0; v < parent.vertex_count(); ++v) {
+        for (const Vertex v : parent.vertices()) {
             low = std::min(low, cut.plane.distance(parent.point(v)));
             high = std::max(high, cut.plane.distance(parent.point(v)));
         }

@@ -191,7 +191,7 @@ void expect_edges(Driver& driver, const Step& step, const std::vector<SurfaceEdg
     EXPECT_EQ(driver.drawn(layer_of(step.stage)).segments, std::ssize(edges)) << name(step);
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const auto end = [&](std::size_t k) {
-            return built.frame.draw(surface->vertices[static_cast<std::size_t>(edges[i][k])]);
+            return built.frame.draw(surface->vertices[static_cast<std::size_t>(edges[i][k].value())]);
         };
         EXPECT_EQ(drawn[i].from, end(0)) << name(step) << " " << i;
         EXPECT_EQ(drawn[i].to, end(1)) << name(step) << " " << i;

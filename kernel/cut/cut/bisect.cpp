@@ -114,12 +114,11 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
 
 std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
     std::vector<Vec3> directions = cut_directions(surface_, mass_, options_);
-    KERF_CHECK(place_.axis >= 0 && static_cast<std::size_t>(place_.axis) < directions.size());
+    KERF_CHECK(place_.axis >= 0 && place_.axis < count_of(directions));
     std::rotate(directions.begin(), directions.begin() + place_.axis, directions.begin() + place_.axis + 1);
     std::vector<PlaneSequence> sequences;
-    for (std::size_t axis = 0; axis < directions.size(); ++axis)
-        sequences.emplace_back(surface_, mass_, directions[axis], static_cast<std::int32_t>(axis), place_.fraction,
-                               options_);
+    for (std::int32_t axis = 0; axis < count_of(directions); ++axis)
+        sequences.emplace_back(surface_, mass_, directions[axis], axis, place_.fraction, options_);
     for (const PlaneSequence& sequence : sequences)
         if (const std::optional<PlaneCandidate> between = sequence.between_bodies())
             if (try_plane(*between, tries)) return std::move(best_);

@@ -114,14 +114,14 @@ CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::i
     const std::vector<SectionProfile> profiles = section_profiles(surface, directions, options.bisected_load());
     const double usual = profiles[0].area_at(half);
     double best = (1 - least_gain) * usual;
-    for (std::size_t axis = 0; axis < directions.size(); ++axis) {
+    for (std::int32_t axis = 0; axis < count_of(directions); ++axis) {
         const SectionProfile& profile = profiles[axis];
         for (std::int32_t below = 1; below < leaves; ++below) {
             const double fraction = static_cast<double>(below) / leaves;
             const double area = profile.area_at(fraction);
             if (std::abs(fraction - half) > options.load_window || area <= 0 || area >= best) continue;
             best = area;
-            place = {fraction, static_cast<std::int32_t>(axis), 1 - area / usual};
+            place = {fraction, axis, 1 - area / usual};
         }
     }
     return place;
@@ -130,9 +130,9 @@ CutPlace choose_place(const Surface& surface, const MassProperties& mass, std::i
 CutPlace place_of(const Plane& plane, const Surface& surface, const MassProperties& mass, const CutOptions& options) {
     const std::vector<Vec3> directions = cut_directions(surface, mass, options);
     CutPlace place;
-    for (std::size_t axis = 1; axis < directions.size(); ++axis) {
+    for (std::int32_t axis = 1; axis < count_of(directions); ++axis) {
         const double nearest = std::abs(plane.normal.dot(directions[place.axis]));
-        if (std::abs(plane.normal.dot(directions[axis])) > nearest) place.axis = static_cast<std::int32_t>(axis);
+        if (std::abs(plane.normal.dot(directions[axis])) > nearest) place.axis = axis;
     }
     const Plane through_centroid(mass.centroid, directions[place.axis]);
     const LoadProfile profile(surface, through_centroid, options.bisected_load());

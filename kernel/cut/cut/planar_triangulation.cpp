@@ -49,10 +49,10 @@ std::vector<std::int32_t> find_crossings(const PlanarRegion& region) {
         std::int32_t edge;
     };
     std::vector<Interval> intervals;
-    for (std::size_t i = 0; i < region.edges.size(); ++i) {
+    for (std::int32_t i = 0; i < count_of(region.edges); ++i) {
         const auto [low, high] =
             std::minmax(region.contour[region.edges[i][0]].x(), region.contour[region.edges[i][1]].x());
-        intervals.push_back({low, high, static_cast<std::int32_t>(i)});
+        intervals.push_back({low, high, i});
     }
     std::sort(intervals.begin(), intervals.end(),
               [](const Interval& a, const Interval& b) { return std::tie(a.low, a.edge) < std::tie(b.low, b.edge); });
@@ -222,8 +222,8 @@ double shape(const Vec2& a, const Vec2& b, const Vec2& c) {
 // Moves interior points to the mean of their neighbours wherever the worst triangle around them does not suffer.
 void smooth(const PlanarRegion& region, PlanarTriangulation& t) {
     std::vector<std::vector<std::int32_t>> around(t.points.size());
-    for (std::size_t i = 0; i < t.triangles.size(); ++i)
-        for (std::int32_t v : t.triangles[i]) around[v].push_back(static_cast<std::int32_t>(i));
+    for (std::int32_t i = 0; i < count_of(t.triangles); ++i)
+        for (std::int32_t v : t.triangles[i]) around[v].push_back(i);
     const auto worst_around = [&](std::size_t v) {
         double worst = INFINITY;
         for (std::int32_t i : around[v]) {

@@ -247,8 +247,8 @@ bool CapTriangulator::triangulate_region(std::int32_t region) {
 }
 
 bool CapTriangulator::triangulate_regions() {
-    for (std::size_t i = 0; i < regions_.size(); ++i)
-        if (!triangulate_region(static_cast<std::int32_t>(i))) return false;
+    for (std::int32_t i = 0; i < count_of(regions_); ++i)
+        if (!triangulate_region(i)) return false;
     complex_.replace_caps(caps_);
     return true;
 }

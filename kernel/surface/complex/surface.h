@@ -1,6 +1,7 @@
 // The closed surface of a body or subdomain: a half-edge mesh with keys.
 #pragma once
 
+#include <iterator>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -59,6 +60,7 @@ struct ManifoldDefect {
 /// Vertices without facets are allowed. O(#V + #F).
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
 
+/// What a Surface consists of.
 using Vertex = Id<struct VertexTag>;
 using Facet = Id<struct FacetTag>;
 using Edge = Id<struct EdgeTag>;

@@ -37,7 +37,7 @@ struct Section {
 
     Surface surface;
     Band band;
-    std::vector<Side> side;
+    Array<Facet, Side> side;
     Interface interface;
     CutOptions options;
 };
@@ -80,7 +80,7 @@ TEST(Acceptance, ShiftedPointThatPiercesTheSurfaceIsFound) {
         const Verdict verdict = s.judge();
         EXPECT_EQ(verdict.refusal, Refusal::intersection);
         EXPECT_FALSE(verdict.failed.empty());
-        for (const std::int32_t v : verdict.failed) EXPECT_LT(v, s.surface.vertex_count());
+        for (const Vertex v : verdict.failed) EXPECT_TRUE(s.surface.has_vertex(v));
     }
 }
 
@@ -106,7 +106,7 @@ TEST(Acceptance, WhateverMeetsIsFoundFarFromTheOrigin) {
         SCOPED_TRACE(trial);
         const Vec3 place = 1e6 * direction();
         const Surface surface = test::to_surface(test::translated(test::tetrahedron(), place));
-        const Triangle facet = surface.vertices(static_cast<std::int32_t>(random() % 4));
+        const auto facet = surface.corners(Facet(random() % 4));
         const Plane plane(place + 0.1 * direction(), direction());
         // A corner of the triangle is the place of a vertex of the facet or one on an edge, up to rounding.
         const double t = trial % 2 ? 0 : 0.5 + 0.4 * uniform();
@@ -120,10 +120,11 @@ TEST(Acceptance, WhateverMeetsIsFoundFarFromTheOrigin) {
         interface.triangles = {{0, 1, 2}};
         const std::array<Vec3, 3> corners = {interface.points[0], interface.points[1], interface.points[2]};
         bool meets = false;
-        for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
-            const Triangle v = surface.vertices(f);
-            meets |= triangles_intersect(corners, {4, 5, 6},
-                                         {surface.point(v[0]), surface.point(v[1]), surface.point(v[2])}, v);
+        for (const Facet f : surface.facets()) {
+            const auto v = surface.corners(f);
+            meets |=
+                triangles_intersect(corners, {4, 5, 6}, {surface.point(v[0]), surface.point(v[1]), surface.point(v[2])},
+                                    surface.triangle(f));
         }
         meetings += meets;
         EXPECT_EQ(judge_interface(surface, make_band(surface, plane), interface, CutOptions()).refusal ==
@@ -139,13 +140,14 @@ TEST(Acceptance, TinyVoidsKeepTheirSign) {
     for (int place = 0; place < 30; ++place) {
         SCOPED_TRACE(place);
         const Soup shell = test::icosphere(2, 3e-6, Vec3(uniform(), uniform(), uniform()));
-        EXPECT_EQ(find_misplaced_shell(test::to_surface(test::join(test::box(), test::inside_out(shell)))), -1);
-        EXPECT_EQ(find_misplaced_shell(test::to_surface(test::join(test::box(), shell))), 8);
+        EXPECT_EQ(find_misplaced_shell(test::to_surface(test::join(test::box(), test::inside_out(shell)))),
+                  Vertex::none());
+        EXPECT_EQ(find_misplaced_shell(test::to_surface(test::join(test::box(), shell))), Vertex(8));
     }
 }
 
 TEST(Acceptance, ShellsMustLieInTheMaterial) {
-    const auto misplaced = [](const Soup& soup) { return find_misplaced_shell(test::to_surface(soup)); };
+    const auto misplaced = [](const Soup& soup) { return find_misplaced_shell(test::to_surface(soup)).value(); };
     EXPECT_EQ(misplaced(test::box()), -1);
     EXPECT_EQ(misplaced(test::inside_out(test::box())), 0);
     EXPECT_EQ(misplaced(test::nested_boxes(2)), -1);
@@ -167,8 +169,8 @@ TEST(Acceptance, ShellsMayTouchOneAnother) {
     const test::Voxels at_vertex = {{0, 0, 0}, {1, 1, 1}}, at_edge = {{0, 0, 0}, {1, 1, 0}};
     for (const test::Voxels& voxels : {at_vertex, at_edge, checkerboard, test::notched_voxels()}) {
         const Soup soup = test::voxel_surface(voxels);
-        EXPECT_EQ(find_misplaced_shell(separated_surface(test::to_arrays(soup))), -1);
-        EXPECT_GE(find_misplaced_shell(separated_surface(test::to_arrays(test::inside_out(soup)))), 0);
+        EXPECT_FALSE(find_misplaced_shell(separated_surface(test::to_arrays(soup))).is_valid());
+        EXPECT_TRUE(find_misplaced_shell(separated_surface(test::to_arrays(test::inside_out(soup)))).is_valid());
     }
 }
 
@@ -196,9 +198,9 @@ TEST(ShellPlacement, ShellsThatAreNotAskedAreInTheirPlace) {
         unasked += !in_doubt;
         for (Half& half : split(s.surface, s.side, s.interface, cut_node)) {
             const Surface surface(std::move(half.arrays));
-            const std::int32_t found = find_misplaced_shell(surface);
-            EXPECT_EQ(in_doubt ? find_misplaced_shell(surface, s.band.plane, shared) : -1, found);
-            misplaced += found >= 0;
+            const Vertex found = find_misplaced_shell(surface);
+            EXPECT_EQ(in_doubt ? find_misplaced_shell(surface, s.band.plane, shared) : Vertex::none(), found);
+            misplaced += found.is_valid();
         }
     }
     EXPECT_GT(misplaced, 10);
@@ -219,11 +221,11 @@ TEST(Split, FacetsArePartitionedAndInterfacesOpposite) {
             volume += enclosed_volume(half.vertices, half.facets);
             const std::size_t own = half.facets.size() - interface_facets;
             for (std::size_t f = 0; f < own; ++f) {
-                const auto parent = key_index(half.facet_key[f]);
+                const Facet parent(key_index(half.facet_key[f]));
                 EXPECT_TRUE(seen.insert(half.facet_key[f]).second) << "a facet in both halves";
                 EXPECT_EQ(s.side[parent], i == 0 ? Side::below : Side::above);
                 EXPECT_EQ(half.patch[f], s.surface.patch(parent));
-                const Triangle t = s.surface.vertices(parent);
+                const auto t = s.surface.corners(parent);
                 for (int k = 0; k < 3; ++k) {
                     EXPECT_EQ(half.vertex_key[half.facets[f][k]], s.surface.vertex_key(t[k]));
                     EXPECT_EQ(half.vertices[half.facets[f][k]], s.surface.point(t[k]));

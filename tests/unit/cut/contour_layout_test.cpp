@@ -36,9 +36,9 @@ struct SlantedSection {
 
     Surface surface;
     Band band;
-    std::vector<Side> side;
-    std::vector<std::vector<std::int32_t>> loops;
-    std::vector<std::int32_t> vertices;
+    Array<Facet, Side> side;
+    std::vector<std::vector<Vertex>> loops;
+    std::vector<Vertex> vertices;
 };
 
 template <class Body>

@@ -25,17 +25,17 @@ double length(const Surface& surface, const std::vector<SurfaceEdge>& edges) {
 
 // Closed: as many edges leave every vertex as arrive.
 bool closed(const std::vector<SurfaceEdge>& edges) {
-    std::map<std::int32_t, int> balance;
+    std::map<Vertex, int> balance;
     for (const auto& [from, to] : edges) ++balance[from], --balance[to];
     return std::all_of(balance.begin(), balance.end(), [](const auto& entry) { return entry.second == 0; });
 }
 
 // Contour edges seen from the facets, without the band: below lies on the left.
-std::set<SurfaceEdge> boundary_of_labels(const Surface& surface, const std::vector<Side>& side) {
+std::set<SurfaceEdge> boundary_of_labels(const Surface& surface, const Array<Facet, Side>& side) {
     std::set<SurfaceEdge> edges;
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f) {
+    for (const Facet f : surface.facets()) {
         if (side[f] != Side::below) continue;
-        const Triangle t = surface.vertices(f);
+        const auto t = surface.corners(f);
         const auto across = surface.neighbours(f);
         for (int i = 0; i < 3; ++i)
             if (side[across[i]] == Side::above) edges.insert({t[i], t[(i + 1) % 3]});
@@ -51,8 +51,8 @@ class Contours : public testing::TestWithParam<std::string> {
             for (const double fraction : {0.31, 0.5})
                 planes_.push_back(PlaneSequence(surface_, mass, direction, 0, fraction, {}).at(0)->plane);
     }
-    std::vector<Side> minimum_cut(const Band& band) const {
-        std::vector<Side> side = band.majority;
+    Array<Facet, Side> minimum_cut(const Band& band) const {
+        Array<Facet, Side> side = band.majority;
         std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
         EXPECT_TRUE(minimum_cut_labels(surface_, band, std::vector<double>(band.facets.size(), 1), side, unlimited));
         return side;
@@ -70,9 +70,9 @@ TEST_P(Contours, BandHoldsWhatThePlaneMeets) {
         EXPECT_EQ(band.edge_length, crossing_edge_length(surface_, plane));
         EXPECT_TRUE(std::is_sorted(band.facets.begin(), band.facets.end()));
         std::int64_t wrong = 0;
-        for (std::int32_t f = 0; f < surface_.facet_count(); ++f) {
+        for (const Facet f : surface_.facets()) {
             int below = 0;
-            for (const std::int32_t v : surface_.vertices(f)) below += plane.distance(surface_.point(v)) < 0;
+            for (const Vertex v : surface_.corners(f)) below += plane.distance(surface_.point(v)) < 0;
             const bool near = std::abs(band.facet_distance(surface_, f)) < 3 * band.edge_length;
             const std::int32_t i = band.index_of[f];
             if (below % 3 != 0 || near) wrong += i < 0;
@@ -85,7 +85,7 @@ TEST_P(Contours, BandHoldsWhatThePlaneMeets) {
 TEST_P(Contours, EdgesAreTheBoundaryOfTheLabels) {
     for (const Plane& plane : planes_) {
         const Band band = make_band(surface_, plane);
-        for (const std::vector<Side>& side : {band.majority, minimum_cut(band)}) {
+        for (const Array<Facet, Side>& side : {band.majority, minimum_cut(band)}) {
             const std::vector<SurfaceEdge> edges = contour_edges(surface_, band, side);
             const std::set<SurfaceEdge> expected = boundary_of_labels(surface_, side);
             EXPECT_EQ(edges.size(), expected.size());
@@ -98,24 +98,24 @@ TEST_P(Contours, EdgesAreTheBoundaryOfTheLabels) {
 TEST_P(Contours, CleaningLeavesSimpleLoopsWithoutEars) {
     for (const Plane& plane : planes_) {
         const Band band = make_band(surface_, plane);
-        std::vector<Side> side = minimum_cut(band);
-        const std::vector<Side> before = side;
+        Array<Facet, Side> side = minimum_cut(band);
+        const Array<Facet, Side> before = side;
         ContourStages stages;
         clean_labels(surface_, band, side, &stages);
-        for (std::int32_t f = 0; f < surface_.facet_count(); ++f)
+        for (const Facet f : surface_.facets())
             ASSERT_TRUE(band.index_of[f] >= 0 || side[f] == before[f])
-                << "facet " << f << " beyond the band was turned";
+                << "facet " << f.value() << " beyond the band was turned";
         EXPECT_TRUE(closed(stages.closed_loops));
         EXPECT_TRUE(closed(stages.multiple_paths_removed));
 
         const std::vector<SurfaceEdge> edges = contour_edges(surface_, band, side);
-        std::map<std::int32_t, int> degree;
+        std::map<Vertex, int> degree;
         for (const auto& [a, b] : edges) ++degree[a], ++degree[b];
-        for (const auto& [vertex, n] : degree) EXPECT_EQ(n, 2) << "at vertex " << vertex;
+        for (const auto& [vertex, n] : degree) EXPECT_EQ(n, 2) << "at vertex " << vertex.value();
         std::int64_t ears = 0;
-        for (const std::int32_t f : band.facets) {
+        for (const Facet f : band.facets) {
             const auto across = surface_.neighbours(f);
-            ears += std::count_if(across.begin(), across.end(), [&](std::int32_t n) { return side[n] != side[f]; }) > 1;
+            ears += std::count_if(across.begin(), across.end(), [&](Facet n) { return side[n] != side[f]; }) > 1;
         }
         EXPECT_EQ(ears, 0);
 
@@ -126,7 +126,7 @@ TEST_P(Contours, CleaningLeavesSimpleLoopsWithoutEars) {
             for (std::size_t i = 0; i < loop.size(); ++i) traced.insert({loop[i], loop[(i + 1) % loop.size()]});
         EXPECT_TRUE(traced == std::set(edges.begin(), edges.end()));
 
-        std::vector<Side> again = side;
+        Array<Facet, Side> again = side;
         clean_labels(surface_, band, again, nullptr);
         EXPECT_TRUE(again == side) << "cleaning what is clean";
     }
@@ -144,7 +144,7 @@ TEST_P(Contours, MinimumCutIsShorterThanTheMajority) {
 
 TEST_P(Contours, PenaltyPushesTheContourAway) {
     const Band band = make_band(surface_, planes_[1]);
-    std::vector<Side> side = minimum_cut(band);
+    Array<Facet, Side> side = minimum_cut(band);
     const std::vector<SurfaceEdge> edges = contour_edges(surface_, band, side);
     // The shortest edge: on graded surfaces the facets at a long one may span the band.
     const SurfaceEdge hit = *std::min_element(
@@ -152,12 +152,12 @@ TEST_P(Contours, PenaltyPushesTheContourAway) {
         [&](const SurfaceEdge& a, const SurfaceEdge& b) { return length(surface_, {a}) < length(surface_, {b}); });
     std::vector<double> penalty(band.facets.size(), 1);
     for (std::size_t i = 0; i < band.facets.size(); ++i)
-        for (const std::int32_t v : surface_.vertices(band.facets[i]))
+        for (const Vertex v : surface_.corners(band.facets[i]))
             if (v == hit[0] || v == hit[1]) penalty[i] = 1e4;
     const auto expensive_edges = [&] {
         std::int64_t count = 0;
         for (std::size_t i = 0; i < band.facets.size(); ++i)
-            for (const std::int32_t n : surface_.neighbours(band.facets[i]))
+            for (const Facet n : surface_.neighbours(band.facets[i]))
                 count += penalty[i] > 1 && side[n] != side[band.facets[i]];
         return count;
     };
@@ -166,7 +166,7 @@ TEST_P(Contours, PenaltyPushesTheContourAway) {
     ASSERT_TRUE(minimum_cut_labels(surface_, band, penalty, side, budget));
     EXPECT_LT(budget, std::numeric_limits<std::int64_t>::max());
     std::int64_t none = 3;
-    const std::vector<Side> labels = side;
+    const Array<Facet, Side> labels = side;
     EXPECT_FALSE(minimum_cut_labels(surface_, band, penalty, side, none));
     EXPECT_LE(none, 0);
     EXPECT_EQ(side, labels);
@@ -198,8 +198,8 @@ TEST(Band, CrossedEdgesRunUpwards) {
     const Plane plane(Vec3(0.1, 0, 0), Vec3(1, 2, 3).normalized());
     const std::vector<SurfaceEdge> edges = crossed_edges(sphere, make_band(sphere, plane));
     std::int64_t crossing = 0;
-    for (std::int32_t f = 0; f < sphere.facet_count(); ++f) {
-        const Triangle t = sphere.vertices(f);
+    for (const Facet f : sphere.facets()) {
+        const auto t = sphere.corners(f);
         for (int i = 0; i < 3; ++i)
             crossing += plane.distance(sphere.point(t[i])) < 0 && plane.distance(sphere.point(t[(i + 1) % 3])) >= 0;
     }
@@ -211,14 +211,16 @@ TEST(Band, CrossedEdgesRunUpwards) {
 }
 
 TEST(Contour, PinchedVertexIsNamed) {
-    const std::vector<SurfaceEdge> figure_eight = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}};
-    EXPECT_EQ(trace_loops(test::to_surface(test::icosphere(1)), figure_eight).pinched, std::vector<std::int32_t>{0});
+    std::vector<SurfaceEdge> figure_eight;
+    for (const auto& [from, to] : {std::pair{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}})
+        figure_eight.push_back({Vertex(from), Vertex(to)});
+    EXPECT_EQ(trace_loops(test::to_surface(test::icosphere(1)), figure_eight).pinched, std::vector{Vertex(0)});
 }
 
 TEST(Contour, LoopsOfAHollowBodyAreTwo) {
     const Surface body = test::to_surface(test::nested_boxes(2, 8));
     const Band band = make_band(body, Plane(Vec3(0, 0, 0.03), Vec3::UnitZ()));
-    std::vector<Side> side = band.majority;
+    Array<Facet, Side> side = band.majority;
     clean_labels(body, band, side, nullptr);
     EXPECT_EQ(trace_loops(body, contour_edges(body, band, side)).loops.size(), 2u);
 }
@@ -227,17 +229,17 @@ TEST(Contour, IslandIsAbsorbedButAWholeShellIsNot) {
     const Surface body = test::to_surface(test::join(test::box(Vec3(0, 0, 0), Vec3(1, 1, 1), 10),
                                                      test::box(Vec3(2, 0, 0.45), Vec3(2.05, 0.05, 0.49), 1)));
     const Band band = make_band(body, Plane(Vec3(0, 0, 0.52), Vec3::UnitZ()));
-    std::vector<Side> side = band.majority, clean = side;
+    Array<Facet, Side> side = band.majority, clean = side;
     clean_labels(body, band, clean, nullptr);
-    std::vector<Side> spotted = clean;
-    std::int32_t island = -1;
-    for (const std::int32_t f : band.facets) {
+    Array<Facet, Side> spotted = clean;
+    Facet island = Facet::none();
+    for (const Facet f : band.facets) {
         const auto across = body.neighbours(f);
-        if (std::all_of(across.begin(), across.end(), [&](std::int32_t n) { return clean[n] == clean[f]; }) &&
-            f < 12 * 100)
+        if (std::all_of(across.begin(), across.end(), [&](Facet n) { return clean[n] == clean[f]; }) &&
+            f.value() < 12 * 100)
             island = f;
     }
-    ASSERT_GE(island, 0);
+    ASSERT_TRUE(island.is_valid());
     spotted[island] = other(spotted[island]);
     clean_labels(body, band, spotted, nullptr);
     EXPECT_TRUE(spotted == clean);

@@ -177,17 +177,17 @@ TEST_P(SplitShape, StaysClosedWithItsVolume) {
 TEST_P(SplitShape, EveryCrossedEdgeHasOneNewVertexOnThePlane) {
     for_random_planes([&](const PlaneSplit& split, int axis, double height) {
         const auto old_count = static_cast<std::size_t>(surface_.vertex_count());
-        std::set<std::array<std::int32_t, 2>> crossed, divided;  // from below to above
-        for (std::int32_t f = 0; f < surface_.facet_count(); ++f)
-            for (const std::int32_t h : surface_.half_edges(f)) {
-                const std::int32_t from = surface_.from_vertex(h), to = surface_.to_vertex(h);
+        std::set<SurfaceEdge> crossed, divided;  // from below to above
+        for (const Facet f : surface_.facets())
+            for (const HalfEdge h : surface_.half_edges(f)) {
+                const Vertex from = surface_.from_vertex(h), to = surface_.to_vertex(h);
                 if (surface_.point(from)[axis] < height && surface_.point(to)[axis] > height)
                     crossed.insert({from, to});
             }
         ASSERT_EQ(split.arrays.vertices.size(), old_count + split.edges.size());
         for (std::size_t i = 0; i < split.edges.size(); ++i) {
             const SplitEdge& edge = split.edges[i];
-            divided.insert({edge.below, edge.above});
+            divided.insert({Vertex(edge.below), Vertex(edge.above)});
             EXPECT_EQ(edge.vertex, static_cast<std::int32_t>(old_count + i));
             EXPECT_EQ(split.arrays.vertices[edge.vertex][axis], height);
             EXPECT_EQ(split.arrays.vertex_key[edge.vertex], make_key(5, static_cast<std::int32_t>(i)));
@@ -195,7 +195,7 @@ TEST_P(SplitShape, EveryCrossedEdgeHasOneNewVertexOnThePlane) {
         EXPECT_EQ(divided, crossed);
         EXPECT_EQ(divided.size(), split.edges.size());
         for (std::size_t v = 0; v < old_count; ++v) {
-            EXPECT_EQ(split.arrays.vertices[v], surface_.point(static_cast<std::int32_t>(v)));
+            EXPECT_EQ(split.arrays.vertices[v], surface_.point(Vertex(v)));
             EXPECT_EQ(key_node(split.arrays.vertex_key[v]), 0);
         }
     });
@@ -204,18 +204,18 @@ TEST_P(SplitShape, EveryCrossedEdgeHasOneNewVertexOnThePlane) {
 TEST_P(SplitShape, PiecesAreTheirFacetsAndLieOnTheirSide) {
     for_random_planes([&](const PlaneSplit& split, int axis, double height) {
         const SurfaceArrays& arrays = split.arrays;
-        std::vector<std::vector<Corners>> pieces(surface_.facet_count());
+        Array<Facet, std::vector<Corners>> pieces(surface_.facet_count());
         EXPECT_TRUE(std::is_sorted(split.parent.begin(), split.parent.end()));
         for (std::size_t f = 0; f < arrays.facets.size(); ++f) {
             const Corners corners = corners_of(arrays.facets[f], arrays.vertices);
-            pieces.at(split.parent[f]).push_back(corners);
+            pieces.at(split.parent[f].value()).push_back(corners);
             EXPECT_EQ(arrays.facet_key[f], surface_.facet_key(split.parent[f]));
             EXPECT_EQ(arrays.patch[f], surface_.patch(split.parent[f]));
             for (const Vec3& p : corners)
                 EXPECT_TRUE(split.side[f] == Side::below ? p[axis] <= height : p[axis] >= height);
         }
-        for (std::int32_t f = 0; f < surface_.facet_count(); ++f) {
-            const Triangle t = surface_.vertices(f);
+        for (const Facet f : surface_.facets()) {
+            const auto t = surface_.corners(f);
             EXPECT_TRUE(covers({surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])}, pieces[f]));
         }
     });
@@ -224,7 +224,7 @@ TEST_P(SplitShape, PiecesAreTheirFacetsAndLieOnTheirSide) {
 TEST_P(SplitShape, PlaneThroughAVertexIsRefused) {
     for (int axis = 0; axis < 3; ++axis)
         for (std::int32_t v = 0; v < surface_.vertex_count(); v += 7)
-            EXPECT_FALSE(split_at_plane(surface_, axis, surface_.point(v)[axis], 1).has_value());
+            EXPECT_FALSE(split_at_plane(surface_, axis, surface_.point(Vertex(v))[axis], 1).has_value());
 }
 
 // The heights between which the load is as wanted, and `margin` beyond: a plane stays clear of the vertex that ends its

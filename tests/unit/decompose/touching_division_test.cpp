@@ -99,7 +99,7 @@ class ContourWatch : public CutListener {
     explicit ContourWatch(std::set<std::array<double, 3>> places) : places_(std::move(places)) {}
     void on_cut(const Surface& parent, const Cut& cut) override {
         for (const auto& loop : cut.loops)
-            for (const std::int32_t v : loop) {
+            for (const Vertex v : loop) {
                 const Vec3& p = parent.point(v);
                 passed_ += places_.contains({p.x(), p.y(), p.z()});
             }

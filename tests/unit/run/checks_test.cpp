@@ -82,11 +82,11 @@ std::vector<Misuse> misuses() {
     const Surface surface = to_surface(box());
     const Band band = make_band(surface, Plane({0.5, 0.5, 0.5}, Vec3::UnitZ()));
     const std::vector<std::int32_t> no_hits(8, 0);
-    const std::vector<Side> labels(12), too_few(11);
+    const Array<Facet, Side> labels(12), too_few(11);
     return {
-        {"surface.h:[0-9]+: .*has_vertex", [=] { surface.point(8); }},
-        {"surface.h:[0-9]+: .*has_facet", [=] { surface.half_edges(-1); }},
-        {"surface.h:[0-9]+: .*half_edge < 3 [*] facet_count", [=] { surface.next(36); }},
+        {"surface.h:[0-9]+: .*has_vertex", [=] { surface.point(Vertex(8)); }},
+        {"surface.h:[0-9]+: .*has_facet", [=] { surface.half_edges(Facet::none()); }},
+        {"surface.h:[0-9]+: .*has_half_edge", [=] { surface.next(HalfEdge(36)); }},
         {"surface.cpp:[0-9]+: .*is_well_formed",
          [] { Surface::build(changed_box([](SurfaceArrays& box) { box.patch.pop_back(); })); }},
         {"surface.cpp:[0-9]+: .*is_well_formed",
@@ -110,7 +110,7 @@ std::vector<Misuse> misuses() {
         {"split.cpp:[0-9]+: .*fit", [=] { split(surface, too_few, {}, 1); }},
         {"interface.cpp:[0-9]+: .*is_closed_path",
          [=] {
-             build_interface(surface, band, labels, {{0, 7, 1}}, no_hits, {});
+             build_interface(surface, band, labels, {{Vertex(0), Vertex(7), Vertex(1)}}, no_hits, {});
          }},
         {"planar_triangulation.cpp:[0-9]+: .*has_closed_loops",
          [] {

@@ -57,18 +57,23 @@ TEST_P(SurfaceLaws, KeepsNumbersCoordinatesKeysAndPatches) {
 }
 
 TEST_P(SurfaceLaws, HalfEdgesFormTrianglesAndPairs) {
-    std::vector<int> seen(3 * soup_.facets.size(), 0);
-    for (std::int32_t f = 0; f < surface_.facet_count(); ++f) {
-        EXPECT_EQ(surface_.vertices(f), soup_.facets[f]);
+    Array<HalfEdge, int> seen(3 * soup_.facets.size(), 0);
+    for (const Facet f : surface_.facets()) {
+        EXPECT_EQ(surface_.triangle(f), soup_.facets[f.value()]);
+        const auto corners = surface_.corners(f);
         const auto h = surface_.half_edges(f);
         for (int i = 0; i < 3; ++i) {
-            ASSERT_LT(static_cast<std::size_t>(h[i]), seen.size());
+            EXPECT_EQ(corners[i], Vertex(soup_.facets[f.value()][i]));
+            ASSERT_LT(static_cast<std::size_t>(h[i].value()), seen.size());
             ++seen[h[i]];
-            EXPECT_EQ(surface_.from_vertex(h[i]), soup_.facets[f][i]);
-            EXPECT_EQ(surface_.to_vertex(h[i]), soup_.facets[f][(i + 1) % 3]);
+            EXPECT_EQ(surface_.from_vertex(h[i]), corners[i]);
+            EXPECT_EQ(surface_.to_vertex(h[i]), corners[(i + 1) % 3]);
             EXPECT_EQ(surface_.next(h[i]), h[(i + 1) % 3]);
             EXPECT_EQ(surface_.facet_of(h[i]), f);
-            const std::int32_t other = Surface::opposite(h[i]);
+            const HalfEdge other = Surface::opposite(h[i]);
+            EXPECT_NE(other, h[i]);
+            EXPECT_EQ(Surface::opposite(other), h[i]);
+            EXPECT_EQ(Surface::edge_of(other), Surface::edge_of(h[i]));
             EXPECT_EQ(surface_.from_vertex(other), surface_.to_vertex(h[i]));
             EXPECT_EQ(surface_.to_vertex(other), surface_.from_vertex(h[i]));
             EXPECT_EQ(surface_.neighbours(f)[i], surface_.facet_of(other));
@@ -78,20 +83,52 @@ TEST_P(SurfaceLaws, HalfEdgesFormTrianglesAndPairs) {
 }
 
 TEST_P(SurfaceLaws, RotationVisitsEveryFacetOfAVertexOnce) {
-    std::vector<std::set<std::int32_t>> expected(soup_.vertices.size());
-    for (std::size_t f = 0; f < soup_.facets.size(); ++f)
-        for (std::int32_t v : soup_.facets[f]) expected[v].insert(static_cast<std::int32_t>(f));
-    for (std::int32_t v = 0; v < surface_.vertex_count(); ++v) {
-        std::set<std::int32_t> visited;
-        std::int32_t before = -1;
-        for (const auto h : surface_.around(v)) {
-            EXPECT_EQ(surface_.from_vertex(h.idx()), v);
-            ASSERT_TRUE(visited.insert(surface_.facet_of(h.idx())).second) << "vertex " << v;
-            EXPECT_TRUE(before < 0 || h.idx() == surface_.next(Surface::opposite(before)));
-            before = h.idx();
+    Array<Vertex, std::set<Facet>> expected(soup_.vertices.size());
+    for (const Facet f : surface_.facets())
+        for (const Vertex v : surface_.corners(f)) expected[v].insert(f);
+    for (const Vertex v : surface_.vertices()) {
+        std::set<Facet> visited;
+        HalfEdge first = HalfEdge::none(), before = HalfEdge::none();
+        for (const HalfEdge h : surface_.around(v)) {
+            EXPECT_EQ(surface_.from_vertex(h), v);
+            ASSERT_TRUE(visited.insert(surface_.facet_of(h)).second) << "vertex " << v.value();
+            EXPECT_TRUE(!before.is_valid() || h == surface_.next(Surface::opposite(before)));
+            if (!first.is_valid()) first = h;
+            before = h;
         }
+        EXPECT_EQ(first, surface_.next(Surface::opposite(before))) << "vertex " << v.value();
+        EXPECT_EQ(surface_.facet_of(first), *expected[v].rbegin()) << "starts in the last facet";
         EXPECT_EQ(visited, expected[v]);
     }
+}
+
+TEST_P(SurfaceLaws, FindsTheHalfEdgesBetweenVertices) {
+    for (const Vertex v : surface_.vertices()) {
+        std::set<Vertex> ends;
+        for (const HalfEdge h : surface_.around(v)) {
+            ends.insert(surface_.to_vertex(h));
+            EXPECT_EQ(surface_.find_half_edge(v, surface_.to_vertex(h)), h);
+        }
+        for (const Vertex w : surface_.vertices())
+            EXPECT_EQ(surface_.find_half_edge(v, w).is_valid(), ends.contains(w)) << v.value() << " " << w.value();
+        EXPECT_EQ(surface_.find_half_edge(v, v), HalfEdge::none());
+    }
+}
+
+TEST_P(SurfaceLaws, RangesHaveEveryThingOnce) {
+    const auto expect_all = [](const auto& range, std::size_t count) {
+        std::int32_t next = 0;
+        for (const auto id : range) EXPECT_EQ(id.value(), next++);
+        EXPECT_EQ(next, static_cast<std::int32_t>(count));
+    };
+    expect_all(surface_.vertices(), soup_.vertices.size());
+    expect_all(surface_.facets(), soup_.facets.size());
+    expect_all(surface_.edges(), 3 * soup_.facets.size() / 2);
+    expect_all(Surface().vertices(), 0);
+    for (const Edge e : surface_.edges()) EXPECT_EQ(Surface::edge_of(Surface::first_half_edge(e)), e);
+    EXPECT_FALSE(surface_.has_vertex(Vertex::none()));
+    EXPECT_TRUE(surface_.has_vertex(Vertex(soup_.vertices.size() - 1)));
+    EXPECT_FALSE(surface_.has_vertex(Vertex(soup_.vertices.size())));
 }
 
 TEST_P(SurfaceLaws, DoesNotChangeOnTheWayThroughBytes) {
@@ -140,7 +177,7 @@ TEST(FindManifoldDefects, AllowsVerticesWithoutFacets) {
     Soup soup = test::box();
     soup.vertices.emplace_back(5, 5, 5);
     EXPECT_TRUE(find_manifold_defects(soup.vertices.size(), soup.facets).empty());
-    EXPECT_TRUE(Surface(to_arrays(soup)).mesh().is_isolated(HalfEdgeMesh::VertexHandle(8)));
+    EXPECT_EQ(Surface(to_arrays(soup)).point(Vertex(8)), Vec3(5, 5, 5));
 }
 
 TEST(SurfaceConstructor, NamesTheFirstDefect) {
@@ -177,9 +214,9 @@ TEST(Surface, KnownPartnersGiveTheSameHalfEdges) {
     for (const Soup& soup : {test::tetrahedron(), test::box(), test::icosphere(2), test::torus(3, 1, 12, 9)}) {
         const SurfaceArrays arrays = test::to_arrays(soup);
         const Surface whole{SurfaceArrays(arrays)};
-        std::vector<std::int32_t> corner_of(3 * arrays.facets.size());
-        for (std::int32_t f = 0; f < whole.facet_count(); ++f)
-            for (int i = 0; i < 3; ++i) corner_of[whole.half_edges(f)[i]] = 3 * f + i;
+        Array<HalfEdge, std::int32_t> corner_of(3 * arrays.facets.size());
+        for (const Facet f : whole.facets())
+            for (int i = 0; i < 3; ++i) corner_of[whole.half_edges(f)[i]] = 3 * f.value() + i;
         for (int trial = 0; trial < 10; ++trial) {
             SCOPED_TRACE(testing::Message() << soup.patch_names[0] << ", trial " << trial << " of seed 7");
             std::vector<std::int32_t> partner(corner_of.size(), -1);
@@ -191,9 +228,9 @@ TEST(Surface, KnownPartnersGiveTheSameHalfEdges) {
             auto built = Surface::build(SurfaceArrays(arrays), partner);
             ASSERT_TRUE(std::holds_alternative<Surface>(built));
             const Surface& surface = std::get<Surface>(built);
-            for (std::int32_t f = 0; f < whole.facet_count(); ++f) {
+            for (const Facet f : whole.facets()) {
                 EXPECT_EQ(surface.half_edges(f), whole.half_edges(f));
-                EXPECT_EQ(surface.vertices(f), whole.vertices(f));
+                EXPECT_EQ(surface.corners(f), whole.corners(f));
                 EXPECT_EQ(surface.neighbours(f), whole.neighbours(f));
             }
         }
@@ -204,12 +241,12 @@ TEST(Surface, OpenCornersWithoutPartnerAreDefects) {
     SurfaceArrays arrays = test::to_arrays(test::icosphere(1));
     const Surface whole{SurfaceArrays(arrays)};
     std::vector<std::int32_t> partner(3 * arrays.facets.size());
-    for (std::int32_t f = 0; f < whole.facet_count(); ++f)
+    for (const Facet f : whole.facets())
         for (int i = 0; i < 3; ++i) {
-            const std::int32_t g = whole.neighbours(f)[i];
+            const Facet g = whole.neighbours(f)[i];
             const auto others = whole.neighbours(g);
-            partner[3 * f + i] =
-                static_cast<std::int32_t>(3 * g + (std::find(others.begin(), others.end(), f) - others.begin()));
+            const auto place = std::find(others.begin(), others.end(), f) - others.begin();
+            partner[3 * f.value() + i] = static_cast<std::int32_t>(3 * g.value() + place);
         }
     arrays.facets.pop_back();  // its neighbours lose theirs
     arrays.facet_key.pop_back();

@@ -50,16 +50,16 @@ std::array<int, 3> voxel_behind(const SurfaceArrays& arrays, const Triangle& t) 
 }
 
 void expect_own_vertices(const Surface& surface) {
-    std::vector<int> corners(surface.vertex_count(), 0);
-    for (std::int32_t f = 0; f < surface.facet_count(); ++f)
-        for (const std::int32_t v : surface.vertices(f)) ++corners[v];
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
+    Array<Vertex, int> corners(surface.vertex_count(), 0);
+    for (const Facet f : surface.facets())
+        for (const Vertex v : surface.corners(f)) ++corners[v];
+    for (const Vertex v : surface.vertices()) {
         int around = 0;
-        for (const auto h : surface.around(v)) {
-            ASSERT_EQ(surface.from_vertex(h.idx()), v);
+        for (const HalfEdge h : surface.around(v)) {
+            ASSERT_EQ(surface.from_vertex(h), v);
             ++around;
         }
-        EXPECT_EQ(around, corners[v]) << "vertex " << v;
+        EXPECT_EQ(around, corners[v]) << "vertex " << v.value();
     }
 }
 
@@ -116,7 +116,7 @@ TEST(SeparateTouching, ReturnsWhatTouchesNothing) {
         EXPECT_FALSE(separated.touches());
         EXPECT_TRUE(same_arrays(separated.arrays, arrays));
         const Surface surface(arrays), same = to_surface(separated);
-        for (std::int32_t f = 0; f < surface.facet_count(); ++f) EXPECT_EQ(same.half_edges(f), surface.half_edges(f));
+        for (const Facet f : surface.facets()) EXPECT_EQ(same.half_edges(f), surface.half_edges(f));
         EXPECT_TRUE(copied_vertices(surface).empty());
         EXPECT_TRUE(same_arrays(joined_by_key(arrays), arrays));
     }
@@ -188,7 +188,7 @@ TEST(SeparateTouching, LeavesADoubleEdge) {
     EXPECT_TRUE(same_arrays(separated.arrays, arrays));
     EXPECT_THROW(Surface{SurfaceArrays(arrays)}, Error);
     const Surface surface = to_surface(separated);
-    for (std::int32_t v = 0; v < surface.vertex_count(); ++v)
+    for (const Vertex v : surface.vertices())
         EXPECT_EQ(has_touching_edge(surface, v),
                   surface.point(v) == Vec3(1, 1, 1) || surface.point(v) == Vec3(1, 1, 2));
 }

@@ -130,10 +130,10 @@ std::vector<Vertex> InterfaceJudge::intersections(const CancellationCheck& check
             add_contour_corners(s, vertices);
         });
     }
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    for (std::int32_t i = 0; i < count_of(boxes_); ++i) {
         check_cancelled.at(i);
         grid_.for_each_overlap(grown(boxes_[i], band_.rounding), [&](std::int32_t j) {
-            if (static_cast<std::size_t>(j) <= i) return;
+            if (j <= i) return;
             const Triangle &s = interface_.triangles[i], &t = interface_.triangles[j];
             if (!triangles_intersect(corners(s), ids(s), corners(t), ids(t))) return;
             keep(corners(s), corners(t));

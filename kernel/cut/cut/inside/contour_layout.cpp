@@ -94,7 +94,7 @@ ContourInPlane project_contour(const Surface& surface, const Plane& plane,
                                const std::vector<std::vector<Vertex>>& loops) {
     ContourInPlane contour;
     for (const auto& loop : loops) {
-        const auto first = count_of(contour.points), n = count_of(loop);
+        const std::int32_t first = count_of(contour.points), n = count_of(loop);
         for (std::int32_t i = 0; i < n; ++i) {
             contour.points.push_back(plane.project(surface.point(loop[i])));
             contour.edges.push_back({first + (i + 1) % n, first + i});

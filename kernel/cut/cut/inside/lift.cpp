@@ -71,10 +71,10 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const
     std::vector<SparseEntry> entries;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(interior);
     for (std::int32_t i = 0; i < interior; ++i) {
-        const std::size_t v = contour_count + static_cast<std::size_t>(i);
+        const std::size_t v = contour_count + i;
         double sum = 0;
         for (std::int32_t k = graph.first[v]; k < graph.first[v + 1]; ++k) {
-            const auto n = static_cast<std::size_t>(graph.neighbour[k]);
+            const std::size_t n = graph.neighbour[k];
             sum += graph.weight[k];
             if (n < contour_count)
                 right[i] += graph.weight[k] * height[n];
@@ -84,7 +84,7 @@ void solve_harmonic(const WeightedGraph& graph, std::size_t contour_count, const
         entries.push_back({i, i, sum});
     }
     const Eigen::VectorXd solution = SparseFactors(interior, entries, check_cancelled).solve(right);
-    for (std::int32_t i = 0; i < interior; ++i) height[contour_count + static_cast<std::size_t>(i)] = solution[i];
+    for (std::int32_t i = 0; i < interior; ++i) height[contour_count + i] = solution[i];
 }
 
 // Narrows the ranges of interior points; contour points lie on the surface and stay.
@@ -95,7 +95,7 @@ void add_obstacles(const std::vector<Vec2>& places, std::size_t contour_count, c
     PlanarGrid grid(std::move(boxes));
     for (const Obstacle& o : obstacles)
         grid.for_each_overlap(grown(PlanarBox(o.position), reach * o.size), [&](std::int32_t i) {
-            const std::size_t v = contour_count + static_cast<std::size_t>(i);
+            const std::size_t v = contour_count + i;
             const double lead = o.clearance * o.size - fall_off * (places[v] - o.position).norm();
             if (o.side == Side::below)
                 bounds[v].low = std::max(bounds[v].low, o.height + lead);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/ids.h"
 #include "base/core/types.h"
 
 namespace kerf {
@@ -72,8 +73,8 @@ class PlanarGrid {
         for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
         items_.resize(first_.back());
         std::vector<std::int32_t> end(first_.begin(), first_.end() - 1);
-        for (std::size_t i = 0; i < boxes_.size(); ++i)
-            for_each_cell(boxes_[i], [&](std::size_t cell) { items_[end[cell]++] = static_cast<std::int32_t>(i); });
+        for (std::int32_t i = 0; i < count_of(boxes_); ++i)
+            for_each_cell(boxes_[i], [&](std::size_t cell) { items_[end[cell]++] = i; });
     }
 
     std::vector<PlanarBox> boxes_;

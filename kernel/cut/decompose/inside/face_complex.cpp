@@ -27,10 +27,9 @@ struct KeyedItem {
 template <class KeysOf>
 std::vector<KeyedItem> sorted_items(const std::vector<Leaf>& leaves, KeysOf keys_of) {
     std::vector<KeyedItem> items;
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
+    for (std::int32_t i = 0; i < count_of(leaves); ++i) {
         const std::vector<Key>& keys = keys_of(leaves[i].surface);
-        for (std::size_t j = 0; j < keys.size(); ++j)
-            items.push_back({keys[j], static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+        for (std::int32_t j = 0; j < count_of(keys); ++j) items.push_back({keys[j], i, j});
     }
     std::sort(items.begin(), items.end());
     return items;
@@ -79,7 +78,7 @@ void FaceComplex::index_faces() {
     faces_of_.clear();
     at_vertex_.clear();
     last_at_vertex_.assign(points_.size(), -1);
-    for (std::size_t f = 0; f < faces_.size(); ++f) list_face(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(faces_); ++f) list_face(f);
 }
 
 // Adds a face to the lists of its parts and vertices; it must be the last face.

@@ -42,8 +42,7 @@ std::uint64_t place_on_curve(const Vec3& point, const Box& box) {
     std::array<std::uint32_t, 3> cell{};
     for (int i = 0; i < 3; ++i) {
         const double share = box.sizes()[i] > 0 ? (point[i] - box.min()[i]) / box.sizes()[i] : 0;
-        cell[static_cast<std::size_t>(i)] =
-            static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * ((1U << bits) - 1));
+        cell[i] = static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * ((1U << bits) - 1));
     }
     for (int bit = bits; bit-- > 0;)
         for (const std::uint32_t c : cell) place = 2 * place + (c >> bit & 1U);
@@ -51,19 +50,19 @@ std::uint64_t place_on_curve(const Vec3& point, const Box& box) {
 }
 
 std::vector<RegionIndex> spatial_order_of(const Complex& complex) {
-    std::vector<Box> boxes(static_cast<std::size_t>(complex.region_count()));
+    std::vector<Box> boxes(complex.region_count());
     Box whole;
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
         const FacetSides sides = complex.sides(f);
         for (const std::int32_t v : complex.vertices(f)) {
             for (const std::int32_t region : {sides.back, sides.front})
-                if (region >= 0) boxes[static_cast<std::size_t>(region)].extend(complex.point(v));
+                if (region >= 0) boxes[region].extend(complex.point(v));
             whole.extend(complex.point(v));
         }
     }
     std::vector<std::pair<std::uint64_t, RegionIndex>> places;
     for (const RegionIndex region : ids<RegionIndex>(boxes.size()))
-        places.emplace_back(place_on_curve(boxes[static_cast<std::size_t>(region.value())].center(), whole), region);
+        places.emplace_back(place_on_curve(boxes[region.value()].center(), whole), region);
     std::sort(places.begin(), places.end());
     std::vector<RegionIndex> order;
     for (const auto& [place, region] : places) order.push_back(region);
@@ -81,7 +80,7 @@ std::vector<std::int32_t> share_out(std::span<const RegionMeasures> measures, st
         }
     };
     std::priority_queue<Share> queue;
-    for (std::size_t r = 0; r < measures.size(); ++r) queue.push({measures[r].load, static_cast<std::int32_t>(r)});
+    for (std::int32_t r = 0; r < count_of(measures); ++r) queue.push({measures[r].load, r});
     for (auto left = parts - count_of(measures); left > 0; --left) {
         const std::int32_t region = queue.top().region;
         queue.pop();
@@ -101,7 +100,7 @@ std::vector<RegionMeasures> measure_regions(const Complex& complex, const Decomp
         throw Error(ErrorCode::input,
                     fmt::format("The region '{}' has a volume of {:.6g}. Its facets must enclose some, and be turned "
                                 "out of it.",
-                                complex.region_names()[static_cast<std::size_t>(region.value())], all.back().volume));
+                                complex.region_names()[region.value()], all.back().volume));
     }
     return all;
 }
@@ -110,8 +109,7 @@ RegionTree::RegionTree(const Complex& complex, std::span<const RegionMeasures> m
     : order_(spatial_order_of(complex)), first_leaf_(1, 0) {
     KERF_CHECK(measures.size() == order_.size() && parts >= complex.region_count());
     const std::vector<std::int32_t> leaves = share_out(measures, parts);
-    for (const RegionIndex region : order_)
-        first_leaf_.push_back(first_leaf_.back() + leaves[static_cast<std::size_t>(region.value())]);
+    for (const RegionIndex region : order_) first_leaf_.push_back(first_leaf_.back() + leaves[region.value()]);
 }
 
 std::array<RegionTree::Node, 2> RegionTree::halves(const Node& node) const {
@@ -127,9 +125,8 @@ TreeNode RegionTree::describe(const Node& node, std::span<const RegionMeasures> 
     told.first_leaf = first_leaf(node);
     told.leaves = leaves(node);
     told.regions = node.regions;
-    for (std::int32_t i = node.first; i < node.first + node.regions; ++i) {
-        const auto place = static_cast<std::size_t>(i);
-        const RegionMeasures& region = measures[static_cast<std::size_t>(order_[place].value())];
+    for (std::int32_t place = node.first; place < node.first + node.regions; ++place) {
+        const RegionMeasures& region = measures[order_[place].value()];
         told.vertices += region.vertices;
         told.facets += region.facets;
         told.mass.volume += region.volume;

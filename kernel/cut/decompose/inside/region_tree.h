@@ -38,13 +38,9 @@ class RegionTree {
     };
     Node root() const { return {1, 0, count_of(order_)}; }
     std::array<Node, 2> halves(const Node& node) const;
-    RegionIndex region(const Node& root_of_region) const {
-        return order_[static_cast<std::size_t>(root_of_region.first)];
-    }
-    std::int32_t first_leaf(const Node& node) const { return first_leaf_[static_cast<std::size_t>(node.first)]; }
-    std::int32_t leaves(const Node& node) const {
-        return first_leaf_[static_cast<std::size_t>(node.first + node.regions)] - first_leaf(node);
-    }
+    RegionIndex region(const Node& root_of_region) const { return order_[root_of_region.first]; }
+    std::int32_t first_leaf(const Node& node) const { return first_leaf_[node.first]; }
+    std::int32_t leaves(const Node& node) const { return first_leaf_[node.first + node.regions] - first_leaf(node); }
     /// Returns the node in the form of the tree, with sums over its regions.
     TreeNode describe(const Node& node, std::span<const RegionMeasures> measures) const;
 
