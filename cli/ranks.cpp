@@ -22,7 +22,7 @@ namespace kerf {
 namespace {
 
 // The number of processors; all of the machine where the system tells of none.
-int count_of(const std::vector<int>& processors) {
+int count_processors(const std::vector<int>& processors) {
     return processors.empty() ? machine_processors() : static_cast<int>(processors.size());
 }
 
@@ -47,8 +47,8 @@ Ranks find_processors(MpiRanks& ranks) {
     joined.launched = true;
     const HostProcessors host = host_processors(ranks);
     joined.cores_of_rank = host.share();
-    joined.unbound_share = count_of(allowed_processors(::getppid())) / static_cast<int>(host.allowed.size());
-    joined.bound_to = count_of(host.allowed[host.own]);
+    joined.unbound_share = count_processors(allowed_processors(::getppid())) / static_cast<int>(host.allowed.size());
+    joined.bound_to = count_processors(host.allowed[host.own]);
     for (const int processors : all_gather(ranks, joined.bound_to))
         joined.bound_to = std::min(joined.bound_to, processors);
     joined.mpi = &ranks;
@@ -77,7 +77,7 @@ Ranks join_ranks([[maybe_unused]] MpiUse use) {
 #ifdef KERF_WITH_MPI
     if (use == MpiUse::always || is_launched()) return join_mpi_ranks();
 #endif
-    const int cores = count_of(allowed_processors());
+    const int cores = count_processors(allowed_processors());
     return {std::make_unique<SingleRank>(), nullptr, cores, cores, cores};
 }
 

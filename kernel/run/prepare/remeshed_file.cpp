@@ -22,7 +22,6 @@ SizedInput remesh_always(Input input, RunRequest options, StageListener* listene
     options.remeshing = Remeshing::always;
     options.deviation = options.deviation.of(input.diagonal);
     options.sizes.resolve_lengths(input.diagonal);
-    options.sizes.check();
     return remesh_and_size(std::move(input), options, listener);
 }
 

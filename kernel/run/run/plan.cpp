@@ -149,7 +149,6 @@ PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, S
     request.input_options.repairs.weld_tolerance = input.ladder.preparation(RepairKind::merge).amount;
     request.deviation = request.deviation.of(input.diagonal);
     request.sizes.resolve_lengths(input.diagonal);
-    request.sizes.check();
     check_budget_before_remeshing(input, plan.choices, ranks);
     const SurfaceArrays behind = surface_behind(input, request);
     SizedInput sized = remesh_and_size(std::move(input), request, listener);

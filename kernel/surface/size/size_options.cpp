@@ -214,6 +214,7 @@ void SizeOptions::resolve_lengths(double diagonal) {
         if (numbers.behind.empty()) continue;
         text = halves.before + "=" + resolved(numbers.before) + ":" + resolved(numbers.behind);
     }
+    check();
     max_volume = constant_max_volume();
 }
 

@@ -51,8 +51,8 @@ struct SizeOptions {
 
     /// Throws Error(usage) naming option, value and range or form.
     void check() const;
-    /// Replaces percentages by lengths, and sets `max_volume` where it follows from `size`. Throws Error(usage) for a
-    /// chord error longer than the diagonal, which no chord has.
+    /// Replaces percentages by lengths, and sets `max_volume` where it follows from `size`. Throws Error(usage) as
+    /// check(), and for a chord error longer than the diagonal, which no chord has.
     void resolve_lengths(double diagonal);
     /// Returns `max_volume`, or the volume that follows from `size`, a resolved length; 0: none.
     double constant_max_volume() const;
