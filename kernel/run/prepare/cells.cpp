@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/core/regular_tet.h"
 #include "fill/volume/tet_forecast.h"
@@ -106,7 +107,7 @@ double find_root(double small, double large, const Excess& excess) {
 
 double forecast_size(const Input& input, const RunRequest& request, SurfaceChange change) {
     const TetForecast forecast(input, request);
-    const auto cells = static_cast<double>(request.sizes.cells);
+    const double cells = request.sizes.cells;
     const double small = std::max(regular_tet_edge(input.volume / cells), least_share * input.diagonal);
     return find_root(small, std::max(input.diagonal, 2 * small),
                      [&](double size) { return std::log(forecast.tets_after(change, size) / cells); });
@@ -121,11 +122,11 @@ double next_size(const std::vector<FoundSize>& tried) {
         slope = std::log(last.tets / before.tets) / std::log(last.size / before.size);
         slope = std::isfinite(slope) ? std::clamp(slope, steepest_slope, flattest_slope) : usual_slope;
     }
-    const double factor = std::pow(last.tets / static_cast<double>(last.cells), -1 / slope);
+    const double factor = std::pow(last.tets / last.cells, -1 / slope);
     return with_four_digits(last.size * std::clamp(factor, 1 / largest_step, largest_step));
 }
 
-double excess_of(const FoundSize& found) { return std::log(found.tets / static_cast<double>(found.cells)); }
+double excess_of(const FoundSize& found) { return std::log(found.tets / found.cells); }
 
 SizedInput size_to_cells(Input input, const RunRequest& request, StageListener* listener) {
     const double size = forecast_size(input, request, SurfaceChange::none);
@@ -153,7 +154,7 @@ SizedInput change_to_cells(const Input& input, const RunRequest& request, Surfac
         size = std::min(next_size(tried), with_four_digits(input.diagonal));
         if (size == tried.back().size) break;
     }
-    best.found->remeshings = change == SurfaceChange::remeshing ? static_cast<int>(tried.size()) : 0;
+    best.found->remeshings = change == SurfaceChange::remeshing ? count_of(tried) : 0;
     return best;
 }
 
@@ -169,7 +170,7 @@ std::string note_of(const FoundSize& found, bool is_remeshed, const SizeOptions&
     return fmt::format(
         "--cells asks for {} tetrahedra, but {}{} need about {} at least: there are as few as they allow. "
         "{}sk for --cells {} or more.",
-        short_number(static_cast<double>(found.cells)), is_remeshed ? "the shape of the surface" : "the facets",
+        short_number(found.cells), is_remeshed ? "the shape of the surface" : "the facets",
         sizes.depends_on_place() ? " and the sizes at places" : "", short_number(found.tets),
         is_remeshed ? "A" : "Use --surface remesh for larger facets, or a", enough(found.tets));
 }

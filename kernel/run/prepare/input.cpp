@@ -19,6 +19,7 @@
 
 #include "base/core/error.h"
 #include "base/core/hash.h"
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "files/io/run_manifest.h"
@@ -89,7 +90,7 @@ std::vector<double> largest_cells_of(const Soup& soup) {
     for (const RegionSeed& seed : soup.seeds) {
         const auto found = std::find(soup.region_names.begin(), soup.region_names.end(), seed.name);
         if ((!is_single && found == soup.region_names.end()) || !(seed.largest_cell > 0)) continue;
-        double& own = largest[static_cast<std::size_t>(found - soup.region_names.begin())];
+        double& own = largest[found - soup.region_names.begin()];
         own = own > 0 ? std::min(own, seed.largest_cell) : seed.largest_cell;
         is_any = true;
     }
@@ -146,12 +147,12 @@ class RefusedRows {
  public:
     RefusedRows(const char* array, ElementKind kind) : array_(array), elements_{kind, {}, {}, {}} {}
 
-    void add(std::size_t row) { elements_.ids.push_back(static_cast<std::int64_t>(row)); }
+    void add(std::int64_t row) { elements_.ids.push_back(row); }
     /// `describe`: returns the content of the row with this number, and the reason why it is wrong.
     template <class Describe>
     void throw_if_any(Describe describe) const {
         if (elements_.ids.empty()) return;
-        const auto first = static_cast<std::size_t>(elements_.ids.front());
+        const std::int64_t first = elements_.ids.front();
         const std::size_t more = elements_.ids.size() - 1;
         throw WrongRow(fmt::format("{}[{}] {}.{}", array_, first, describe(first),
                                    more > 0 ? fmt::format(" {} more rows are wrong alike.", more) : ""),
@@ -165,7 +166,7 @@ class RefusedRows {
 
 void check_sizes(const Soup& soup) {
     constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
-    if (soup.vertices.size() > most_vertices || soup.facets.size() > static_cast<std::size_t>(most_facets))
+    if (soup.vertices.size() > most_vertices || std::ssize(soup.facets) > most_facets)
         throw Error(ErrorCode::usage,
                     fmt::format("A surface has at most {} vertices and {} facets, but these are {} and "
                                 "{}. Split it.",
@@ -183,8 +184,8 @@ void check_sizes(const Soup& soup) {
 }
 
 void check_rows(const Soup& soup) {
-    const auto vertex_count = static_cast<std::int32_t>(soup.vertices.size());
-    const auto patch_count = static_cast<std::int32_t>(soup.patch_names.size());
+    const auto vertex_count = count_of(soup.vertices);
+    const auto patch_count = count_of(soup.patch_names);
     RefusedRows infinite("vertices", ElementKind::vertex), beyond("facets", ElementKind::facet),
         repeated("facets", ElementKind::facet), unnamed("patch", ElementKind::facet),
         nowhere("sides", ElementKind::facet);
@@ -196,7 +197,7 @@ void check_rows(const Soup& soup) {
         if (a == b || b == c || c == a) repeated.add(f);
         if (soup.patch[f] < 0 || soup.patch[f] >= patch_count) unnamed.add(f);
     }
-    const auto region_count = static_cast<std::int32_t>(soup.region_names.size());
+    const auto region_count = count_of(soup.region_names);
     for (std::size_t f = 0; f < soup.sides.size(); ++f)
         if (const auto [front, back] = soup.sides[f];
             std::min(front, back) < -1 || std::max(front, back) >= region_count)
@@ -237,8 +238,8 @@ void check_given(Soup& soup) {
     check_sizes(soup);
     if (soup.patch_names.empty()) {
         const auto largest = std::max_element(soup.patch.begin(), soup.patch.end());
-        const std::size_t count = largest == soup.patch.end() ? 1 : static_cast<std::size_t>(std::max(0, *largest)) + 1;
-        for (std::size_t p = 0; p < std::min(count, soup.facets.size()); ++p)
+        const std::int32_t last = largest == soup.patch.end() ? 0 : std::max(0, *largest);
+        for (std::int32_t p = 0; p <= last && p < count_of(soup.facets); ++p)
             soup.patch_names.push_back(fmt::format("patch_{}", p));
     }
     check_rows(soup);

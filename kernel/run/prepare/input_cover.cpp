@@ -45,17 +45,17 @@ class SidesOfFacets {
     }
 
     bool has_region(std::int64_t side) const {
-        const FacetSides& facet = sides_.empty() ? FacetSides{} : sides_[static_cast<std::size_t>(side / 2)];
+        const FacetSides& facet = sides_.empty() ? FacetSides{} : sides_[side / 2];
         return (side % 2 == 0 ? facet.back : facet.front) >= 0;
     }
     // Returns the side of a facet of a leaf in this region; the region may be another than that of the side.
     std::int64_t side_of(std::int32_t facet, RegionIndex region) const {
-        const bool is_in_front = !sides_.empty() && sides_[static_cast<std::size_t>(facet)].back != region.value();
+        const bool is_in_front = !sides_.empty() && sides_[facet].back != region.value();
         return 2 * std::int64_t{facet} + (is_in_front ? 1 : 0);
     }
     bool is_of(std::int32_t facet, RegionIndex region) const {
         if (sides_.empty()) return true;
-        const auto [front, back] = sides_[static_cast<std::size_t>(facet)];
+        const auto [front, back] = sides_[facet];
         return front == region.value() || back == region.value();
     }
     bool is_divided(std::int64_t facet) const {
@@ -65,9 +65,7 @@ class SidesOfFacets {
     }
     // Facets belong to ranks by ranges of their numbers.
     std::int64_t first_of(int rank, const Communicator& ranks) const { return first_of_rank(facets_, rank, ranks); }
-    std::size_t owner_of(std::int64_t side, const Communicator& ranks) const {
-        return static_cast<std::size_t>(rank_in_range(facets_, side / 2, ranks));
-    }
+    int owner_of(std::int64_t side, const Communicator& ranks) const { return rank_in_range(facets_, side / 2, ranks); }
 
  private:
     std::int64_t facets_;
@@ -93,7 +91,7 @@ void for_each_undivided(const SidesOfFacets& sides, const std::vector<Leaf>& lea
 
 // Pieces in the leaves of all ranks of the facets that belong to this one, by side.
 std::vector<Piece> exchange_pieces(Communicator& ranks, const SidesOfFacets& sides, const std::vector<Leaf>& leaves) {
-    std::vector<std::vector<Piece>> to_owner(static_cast<std::size_t>(ranks.size()));
+    std::vector<std::vector<Piece>> to_owner(ranks.size());
     for (const Leaf& leaf : leaves)
         for_each_input_facet(leaf, [&](std::int32_t facet, std::size_t f) {
             if (!sides.is_divided(facet)) return;
@@ -116,13 +114,13 @@ std::int64_t count_uncovered(const Communicator& ranks, const std::vector<Divide
     std::size_t next = 0;
     for (const DividedFacet& facet : facets) {
         const std::int64_t seen = sides.side_of(facet.facet, facet.region);
-        if (sides.owner_of(seen, ranks) != static_cast<std::size_t>(ranks.rank())) continue;
+        if (sides.owner_of(seen, ranks) != ranks.rank()) continue;
         std::array<std::vector<FacetCorners>, 2> corners;
         for (; next < pieces.size() && pieces[next].side / 2 == facet.facet; ++next)
-            corners[static_cast<std::size_t>(pieces[next].side % 2)].push_back(pieces[next].corners);
+            corners[pieces[next].side % 2].push_back(pieces[next].corners);
         const auto& [a, b, c] = facet.corners;
         for (const std::int64_t side : {seen, seen ^ 1}) {
-            const std::vector<FacetCorners>& there = corners[static_cast<std::size_t>(side % 2)];
+            const std::vector<FacetCorners>& there = corners[side % 2];
             const FacetCorners wanted = side == seen ? facet.corners : FacetCorners{a, c, b};
             uncovered += sides.has_region(side) ? !covers(wanted, there) : !there.empty();
         }
@@ -136,21 +134,18 @@ struct SumOfNumbers {
     std::array<std::uint64_t, 2> words{};
 
     void add(std::int64_t number) {
-        for (std::size_t i = 0; i < words.size(); ++i)
-            words[i] += random_bits(2 * static_cast<std::uint64_t>(number) + i);
+        for (std::size_t i = 0; i < words.size(); ++i) words[i] += random_bits(2 * number + i);
     }
 };
 
 // Returns the sum over the wanted sides of facets that belong to this rank.
 SumOfNumbers sum_of_wanted(const Communicator& ranks, const SidesOfFacets& sides) {
     const std::int64_t first = sides.first_of(ranks.rank(), ranks);
-    const auto count = static_cast<std::size_t>(sides.first_of(ranks.rank() + 1, ranks) - first);
+    const std::int64_t count = sides.first_of(ranks.rank() + 1, ranks) - first;
     SumOfNumbers wanted;
     for (const SumOfNumbers& part : values_of_ranges(count, 1 << 16, [&](const IndexRange& range) {
              SumOfNumbers sum;
-             for (std::int64_t facet = first + static_cast<std::int64_t>(range.first),
-                               last = first + static_cast<std::int64_t>(range.last);
-                  facet < last; ++facet)
+             for (std::int64_t facet = first + range.first, last = first + range.last; facet < last; ++facet)
                  for (const std::int64_t side : {2 * facet, 2 * facet + 1})
                      if (sides.has_region(side) && !sides.is_divided(facet)) sum.add(side);
              return sum;
@@ -180,16 +175,16 @@ QuickCount count_quickly(Communicator& ranks, const SidesOfFacets& sides, const 
 // Sides, of the facets that belong to this rank, that are not there as often as they should be, by eight bytes for each
 // facet of a leaf; facets in wrong regions are not there.
 std::int64_t count_not_there_once(Communicator& ranks, const SidesOfFacets& sides, const std::vector<Leaf>& leaves) {
-    std::vector<std::vector<std::int64_t>> to_owner(static_cast<std::size_t>(ranks.size()));
+    std::vector<std::vector<std::int64_t>> to_owner(ranks.size());
     for_each_undivided(sides, leaves,
                        [&](std::int64_t side) { to_owner[sides.owner_of(side, ranks)].push_back(side); });
     const std::int64_t first = 2 * sides.first_of(ranks.rank(), ranks);
-    std::vector<std::int32_t> there(static_cast<std::size_t>(2 * sides.first_of(ranks.rank() + 1, ranks) - first), 0);
+    std::vector<std::int32_t> there(2 * sides.first_of(ranks.rank() + 1, ranks) - first, 0);
     for (const std::vector<std::int64_t>& of_rank : exchange_items(ranks, std::move(to_owner)))
-        for (const std::int64_t side : of_rank) ++there[static_cast<std::size_t>(side - first)];
+        for (const std::int64_t side : of_rank) ++there[side - first];
     std::int64_t missing = 0;
     for (std::size_t i = 0; i < there.size(); ++i) {
-        const std::int64_t side = first + static_cast<std::int64_t>(i);
+        const std::int64_t side = first + i;
         missing += !sides.is_divided(side / 2) && there[i] != (sides.has_region(side) ? 1 : 0);
     }
     return missing;

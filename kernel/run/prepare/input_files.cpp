@@ -18,6 +18,7 @@
 
 #include "base/core/error.h"
 #include "base/core/hash.h"
+#include "base/core/ids.h"
 #include "base/core/unique_name.h"
 #include "files/io/file_bytes.h"
 #include "files/io/named_walls.h"
@@ -67,8 +68,8 @@ void append_soup(Soup& all, const Soup& more, const std::string& name) {
     append_polygons(all, more);
     if (!all.vertex_number.empty() || !more.vertex_number.empty())
         append_numbers(all.vertex_number, all.vertices.size(), more.vertex_number, more.vertices.size());
-    const auto first_vertex = static_cast<std::int32_t>(all.vertices.size());
-    const auto first_patch = static_cast<std::int32_t>(all.patch_names.size());
+    const auto first_vertex = count_of(all.vertices);
+    const auto first_patch = count_of(all.patch_names);
     for (const Triangle& t : more.facets)
         all.facets.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
     for (const std::int32_t patch : more.patch) all.patch.push_back(first_patch + patch);
@@ -141,7 +142,7 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
         hasher.add(std::span<const std::uint64_t>(hash));
         files.names.push_back(unique_name(stem_of(file), taken_names));
         append_soup(files.soup, soup, files.names.back());
-        files.file_of_patch.resize(files.soup.patch_names.size(), static_cast<std::int32_t>(files.names.size()) - 1);
+        files.file_of_patch.resize(files.soup.patch_names.size(), count_of(files.names) - 1);
     };
     add(path, first);
     first = {};

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/parallel/shares.h"
 
@@ -47,14 +48,13 @@ void for_each_shared_facet(const std::vector<Leaf>& leaves, std::span<const Face
 
 std::vector<ToldSide> in_order_of_names(SidesOfRanks told) {
     std::vector<ToldSide> all;
-    for (std::size_t rank = 0; rank < told.size(); ++rank) {
+    for (std::int32_t rank = 0; rank < count_of(told); ++rank) {
         const std::vector<InterfaceSide> of_rank = std::exchange(told[rank], {});
         for (std::size_t i = 0; i < of_rank.size(); ++i) {
             const InterfaceSide& side = of_rank[i];
             const NamedTriangle turned = reversed(side.vertices);
             const bool is_reversed = turned < side.vertices;
-            all.push_back({side.facet, is_reversed ? turned : side.vertices, side.leaf, is_reversed,
-                           static_cast<std::int32_t>(rank), i});
+            all.push_back({side.facet, is_reversed ? turned : side.vertices, side.leaf, is_reversed, rank, i});
         }
     }
     sort_on_threads(all, [](const ToldSide& a, const ToldSide& b) { return a.order() < b.order(); });
@@ -85,9 +85,9 @@ std::int64_t match(SidesOfRanks told, NeighboursOfRanks& neighbours) {
 InterfaceMatch::InterfaceMatch(Communicator& ranks, const std::vector<Leaf>& leaves,
                                std::span<const FacetSides> sides) {
     const auto owner_of = [&](const SurfaceArrays& surface, std::size_t f) {
-        return static_cast<std::size_t>(rank_of_number(static_cast<std::uint64_t>(surface.facet_key[f]), ranks));
+        return rank_of_number(surface.facet_key[f], ranks);
     };
-    SidesOfRanks told(static_cast<std::size_t>(ranks.size()));
+    SidesOfRanks told(ranks.size());
     for_each_shared_facet(leaves, sides, [&](std::size_t i, std::size_t f) {
         const SurfaceArrays& surface = leaves[i].surface;
         told[owner_of(surface, f)].push_back({surface.facet_key[f], corner_keys(surface, f), leaves[i].id});

@@ -14,7 +14,7 @@ namespace kerf {
 /// Whether the facet of a leaf has another leaf on its other side: it is one of an interface, or a wall of regions.
 /// `sides`: of the facets of the input, as Complex::all_sides().
 inline bool is_between_leaves(Key facet, std::span<const FacetSides> sides) {
-    return is_of_cut(facet) || (!sides.empty() && sides[static_cast<std::size_t>(key_index(facet))].is_wall());
+    return is_of_cut(facet) || (!sides.empty() && sides[key_index(facet)].is_wall());
 }
 
 /// One side of a facet between two leaves.

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "surface/diagnosis/given_bodies.h"
 #include "surface/regions/region_finder.h"
@@ -209,10 +210,10 @@ void look_for_gaps(CheckedSoup& checked) {
     apply_repairs(turned);
     GivenBodies kept{{}, bodies.names};
     std::vector<std::int32_t> number;
-    for (std::size_t f = 0; f < checked.soup.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(checked.soup.facets); ++f) {
         if (!checked.diagnosis.dropped.empty() && checked.diagnosis.dropped[f] != 0) continue;
         kept.of_facet.push_back(bodies.of_facet[f]);
-        number.push_back(static_cast<std::int32_t>(f));
+        number.push_back(f);
     }
     add_gaps(checked.diagnosis, turned.soup, kept, number);
 }

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/core/regular_tet.h"
 #include "base/parallel/process_memory.h"
@@ -79,7 +80,7 @@ FacetSizes wanted_on_facets(const RunRequest& options, const Input& input) {
     const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
     if (volumes.empty()) return all;
     const RegionSizes sizes(volumes);
-    const auto regions = static_cast<std::int32_t>(volumes.size());
+    const auto regions = count_of(volumes);
     std::vector<std::int32_t> order(volumes.size()), place(volumes.size());  // the finest first
     std::iota(order.begin(), order.end(), 0);
     const auto volume_of = [&](std::int32_t r) { return sizes.of(RegionIndex(r), all).constant_volume(); };
@@ -87,14 +88,12 @@ FacetSizes wanted_on_facets(const RunRequest& options, const Input& input) {
                      [&](std::int32_t a, std::int32_t b) { return volume_of(a) < volume_of(b); });
     std::vector<SizeField> fields;
     for (std::int32_t i = 0; i < regions; ++i) {
-        place[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = i;
-        fields.push_back(sizes.of(RegionIndex(order[static_cast<std::size_t>(i)]), all));
+        place[order[i]] = i;
+        fields.push_back(sizes.of(RegionIndex(order[i]), all));
     }
     std::vector<std::int32_t> field;
     for (const FacetSides& sides : input.complex.all_sides()) {
-        const auto place_of = [&](std::int32_t region) {
-            return region < 0 ? regions - 1 : place[static_cast<std::size_t>(region)];
-        };
+        const auto place_of = [&](std::int32_t region) { return region < 0 ? regions - 1 : place[region]; };
         field.push_back(std::min(place_of(sides.back), place_of(sides.front)));
     }
     return {std::move(fields), std::move(field)};
@@ -146,15 +145,15 @@ void want_lengths_of_regions(const RunRequest& options, const SizeField& all, co
     std::vector<SizeField> fields;
     for (std::size_t r = 0; r < volumes.size(); ++r) {
         longest = std::max(longest, volumes[r] > 0 ? regular_tet_edge(volumes[r]) : task.options.longest);
-        fields.push_back(sizes.of(RegionIndex(static_cast<std::int32_t>(r)), all));
+        fields.push_back(sizes.of(RegionIndex(r), all));
     }
     task.options.wanted = [fields = std::move(fields), labels = task.facets.labels, usual = task.options.longest](
                               const Vec3& p, std::int32_t label) {
         double least = std::numeric_limits<double>::infinity();
-        const auto& [front, back] = labels[static_cast<std::size_t>(label)].sides;
+        const auto& [front, back] = labels[label].sides;
         for (const std::int32_t region : {front, back}) {
             if (region < 0) continue;
-            const SizeField& field = fields[static_cast<std::size_t>(region)];
+            const SizeField& field = fields[region];
             least = std::min(least, field.is_empty() ? usual : field.at(p));
         }
         return least;
@@ -400,7 +399,7 @@ double forecast_changed_facets(const Input& input, const RunRequest& options) {
             return forecast_facets(task.facets.surface, task.options);
         }
     }
-    return static_cast<double>(input.facets);
+    return input.facets;
 }
 
 Input remesh_where_asked(Input input, const RunRequest& options, StageListener* listener) {

@@ -24,9 +24,6 @@ std::vector<Incidence> incidences_of_rank(Communicator& ranks, const LeafOwners&
         sort_on_threads(incidences);
         incidences.erase(std::unique(incidences.begin(), incidences.end()), incidences.end());
     };
-    const auto list_of_rank = [](std::vector<std::vector<Incidence>>& lists, int rank) -> std::vector<Incidence>& {
-        return lists[static_cast<std::size_t>(rank)];
-    };
     const auto merged = [&](std::vector<std::vector<Incidence>> lists) {
         std::vector<Incidence> all = std::move(lists.front());
         for (std::size_t r = 1; r < lists.size(); ++r) all.insert(all.end(), lists[r].begin(), lists[r].end());
@@ -34,9 +31,8 @@ std::vector<Incidence> incidences_of_rank(Communicator& ranks, const LeafOwners&
         return all;
     };
     in_order(told);
-    std::vector<std::vector<Incidence>> lists(static_cast<std::size_t>(ranks.size()));
-    for (const Incidence& incidence : told)
-        list_of_rank(lists, rank_of_number(number(incidence), ranks)).push_back(incidence);
+    std::vector<std::vector<Incidence>> lists(ranks.size());
+    for (const Incidence& incidence : told) lists[rank_of_number(number(incidence), ranks)].push_back(incidence);
     told = merged(exchange_items(ranks, std::exchange(lists, std::vector<std::vector<Incidence>>(lists.size()))));
     std::vector<int> holders;
     for (auto first = told.begin(), last = first; first != told.end(); first = last) {
@@ -46,10 +42,7 @@ std::vector<Incidence> incidences_of_rank(Communicator& ranks, const LeafOwners&
         for (auto held = first; held != last; ++held) holders.push_back(leaves.rank_of(held->part));
         std::sort(holders.begin(), holders.end());
         holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
-        for (const int holder : holders) {
-            std::vector<Incidence>& list = list_of_rank(lists, holder);
-            list.insert(list.end(), first, last);
-        }
+        for (const int holder : holders) lists[holder].insert(lists[holder].end(), first, last);
     }
     return merged(exchange_items(ranks, std::move(lists)));
 }

@@ -21,14 +21,14 @@ bool is_sliver(const std::vector<Vec3>& vertices, const Triangle& t) {
 
 // Counts slivers on threads. `is_bad`: takes the number of a facet.
 template <class IsBad>
-Slivers count_slivers(std::size_t facets, const IsBad& is_bad) {
+Slivers count_slivers(std::int64_t facets, const IsBad& is_bad) {
     constexpr std::size_t grain = std::size_t{1} << 16;
     const std::vector<std::int64_t> counts = values_of_ranges(facets, grain, [&](const IndexRange& range) {
         std::int64_t count = 0;
         for (std::size_t f = range.first; f < range.last; ++f) count += is_bad(f);
         return count;
     });
-    return {std::accumulate(counts.begin(), counts.end(), std::int64_t{0}), static_cast<std::int64_t>(facets)};
+    return {std::accumulate(counts.begin(), counts.end(), std::int64_t{0}), facets};
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ Slivers find_slivers(const std::vector<Vec3>& vertices, const std::vector<Triang
 }
 
 Slivers find_slivers(const Complex& complex) {
-    return count_slivers(static_cast<std::size_t>(complex.facet_count()), [&](std::size_t f) {
-        const auto [a, b, c] = complex.vertices(static_cast<std::int32_t>(f));
+    return count_slivers(complex.facet_count(), [&](std::size_t f) {
+        const auto [a, b, c] = complex.vertices(f);
         return smallest_sine(complex.point(a), complex.point(b), complex.point(c)) < sine_of_10;
     });
 }
@@ -58,7 +58,7 @@ std::vector<char> facets_away_from_slivers(const SurfaceArrays& surface) {
                 stays[f] = 0;
     }
     const auto kept = std::count(stays.begin(), stays.end(), char{1});
-    if (2 * kept < static_cast<std::ptrdiff_t>(facets.size())) stays.clear();
+    if (2 * kept < std::ssize(facets)) stays.clear();
     return stays;
 }
 

@@ -17,7 +17,7 @@ struct Slivers {
     std::int64_t count = 0;  ///< facets with an angle below 10 degrees
     std::int64_t facets = 0;
 
-    double share() const { return facets > 0 ? static_cast<double>(count) / static_cast<double>(facets) : 0; }
+    double share() const { return facets > 0 ? static_cast<double>(count) / facets : 0; }
     bool spoil_cells() const { return kerf::spoil_cells(count, facets); }
 };
 /// Counts the slivers of facets.

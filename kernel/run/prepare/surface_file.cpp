@@ -22,7 +22,7 @@ void write_regions(const std::string& path, const Complex& complex) {
     for (std::int32_t r = 0; r < complex.region_count(); ++r)
         for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
             const auto [front, back] = complex.sides(f);
-            const auto& [a, b, c] = all.facets[static_cast<std::size_t>(f)];
+            const auto& [a, b, c] = all.facets[f];
             if (front != r && back != r) continue;
             facets.push_back(back == r ? Triangle{a, b, c} : Triangle{a, c, b});
             region_of_facet.push_back(r);

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "run/prepare/inside/cad_nodes.h"
 #include "run/prepare/inside/surface_places.h"
@@ -58,7 +59,7 @@ class FileSurface {
         std::vector<Vec3> points;
         std::vector<Triangle> needles;
         for (const auto& [a, b] : edges) {
-            const auto first = static_cast<std::int32_t>(points.size());
+            const auto first = count_of(points);
             points.insert(points.end(),
                           {surface_.points[a], surface_.points[b], (surface_.points[a] + surface_.points[b]) / 2});
             needles.push_back({first, first + 1, first + 2});
@@ -75,7 +76,7 @@ class FileSurface {
 
 const Vec3* SurfaceNodes::find(const UndirectedEdge& edge) const {
     const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
-    return found != edges.end() && *found == edge ? &points[static_cast<std::size_t>(found - edges.begin())] : nullptr;
+    return found != edges.end() && *found == edge ? &points[found - edges.begin()] : nullptr;
 }
 
 SurfaceArrays surface_behind(const Input& input, const RunRequest& options) {

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/geometry/triangle.h"
 #include "files/io/cad_body.h"
@@ -52,11 +53,8 @@ std::vector<RegionSummary> summarize_regions(const Soup& soup) {
     const Complex complex = make_complex(soup);
     for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
         const Surface surface = complex.surface_of(region);
-        regions.push_back({soup.region_names[static_cast<std::size_t>(region.value())],
-                           enclosed_volume(surface),
-                           find_shells(surface).count,
-                           0,
-                           {}});
+        regions.push_back(
+            {soup.region_names[region.value()], enclosed_volume(surface), find_shells(surface).count, 0, {}});
     }
     std::map<std::pair<std::int32_t, std::int32_t>, double> walls;
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
@@ -67,12 +65,11 @@ std::vector<RegionSummary> summarize_regions(const Soup& soup) {
             walls[{front, back}] += area;
             walls[{back, front}] += area;
         } else {
-            regions[static_cast<std::size_t>(std::max(front, back))].outer_area += area;
+            regions[std::max(front, back)].outer_area += area;
         }
     }
     for (const auto& [sides, area] : walls)
-        regions[static_cast<std::size_t>(sides.first)].walls.push_back(
-            {soup.region_names[static_cast<std::size_t>(sides.second)], area, sides.second});
+        regions[sides.first].walls.push_back({soup.region_names[sides.second], area, sides.second});
     return regions;
 }
 
@@ -104,13 +101,12 @@ std::string region_tables(const std::vector<RegionSummary>& regions) {
     if (regions.empty()) return "The surface bounds one region, which has no name.\n";
     std::string text = fmt::format("{:>12} {:>6} {:>12}  {}\n", "volume", "shells", "outside", "name");
     std::string walls;
-    for (std::size_t r = 0; r < regions.size(); ++r) {
+    for (std::int32_t r = 0; r < count_of(regions); ++r) {
         const RegionSummary& region = regions[r];
         text += fmt::format("{:>12.6g} {:>6} {:>12.6g}  {}\n", region.volume, region.shells, region.outer_area,
                             region.name);
         for (const CommonWall& wall : region.walls)
-            if (wall.number > static_cast<std::int32_t>(r))
-                walls += fmt::format("{:>12.6g}  {}  {}\n", wall.area, region.name, wall.region);
+            if (wall.number > r) walls += fmt::format("{:>12.6g}  {}  {}\n", wall.area, region.name, wall.region);
     }
     return text + (walls.empty() ? "" : fmt::format("\n{:>12}  wall between\n{}", "area", walls));
 }
@@ -176,21 +172,21 @@ std::string place_and_measure(const Defect& defect, const Soup& soup) {
 // Returns the text of the defects of one kind and severity, in their order. A single one takes one line; of many, the
 // worst are named: the longest loops, the smallest angles, the shortest edges, the first of those without a measure.
 std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> defects) {
-    constexpr std::size_t most_named = 10;
+    constexpr std::int64_t most_named = 10;
     std::stable_sort(defects.begin(), defects.end(), [](const Defect* a, const Defect* b) {
         return a->kind == DefectKind::open_edge ? a->measure > b->measure : a->measure < b->measure;
     });
     const Defect& worst = *defects.front();
-    const auto listed = static_cast<std::int64_t>(defects.size());
+    const std::int64_t listed = std::ssize(defects);
     const std::int64_t count =
         worst.severity == Severity::warning ? checked.diagnosis.count(worst.kind) : listed;  // not all are listed
     const std::string head = fmt::format("  {:<9} {}", name(worst.severity), counted(count, worst.kind));
     if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), advice(worst));
     std::string text = fmt::format("{}; {}:\n", head, advice(worst));
-    const std::size_t named = std::min(defects.size(), most_named);
-    for (std::size_t i = 0; i < named; ++i)
+    const std::int64_t named = std::min(listed, most_named);
+    for (std::int64_t i = 0; i < named; ++i)
         text += fmt::format("{:12}{}\n", "", place_and_measure(*defects[i], checked.soup));
-    const std::int64_t more = count - static_cast<std::int64_t>(named);
+    const std::int64_t more = count - named;
     return more > 0 ? fmt::format("{}{:12}and {} more\n", text, "", more) : text;
 }
 

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/core/words.h"
 #include "run/report/inside/exceeded_bounds.h"
@@ -27,16 +29,15 @@ bool RunVerification::all_hold() const {
 namespace {
 
 std::string strategies_text(const std::vector<TreeNode>& nodes) {
-    std::vector<int> counts(static_cast<std::size_t>(CutStrategy::whole) + 1, 0);
+    std::map<CutStrategy, int> counts;
     int cuts = 0;
     for (const TreeNode& node : nodes)
         if (node.cut_tried) {
-            ++counts[static_cast<int>(node.strategy)];
+            ++counts[node.strategy];
             ++cuts;
         }
     std::string text = fmt::format("{} cut{}", cuts, cuts == 1 ? "" : "s");
-    for (std::size_t i = 0; i < counts.size(); ++i)
-        if (counts[i]) text += fmt::format(", {} {}", counts[i], in_words(name(static_cast<CutStrategy>(i))));
+    for (const auto& [strategy, count] : counts) text += fmt::format(", {} {}", count, in_words(name(strategy)));
     return text;
 }
 
@@ -48,7 +49,7 @@ std::string first_parts_text(const RunReport& report, const std::function<std::s
     for (const PartReport& part : report.parts)
         if (const std::string text = part.result.code == 0 ? text_of(part) : ""; !text.empty())
             all.push_back(fmt::format("part {}: {}", part.id, text));
-    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(limit, all.size()));
+    const auto end = all.begin() + std::min(limit, all.size());
     const std::string more = all.size() > limit ? fmt::format("; and {} more", all.size() - limit) : "";
     return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);
 }
@@ -234,8 +235,8 @@ std::string regions_text(const RunReport& report) {
     const Input& input = report.input;
     if (input.regions.empty()) return "";
     constexpr std::size_t most = 6;
-    std::vector<std::int64_t> tets(input.regions.size(), 0);
-    for (const PartReport& part : report.parts) tets[static_cast<std::size_t>(part.region.value())] += part.result.tets;
+    Array<RegionIndex, std::int64_t> tets(input.regions.size(), 0);
+    for (const PartReport& part : report.parts) tets[part.region] += part.result.tets;
     std::vector<std::size_t> order(tets.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -1,7 +1,6 @@
 // A report as JSON. Seconds and bytes are the only values that differ between two runs of the same options. Numbers of
 // nodes and parts that only describe are written with six digits, so that the report of thousands of parts can be read.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "run/report/inside/recovery_json.h"
 #include "run/report/repair_json.h"
 #include "run/report/report.h"
+#include "run/report/tree_text.h"
 
 namespace kerf {
 
@@ -119,7 +119,7 @@ Json node_json(const TreeNode& node) {
     Json json = {{"id", node.id},
                  {"parent", node.id / 2},
                  {"children", node.is_divided() ? Json{2 * node.id, 2 * node.id + 1} : Json::array()},
-                 {"level", static_cast<int>(std::log2(node.id))},
+                 {"level", level_of(node.id)},
                  {"leaves", node.leaves},
                  {"vertices", node.vertices},
                  {"faces", node.facets},
@@ -238,8 +238,7 @@ Json sizes_json(const RunReport& report) {
     const SizeRatios& ratios = report.mesh.sizes;
     if (ratios.empty()) return nullptr;
     Json patches = Json::object();
-    for (const auto& [patch, edges] : ratios.by_patch)
-        patches[report.input.patch_names[static_cast<std::size_t>(patch)]] = ratios_json(edges);
+    for (const auto& [patch, edges] : ratios.by_patch) patches[report.input.patch_names[patch]] = ratios_json(edges);
     return {{"inside", ratios_json(ratios.inside)},
             {"interfaces", ratios.interfaces.count() > 0 ? ratios_json(ratios.interfaces) : Json()},
             {"patches", patches}};

@@ -7,11 +7,12 @@
 #include "run/report/totals.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
+#include "run/report/tree_text.h"
 #include "run/work/mesh_hash.h"
 
 namespace kerf {
@@ -25,8 +26,7 @@ double error_of_splits(const RunReport& report) {
     if (report.cut.split_facets == 0) return 0;
     NodeId last = 1;
     for (const PartReport& part : report.parts) last = std::max(last, part.id);
-    const auto levels = static_cast<double>(std::bit_width(static_cast<std::uint64_t>(last)));
-    return levels * 16 * 0x1p-53 * report.input.largest_coordinate * report.input.area;
+    return (level_of(last) + 1) * 16 * 0x1p-53 * report.input.largest_coordinate * report.input.area;
 }
 
 // The volume of a region, and the sum of those of its parts.
@@ -38,22 +38,22 @@ struct RegionVolume {
     double share_of_bound() const { return relative_error() / relative_bound(); }
 };
 
-std::vector<RegionVolume> volumes_of_regions(const RunReport& report) {
+Array<RegionIndex, RegionVolume> volumes_of_regions(const RunReport& report) {
     const Input& input = report.input;
-    std::vector<RegionVolume> volumes;
+    Array<RegionIndex, RegionVolume> volumes;
     for (const InputRegion& region : input.regions) volumes.push_back({region.volume, 0, region.volume_error});
     if (volumes.empty()) volumes.push_back({input.volume, 0, input.volume_error});
-    std::vector<std::int64_t> parts(volumes.size(), 0);
+    Array<RegionIndex, std::int64_t> parts(volumes.size(), 0);
     for (const PartReport& part : report.parts) {
         const MeshLaws& laws = part.result.laws;
-        RegionVolume& region = volumes[static_cast<std::size_t>(part.region.value())];
+        RegionVolume& region = volumes[part.region];
         region.of_parts += report.request.volume ? laws.volume : part.surface_volume;
         region.error += report.request.volume ? laws.volume_error : part.surface_volume_error;
-        ++parts[static_cast<std::size_t>(part.region.value())];
+        ++parts[part.region];
     }
     // Volumes are positive, and added in order.
-    for (std::size_t r = 0; r < volumes.size(); ++r)
-        volumes[r].error += error_of_splits(report) + static_cast<double>(parts[r]) * 0x1p-53 * volumes[r].of_parts;
+    for (const RegionIndex r : volumes.ids())
+        volumes[r].error += error_of_splits(report) + parts[r] * 0x1p-53 * volumes[r].of_parts;
     return volumes;
 }
 
@@ -70,7 +70,7 @@ RunVerification verify_parts(const RunReport& report) {
         v.tets_zero_parts += part.result.tets == 0;
         parts_hold &= part.result.code == 0 && laws.hold();
     }
-    const std::vector<RegionVolume> volumes = volumes_of_regions(report);
+    const Array<RegionIndex, RegionVolume> volumes = volumes_of_regions(report);
     const auto worst = std::max_element(
         volumes.begin(), volumes.end(),
         [](const RegionVolume& a, const RegionVolume& b) { return a.share_of_bound() < b.share_of_bound(); });
@@ -83,21 +83,21 @@ RunVerification verify_parts(const RunReport& report) {
 
 // Measures how the workers spent the meshing stage, as means over all of them.
 void measure_workers(RunReport& report) {
-    const auto workers = static_cast<std::size_t>(report.ranks * report.request.workers.count);
+    const std::int32_t workers = report.ranks * report.request.workers.count;
     std::vector<double> busy(workers, 0);
     WorkerSeconds& mean = report.worker_seconds;
     for (const PartReport& part : report.parts) {
         if (part.resumed) continue;
-        busy[static_cast<std::size_t>(part.rank * report.request.workers.count + part.worker)] += part.seconds;
+        busy[part.rank * report.request.workers.count + part.worker] += part.seconds;
         mean.mesher += part.result.mesh_seconds;
         mean.verify += part.result.verify_seconds;
         mean.store += part.result.store_seconds;
     }
     const double sum = std::accumulate(busy.begin(), busy.end(), 0.0);
-    if (sum > 0) report.imbalance = *std::max_element(busy.begin(), busy.end()) * static_cast<double>(workers) / sum;
-    for (double* seconds : {&mean.mesher, &mean.verify, &mean.store}) *seconds /= static_cast<double>(workers);
-    mean.start = sum / static_cast<double>(workers) - mean.mesher - mean.verify - mean.store;
-    mean.idle = std::max(0.0, report.seconds.mesh - sum / static_cast<double>(workers));
+    if (sum > 0) report.imbalance = *std::max_element(busy.begin(), busy.end()) * workers / sum;
+    for (double* seconds : {&mean.mesher, &mean.verify, &mean.store}) *seconds /= workers;
+    mean.start = sum / workers - mean.mesher - mean.verify - mean.store;
+    mean.idle = std::max(0.0, report.seconds.mesh - sum / workers);
 }
 
 }  // namespace

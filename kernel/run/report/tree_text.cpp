@@ -28,14 +28,12 @@ constexpr const char* level_legend =
     "angle, dihedral: smallest of interface triangles and between interface and surface, in degrees.\n"
     "-v prints every node.\n";
 
-int level_of(const TreeNode& node) { return std::bit_width(static_cast<std::uint32_t>(node.id)) - 1; }
-
 std::string percent(double part, double whole) { return fmt::format("{:.2f}", 100 * part / whole); }
 
 std::string node_line(const TreeNode& node, double volume) {
     const std::string source = node.id == 1 ? "-" : std::to_string(node.id / 2);
     const std::string products = node.is_divided() ? fmt::format("{} {}", 2 * node.id, 2 * node.id + 1) : "part";
-    std::string line = fmt::format("{:>5} {:>6} {:>6} {:>9} {:>8} {:>8} {:>6}", level_of(node), node.id, source,
+    std::string line = fmt::format("{:>5} {:>6} {:>6} {:>9} {:>8} {:>8} {:>6}", level_of(node.id), node.id, source,
                                    products, node.facets, node.vertices, percent(node.mass.volume, volume));
     if (node.regions > 1) line += fmt::format("  {} regions", node.regions);
     if (node.cut_tried) line += fmt::format("  {:<12} {:>5}", in_words(name(node.strategy)), node.tries);
@@ -78,7 +76,7 @@ LevelSummary summarise(std::span<const TreeNode> nodes) {
 
 std::string level_line(std::span<const TreeNode> nodes, double volume) {
     const LevelSummary level = summarise(nodes);
-    std::string line = fmt::format("{:>5} {:>6} {:>6} {:>10} {:>8} {:>9} {:>6}", level_of(nodes.front()), level.cuts,
+    std::string line = fmt::format("{:>5} {:>6} {:>6} {:>10} {:>8} {:>9} {:>6}", level_of(nodes.front().id), level.cuts,
                                    level.parts, level.least_facets, level.most_facets,
                                    percent(level.least_volume, volume), percent(level.most_volume, volume));
     if (level.tries)
@@ -97,7 +95,7 @@ std::string lines_of_nodes(std::span<const TreeNode> nodes) {
 std::string lines_of_levels(std::span<const TreeNode> nodes) {
     std::string text = level_header;
     for (std::size_t begin = 0, end = 0; begin < nodes.size(); begin = end) {
-        while (end < nodes.size() && level_of(nodes[end]) == level_of(nodes[begin])) ++end;
+        while (end < nodes.size() && level_of(nodes[end].id) == level_of(nodes[begin].id)) ++end;
         text += level_line(nodes.subspan(begin, end - begin), nodes.front().mass.volume);
     }
     return text + level_legend;
@@ -105,12 +103,14 @@ std::string lines_of_levels(std::span<const TreeNode> nodes) {
 
 }  // namespace
 
+int level_of(NodeId node) { return std::bit_width(static_cast<std::uint32_t>(node)) - 1; }
+
 std::string tree_text(std::span<const TreeNode> nodes, bool every_node) {
     const auto by_number = [](const TreeNode& a, const TreeNode& b) { return a.id < b.id; };
     KERF_CHECK(!nodes.empty() && std::is_sorted(nodes.begin(), nodes.end(), by_number));
     const auto parts =
         std::count_if(nodes.begin(), nodes.end(), [](const TreeNode& node) { return !node.is_divided(); });
-    const bool few = static_cast<std::size_t>(parts) <= most_parts_of_node_lines;
+    const bool few = parts <= most_parts_of_node_lines;
     return every_node || few ? lines_of_nodes(nodes) : lines_of_levels(nodes);
 }
 

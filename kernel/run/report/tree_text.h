@@ -1,6 +1,7 @@
 // The tree of cuts for people.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -9,7 +10,10 @@
 namespace kerf {
 
 /// Above this number of parts the tree is printed level by level.
-inline constexpr std::size_t most_parts_of_node_lines = 32;
+inline constexpr std::ptrdiff_t most_parts_of_node_lines = 32;
+
+/// Returns the number of cuts between the root and a node.
+int level_of(NodeId node);
 
 /// Returns a line for each node in the order of `nodes`: the node that it was cut from (source) and those that it was
 /// cut into (products), its size, the way in which it was cut and the quality of the cut. Above

@@ -48,9 +48,9 @@ OptionField::Choice choice(Enum& value, std::vector<std::string> names, int firs
 OptionField::Choice mesher_choice(std::string& name) {
     const auto get = [&name] {
         const std::vector<std::string> names = mesher_names();
-        return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+        return std::find(names.begin(), names.end(), name) - names.begin();
     };
-    return {mesher_names(), get, [&name](int i) { name = mesher_names()[static_cast<std::size_t>(i)]; }};
+    return {mesher_names(), get, [&name](int i) { name = mesher_names()[i]; }};
 }
 
 // The choice of the change of the surface, from none to most, which sets three options together.

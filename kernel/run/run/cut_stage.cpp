@@ -19,8 +19,8 @@ namespace {
 Decomposition divide_unfinished(Communicator& ranks, Decomposition own, const DecomposeOptions& options,
                                 CutListener* cuts) {
     const auto is_unfinished = [](const Leaf& leaf) { return leaf.leaves > 1; };
-    const bool any_own = std::any_of(own.leaves.begin(), own.leaves.end(), is_unfinished);
-    const std::vector<char> any_of_rank = all_gather(ranks, static_cast<char>(any_own));
+    const char any_own = std::any_of(own.leaves.begin(), own.leaves.end(), is_unfinished);
+    const std::vector<char> any_of_rank = all_gather(ranks, any_own);
     if (std::none_of(any_of_rank.begin(), any_of_rank.end(), [](char any) { return any; })) return own;
     Decomposition whole;
     whole.nodes = gather_nodes(ranks, own.nodes, host_name());

@@ -2,17 +2,18 @@
 
 #include <vector>
 
+#include "base/core/ids.h"
 #include "run/run/inside/range_of_rank.h"
 
 namespace kerf {
 
 EdgeNumbers number_edges_together(Communicator& ranks, const PartSource& parts, RunListener* listener) {
     const MeshOutline& outline = parts.outline();
-    const LeafRange share = range_of_rank(static_cast<std::int32_t>(outline.parts.size()), ranks);
+    const LeafRange share = range_of_rank(count_of(outline.parts), ranks);
     const std::vector<EdgeNumbers::OfPart> own = in_agreement(ranks, [&] {
         std::vector<EdgeNumbers::OfPart> told;
         for (const PartIndex index : IdRange(PartIndex(share.first), PartIndex(share.last))) {
-            tell_progress(listener, "number", told.size(), static_cast<std::size_t>(share.last - share.first));
+            tell_progress(listener, "number", told.size(), share.last - share.first);
             const Part part = parts.load(index);
             told.push_back(EdgeNumbers::told_by(part, EdgeTable(part.mesh.tets, part.mesh.vertices.size()), outline));
         }

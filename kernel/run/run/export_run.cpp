@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/version.h"
 #include "files/io/durable_file.h"
 #include "files/io/file_bytes.h"
@@ -214,11 +215,8 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
     const std::string shared_staging = all_gather(ranks, staging).front();
     const std::string folder = request.output.empty() ? request.folder : request.output;
     const PartSource& source = joined ? *joined : cells;
-    ExportSummary summary{folder,
-                          {},
-                          static_cast<std::int32_t>(source.outline().parts.size()),
-                          source.outline().vertices,
-                          source.outline().tets()};
+    ExportSummary summary{
+        folder, {}, count_of(source.outline().parts), source.outline().vertices, source.outline().tets()};
     // Files that belong to no part are written by the root rank, which alone asks for files of others.
     const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>(), options};
     summary.files = write_parts(ranks, source, places, to, request.threads, listener);

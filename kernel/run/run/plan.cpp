@@ -18,6 +18,7 @@
 
 #include "base/core/bytes.h"
 #include "base/core/host_name.h"
+#include "base/core/ids.h"
 #include "base/core/threads.h"
 #include "base/parallel/on_root.h"
 #include "base/parallel/processors.h"
@@ -45,12 +46,11 @@ std::int64_t least_facets(FacetPolicy facets) { return facets == FacetPolicy::ke
 std::int32_t part_count(const Input& input, const RunPlan& plan, double volume, int ranks) {
     const RunRequest& request = plan.request();
     const std::int32_t regions = input.complex.region_count();
-    const auto most =
-        static_cast<std::int32_t>(std::max<std::int64_t>(regions, input.facets / least_facets(request.facets)));
+    const std::int32_t most = std::max<std::int64_t>(regions, input.facets / least_facets(request.facets));
     if (request.parts == 0) {
         const std::int32_t interrupted = request.dry_run ? 0 : interrupted_part_count(request.output, input.file_hash);
         if (interrupted >= regions && interrupted <= most) return interrupted;
-        const auto facets = static_cast<double>(input.facets);
+        const double facets = input.facets;
         return std::max({choose_parts(request.workers, plan.mesher(), facets, volume, ranks, most),
                          std::min(request.least_parts, most), regions});
     }
@@ -98,7 +98,7 @@ class ProcessorsOfHost {
     explicit ProcessorsOfHost(Communicator& ranks) {
         const std::string host = host_name();
         const Bytes of_root = ranks.broadcast(Bytes(host.begin(), host.end()), 0);
-        std::vector<Bytes> to_rank(static_cast<std::size_t>(ranks.size()));
+        std::vector<Bytes> to_rank(ranks.size());
         if (std::string(of_root.begin(), of_root.end()) == host) to_rank[0] = to_bytes(own_);
         for (const Bytes& bytes : ranks.exchange(std::move(to_rank))) {
             if (bytes.empty()) continue;
@@ -121,7 +121,7 @@ class ProcessorsOfHost {
                 set_thread_limit(threads_of_rank);
             }
         } const borrowed{*this, threads_of_rank};
-        const int most = std::max(threads_of_rank, static_cast<int>(all_.size()));
+        const int most = std::max(threads_of_rank, count_of(all_));
         if (ranks_ > 1) allow_processors(all_);
         set_thread_limit(std::min(threads_of_rank * std::max(1, ranks_), most));
         body();
@@ -167,8 +167,7 @@ PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, S
     if (request.outputs.split_regions) require_regions(input.complex.region_names().size());
     const double volume = sized_volume_of(input, plan.size, plan.region_sizes);
     const std::int32_t wanted_parts = std::exchange(request.parts, part_count(input, plan, volume, ranks));
-    if (!request.dry_run)
-        check_budget(plan.choices, plan.mesher(), request.parts, static_cast<double>(input.facets), volume);
+    if (!request.dry_run) check_budget(plan.choices, plan.mesher(), request.parts, input.facets, volume);
     if (wanted_parts > 0 && request.parts > wanted_parts)
         input.notes.push_back(fmt::format("The {} regions are a part each, though -n {} asks for fewer parts.",
                                           input.complex.region_count(), wanted_parts));
@@ -211,7 +210,7 @@ class PlanArchive {
         archive_(sizes.growth, sizes.segments_per_turn, sizes.cells_across);
     }
     void regions(std::vector<InputRegion>& regions) {
-        auto count = static_cast<std::uint64_t>(regions.size());
+        std::uint64_t count = regions.size();
         archive_(count);
         regions.resize(count);
         for (InputRegion& region : regions)

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/core/mixed_bits.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
@@ -41,8 +42,8 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
     part.surface_volume = volume;
     part.surface_volume_error = bounded_volume(job.surface.vertices, job.surface.facets).error;
     part.box = box_around(job.surface.vertices);
-    part.surface_vertices = static_cast<std::int64_t>(job.surface.vertices.size());
-    part.surface_facets = static_cast<std::int64_t>(job.surface.facets.size());
+    part.surface_vertices = std::ssize(job.surface.vertices);
+    part.surface_facets = std::ssize(job.surface.facets);
     for (std::size_t f = 0; f < job.neighbour.size(); ++f) {
         const Triangle& t = job.surface.facets[f];
         const std::vector<Vec3>& p = job.surface.vertices;
@@ -64,8 +65,8 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
     if (!size.is_empty() && !plan.size.is_empty())
         part.sized_volume *= plan.size.reference_volume() / size.reference_volume();
     const LoadModel load = cut.load();
-    part.load = load.load(static_cast<double>(part.surface_vertices), static_cast<double>(part.surface_facets),
-                          load.depends_on_place() ? part.sized_volume : volume);
+    part.load =
+        load.load(part.surface_vertices, part.surface_facets, load.depends_on_place() ? part.sized_volume : volume);
     std::sort(part.neighbours.begin(), part.neighbours.end());
     part.neighbours.erase(std::unique(part.neighbours.begin(), part.neighbours.end()), part.neighbours.end());
     return part;
@@ -88,7 +89,7 @@ SharedVertices find_shared_vertices(Communicator& ranks, const LeafOwners& leave
     }
     using Incidence = SharedVertices::Incidence;
     return {incidences_of_rank(
-                ranks, leaves, std::move(held), [](const Incidence& i) { return static_cast<std::uint64_t>(i.vertex); },
+                ranks, leaves, std::move(held), [](const Incidence& i) { return i.vertex; },
                 [](const Incidence& a, const Incidence& b) { return a.vertex == b.vertex; }),
             leaves.ids()};
 }
@@ -100,9 +101,7 @@ void find_shared_edges(Communicator& ranks, const LeafOwners& leaves, std::vecto
         const std::vector<Incidence> by_part = SharedEdges::incidences_of(part_of_job(part.job));
         told.insert(told.end(), by_part.begin(), by_part.end());
     }
-    const auto number = [](const Incidence& i) {
-        return mixed_bits(static_cast<std::uint64_t>(i.edge[0])) + static_cast<std::uint64_t>(i.edge[1]);
-    };
+    const auto number = [](const Incidence& i) { return mixed_bits(i.edge[0]) + i.edge[1]; };
     const SharedEdges shared(
         incidences_of_rank(ranks, leaves, std::move(told), number,
                            [](const Incidence& a, const Incidence& b) { return a.edge == b.edge; }),
@@ -120,10 +119,10 @@ SurfaceContacts contacts_of(const SurfaceArrays& surface, const Contacts& contac
     SurfaceContacts own;
     if (contacts.empty()) return own;
     std::vector<char> is_contact(surface.vertices.size(), 0);
-    for (std::size_t v = 0; v < is_contact.size(); ++v)
+    for (std::int32_t v = 0; v < count_of(is_contact); ++v)
         if (contacts.has(surface.vertex_key[v])) {
             is_contact[v] = 1;
-            own.vertices.push_back(static_cast<std::int32_t>(v));
+            own.vertices.push_back(v);
         }
     for (const Triangle& t : surface.facets)
         for (std::size_t i = 0; i < 3; ++i) {

@@ -64,8 +64,7 @@ void check(const TraceHeader& header, std::span<const char> record, const std::s
 std::vector<NodeId> roots_of_regions(Communicator& ranks, const std::vector<TreeNode>& own, std::size_t regions) {
     std::vector<NodeId> roots(regions, std::numeric_limits<NodeId>::max());
     for (const TreeNode& node : own)
-        if (NodeId& root = roots[static_cast<std::size_t>(node.region.value())]; node.regions == 1)
-            root = std::min(root, node.id);
+        if (NodeId& root = roots[node.region.value()]; node.regions == 1) root = std::min(root, node.id);
     for (const std::vector<NodeId>& of_rank : all_gather(ranks, roots))
         for (std::size_t r = 0; r < regions; ++r) roots[r] = std::min(roots[r], of_rank[r]);
     return roots;
@@ -91,9 +90,7 @@ bool Trace::holds_regions(NodeId node) const {
 }
 
 SurfaceArrays Trace::outside_of_regions(NodeId node) const {
-    const auto is_inside = [&](std::int32_t region) {
-        return region >= 0 && lies_below(region_roots[static_cast<std::size_t>(region)], node);
-    };
+    const auto is_inside = [&](std::int32_t region) { return region >= 0 && lies_below(region_roots[region], node); };
     SurfaceArrays outside = surface;  // all of its vertices stay
     std::size_t kept = 0;
     for (std::size_t f = 0; f < sides.size(); ++f) {

@@ -311,7 +311,7 @@ void FolderVerifier::check_interfaces() {
     for (std::size_t i = 0, j = 0; i < interfaces_.size(); i = j) {
         while (j < interfaces_.size() && interfaces_[j].vertices == interfaces_[i].vertices) ++j;
         if (j - i != 2) {
-            result_.laws.unmatched_interface_faces += static_cast<std::int64_t>(j - i);
+            result_.laws.unmatched_interface_faces += j - i;
             continue;
         }
         const InterfaceFacet &a = interfaces_[i], &b = interfaces_[i + 1];
@@ -321,7 +321,7 @@ void FolderVerifier::check_interfaces() {
 
 // The numbers of boundary vertices must fill [0, n), and the ranges of the parts' inner ones follow without a gap.
 void FolderVerifier::check_numbering() {
-    auto next = static_cast<std::int64_t>(boundary_.size());
+    std::int64_t next = std::ssize(boundary_);
     if (!boundary_.empty())
         result_.laws.misnumbered +=
             number_distance(boundary_.front().id, 0) + number_distance(boundary_.back().id, next - 1);
@@ -389,8 +389,7 @@ void FolderVerifier::check_input() {
         differs("the run has other names of regions than the input");
     result_.laws.extra_boundary_faces += pieces_.end() - next;
     for (const PlacedVertex& v : boundary_)
-        if (v.id >= 0 && v.id < input.vertices)
-            result_.laws.moved_vertices += input.complex.point(static_cast<std::int32_t>(v.id)) != v.point;
+        if (v.id >= 0 && v.id < input.vertices) result_.laws.moved_vertices += input.complex.point(v.id) != v.point;
 }
 
 void FolderVerifier::summarise() {

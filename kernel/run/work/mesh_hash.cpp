@@ -7,11 +7,10 @@
 namespace kerf {
 
 std::array<std::uint64_t, 2> hash_part(const Part& part) {
-    const auto boundary = static_cast<std::size_t>(part.mesh.boundary_vertex_count);
     Hasher hasher;
     hasher.add(std::span(part.mesh.vertices));
     hasher.add(std::span(part.mesh.tets));
-    hasher.add(std::span(part.global_id).first(boundary));
+    hasher.add(std::span(part.global_id).first(part.mesh.boundary_vertex_count));
     hasher.add(std::span(part.facets));
     hasher.add(std::span(part.patch));
     hasher.add(std::span(part.facet));

@@ -14,6 +14,7 @@
 
 #include "base/core/elements.h"
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/out_of_memory.h"
 #include "base/core/record.h"
 #include "base/core/stopwatch.h"
@@ -55,10 +56,8 @@ constexpr NodeId cut_node = 1;
 
 // Returns the surface with its vertices and facets named by their numbers, so that those of the cut are told from them.
 SurfaceArrays renamed(SurfaceArrays arrays) {
-    for (std::size_t v = 0; v < arrays.vertices.size(); ++v)
-        arrays.vertex_key[v] = make_key(0, static_cast<std::int32_t>(v));
-    for (std::size_t f = 0; f < arrays.facets.size(); ++f)
-        arrays.facet_key[f] = make_key(0, static_cast<std::int32_t>(f));
+    for (std::int32_t v = 0; v < count_of(arrays.vertices); ++v) arrays.vertex_key[v] = make_key(0, v);
+    for (std::int32_t f = 0; f < count_of(arrays.facets); ++f) arrays.facet_key[f] = make_key(0, f);
     return arrays;
 }
 
@@ -83,7 +82,7 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
     Filling filling;
     TetMesh& joined = filling.mesh;
     joined.vertices = surface.vertices;
-    joined.boundary_vertex_count = static_cast<std::int32_t>(surface.vertices.size());
+    joined.boundary_vertex_count = count_of(surface.vertices);
     for (const SurfaceArrays& half : halves_of(surface, options)) {
         const Filling of_half = mesh_volume(half, options);
         filling.recovery.add(of_half.recovery);
@@ -95,7 +94,7 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
         if (filling.reason.empty()) filling.reason = of_half.reason;
         std::vector<std::int32_t> number(mesh.vertices.size());
         const auto place = [&](std::size_t vertex, std::int32_t at) {
-            if (static_cast<std::size_t>(at) >= joined.vertices.size()) joined.vertices.resize(at + 1);
+            if (at >= count_of(joined.vertices)) joined.vertices.resize(at + 1);
             joined.vertices[at] = mesh.vertices[vertex];
             number[vertex] = at;
         };
@@ -103,12 +102,11 @@ Filling mesh_in_two(const SurfaceArrays& surface, const MesherOptions& options) 
             const Key key = half.vertex_key[v];
             place(v, key_index(key) + (key_node(key) == cut_node ? joined.boundary_vertex_count : 0));
         }
-        for (std::size_t v = half.vertices.size(); v < mesh.vertices.size(); ++v)
-            place(v, static_cast<std::int32_t>(joined.vertices.size()));
+        for (std::size_t v = half.vertices.size(); v < mesh.vertices.size(); ++v) place(v, count_of(joined.vertices));
         const std::size_t before = joined.tets.size();
         for (const Tetrahedron& t : mesh.tets)
             joined.tets.push_back({number[t[0]], number[t[1]], number[t[2]], number[t[3]]});
-        const auto first = joined.tets.begin() + static_cast<std::ptrdiff_t>(before);
+        const auto first = joined.tets.begin() + before;
         std::rotate(joined.tets.begin() + filling.core_tets, first, first + of_half.core_tets);  // the cores come first
         filling.core_tets += of_half.core_tets;
     }
@@ -129,7 +127,7 @@ ImprovedAngles::ImprovedAngles(const Improvement& improvement, const PartQuality
 Part part_of_job(const PartJob& job) {
     TetMesh boundary;
     boundary.vertices = job.surface.vertices;
-    boundary.boundary_vertex_count = static_cast<std::int32_t>(boundary.vertices.size());
+    boundary.boundary_vertex_count = count_of(boundary.vertices);
     return part_of_job(job, std::move(boundary));
 }
 
@@ -163,7 +161,7 @@ void restore_stored_part(const std::string& part_file, const std::string& vtu_fi
     } catch (const Error&) {  // the file is damaged
         return;
     }
-    if (!are_in_range(part.facets, static_cast<std::size_t>(part.mesh.boundary_vertex_count))) return;
+    if (!are_in_range(part.facets, part.mesh.boundary_vertex_count)) return;
     part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
     part.shared = job.shared;
     part.shared_edges = job.shared_edges;
@@ -209,9 +207,9 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         if (!result.laws.hold()) throw Error(ErrorCode::subdomain, broken_laws(result.laws));
         if (result.laws.tets_without_volume > 0)
             throw Error(ErrorCode::subdomain, without_volume(result.laws.tets_without_volume));
-        result.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+        result.vertices = std::ssize(mesh.vertices);
         result.interior_vertices = mesh.interior_vertex_count();
-        result.tets = static_cast<std::int64_t>(mesh.tets.size());
+        result.tets = std::ssize(mesh.tets);
         result.core_tets = filling.core_tets;
         timed(result.store_seconds, [&] {
             result.sizes = measure_sizes(mesh, job.surface, call.options.size);

@@ -81,7 +81,7 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
         call.options.size = call.options.size.within(parts_[part].box);
         outcome.fallback = call.fallback;
         ++outcome.attempts;
-        pool_.start(static_cast<int>(part), options_.worker_program,
+        pool_.start(part, options_.worker_program,
                     {"--memory", std::to_string(options_.memory_mb), "--parent", std::to_string(::getpid())},
                     to_bytes(PartAttempt{parts_[part].job_file, parts_[part].part_file, call, options_.durable}),
                     options_.timeout_seconds);
@@ -93,7 +93,7 @@ std::optional<PartQueue::Finished> PartQueue::step(double wait_seconds) {
     }
     const auto ended = pool_.wait_any(wait_seconds);
     if (!ended) return {};
-    return take_result(static_cast<std::size_t>(ended->tag), ended->result);
+    return take_result(ended->tag, ended->result);
 }
 
 std::optional<PartQueue::Finished> PartQueue::take_result(std::size_t part, const ChildResult& child) {

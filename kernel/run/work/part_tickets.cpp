@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/core/check.h"
+#include "base/core/ids.h"
 
 namespace kerf {
 
@@ -11,8 +12,8 @@ PartTickets::PartTickets(std::vector<WaitingPart> parts) : parts_(std::move(part
     KERF_CHECK(std::is_sorted(parts_.begin(), parts_.end(),
                               [](const WaitingPart& a, const WaitingPart& b) { return a.load > b.load; }));
     for (std::size_t place = 0; place < parts_.size(); ++place) {
-        const auto host = static_cast<std::size_t>(parts_[place].host);
-        if (host >= of_host_.size()) of_host_.resize(host + 1);
+        const std::int32_t host = parts_[place].host;
+        if (host >= count_of(of_host_)) of_host_.resize(host + 1);
         all_.places.push_back(place);
         of_host_[host].places.push_back(place);
     }
@@ -28,8 +29,7 @@ std::optional<std::size_t> PartTickets::take(std::int32_t host) {
     std::optional<std::size_t> part = first_of(all_);
     if (!part) return {};
     if (static_cast<std::size_t>(host) < of_host_.size())
-        if (const auto own = first_of(of_host_[static_cast<std::size_t>(host)]);
-            own && parts_[*own].load >= nearly_as_long * parts_[*part].load)
+        if (const auto own = first_of(of_host_[host]); own && parts_[*own].load >= nearly_as_long * parts_[*part].load)
             part = own;
     is_taken_[*part] = 1;
     return part;

@@ -13,6 +13,7 @@
 #include <map>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "files/io/file_bytes.h"
 #include "files/io/run_manifest.h"
@@ -34,7 +35,7 @@ class PlaceNumbers {
  public:
     std::int32_t of(const std::vector<std::int32_t>& patches, bool is_curve) {
         CadPlace place{patches, is_curve};
-        const auto [found, is_new] = numbers_.try_emplace(place, static_cast<std::int32_t>(places_.size()));
+        const auto [found, is_new] = numbers_.try_emplace(place, count_of(places_));
         if (is_new) places_.push_back(std::move(place));
         return found->second;
     }
@@ -54,14 +55,14 @@ struct Borders {
 
 std::vector<Borders> borders_at_vertices(const PlacedSurface& surface) {
     std::vector<Borders> borders(surface.points.size());
-    for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    for (std::int32_t e = 0; e < count_of(surface.edges); ++e) {
         const PlacedEdge& edge = surface.edges[e];
         for (const std::int32_t v : edge.ends) {
             Borders& at = borders[v];
-            if (edge.is_sharp && at.sharp < 0) at.sharp = static_cast<std::int32_t>(e);
+            if (edge.is_sharp && at.sharp < 0) at.sharp = e;
             if (!edge.is_border) continue;
             if (at.count++ == 0)
-                at.first = static_cast<std::int32_t>(e);
+                at.first = e;
             else
                 at.are_of_one_curve = at.are_of_one_curve && surface.edges[at.first].patches == edge.patches;
         }
@@ -121,9 +122,8 @@ class SurfaceMoves {
             const double length = (surface_.points[edge.ends[0]] - surface_.points[edge.ends[1]]).norm();
             for (const std::int32_t v : edge.ends) shortest[v] = std::min(shortest[v], length);
         }
-        for (std::size_t v = 0; v < points_.size(); ++v)
-            if (!((points_[v] - surface_.points[v]).norm() <= furthest_move * shortest[v]))
-                stay(static_cast<std::int32_t>(v));
+        for (std::int32_t v = 0; v < count_of(points_); ++v)
+            if (!((points_[v] - surface_.points[v]).norm() <= furthest_move * shortest[v])) stay(v);
     }
     bool keep_turned() {
         bool any = false;

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/geometry/triangle.h"
 #include "cut/cut/planar_triangulation.h"
@@ -57,7 +58,7 @@ double pieces_of(const EdgeLengths& steps) { return std::max(1.0, std::round(ste
 // Shares of the edge between which each piece has the same number of wanted lengths.
 std::vector<double> shares_of_pieces(const EdgeLengths& steps) {
     const double pieces = pieces_of(steps);
-    if (pieces > static_cast<double>(most_facets))
+    if (pieces > most_facets)
         throw Error(ErrorCode::memory, fmt::format("An edge of the surface would be divided into {} pieces. Use a "
                                                    "larger size, or --surface keep.",
                                                    short_number(pieces)));
@@ -82,8 +83,8 @@ void halve_sides(const std::array<std::vector<std::int32_t>, 3>& sides, std::vec
         triangles.push_back({sides[0][0], sides[1][0], sides[2][0]});
         return;
     }
-    const auto i = static_cast<std::size_t>(longest - sides.begin());
-    const auto middle = longest->begin() + static_cast<std::ptrdiff_t>(longest->size() / 2);
+    const auto i = longest - sides.begin();
+    const auto middle = longest->begin() + longest->size() / 2;
     const auto &next = sides[(i + 1) % 3], &last = sides[(i + 2) % 3];
     halve_sides({std::vector<std::int32_t>(longest->begin(), middle), {*middle}, last}, triangles);
     halve_sides({std::vector<std::int32_t>(middle, longest->end()), next, {last[0]}}, triangles);
@@ -102,8 +103,8 @@ class FacetDivider {
 
  private:
     std::vector<std::int32_t> side(std::int32_t corner) const;
-    void divide_facet(std::size_t facet);
-    std::vector<Triangle> triangles_of(std::size_t facet, const std::vector<std::int32_t>& outline);
+    void divide_facet(std::int32_t facet);
+    std::vector<Triangle> triangles_of(std::int32_t facet, const std::vector<std::int32_t>& outline);
 
     const SurfaceArrays& before_;
     const FacetSizes& wanted_;
@@ -117,17 +118,17 @@ void FacetDivider::divide_edges(const CancellationCheck& check_cancelled) {
     const EdgeCorners edges(before_.facets);
     edges.for_each_edge([&](std::int32_t low, const auto& corners) {
         const Vec3 a = before_.vertices[low], b = before_.vertices[corners.front().high];
-        std::int32_t finest = wanted_.field_of(static_cast<std::size_t>(corners.front().corner / 3));
+        std::int32_t finest = wanted_.field_of(corners.front().corner / 3);
         for (const EdgeCorners::Corner& c : corners) {
-            edge_of_corner_[c.corner] = static_cast<std::int32_t>(first_point_.size());
-            finest = std::min(finest, wanted_.field_of(static_cast<std::size_t>(c.corner / 3)));
+            edge_of_corner_[c.corner] = count_of(first_point_);
+            finest = std::min(finest, wanted_.field_of(c.corner / 3));
         }
-        first_point_.push_back(static_cast<std::int32_t>(points.size()));
+        first_point_.push_back(count_of(points));
         check_cancelled.at(first_point_.size());
         for (const double share : shares_of_pieces(lengths_along(a, b, wanted_.field(finest))))
             points.push_back(a + share * (b - a));
     });
-    first_point_.push_back(static_cast<std::int32_t>(points.size()));
+    first_point_.push_back(count_of(points));
 }
 
 // Vertices on the edge of a corner, from the corner's own up to the next one, without it.
@@ -142,31 +143,31 @@ std::vector<std::int32_t> FacetDivider::side(std::int32_t corner) const {
 }
 
 // Empty where rounding leaves the outline no inside.
-std::vector<Triangle> FacetDivider::triangles_of(std::size_t facet, const std::vector<std::int32_t>& outline) {
+std::vector<Triangle> FacetDivider::triangles_of(std::int32_t facet, const std::vector<std::int32_t>& outline) {
     std::vector<Vec3>& points = result_.surface.vertices;
     const auto& [a, b, c] = before_.facets[facet];
     const Vec3 origin = points[a], along = points[b] - origin, to_third = points[c] - origin;
     const Vec3 x = along.normalized(), y = along.cross(to_third).cross(along).normalized();
     if (!x.allFinite() || !y.allFinite()) return {};
     PlanarRegion region;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::int32_t first = count_of(points), sides = count_of(outline);
+    for (std::int32_t i = 0; i < sides; ++i) {
         const Vec3 p = points[outline[i]] - origin;
         region.contour.emplace_back(p.dot(x), p.dot(y));
-        region.edges.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>((i + 1) % outline.size())});
+        region.edges.push_back({i, (i + 1) % sides});
     }
     region.max_edge = [&](const Vec2& p) { return wanted_.of(facet).at(origin + p.x() * x + p.y() * y); };
     PlanarTriangulation planar = triangulate(region);
     if (planar.refusal != Refusal::none) return {};
-    const auto first = static_cast<std::int32_t>(points.size()), sides = static_cast<std::int32_t>(outline.size());
-    for (std::size_t i = outline.size(); i < planar.points.size(); ++i)
+    for (std::size_t i = sides; i < planar.points.size(); ++i)
         points.emplace_back(origin + planar.points[i].x() * x + planar.points[i].y() * y);
     for (Triangle& t : planar.triangles)
         for (std::int32_t& v : t) v = v < sides ? outline[v] : first + v - sides;
     return std::move(planar.triangles);
 }
 
-void FacetDivider::divide_facet(std::size_t facet) {
-    const auto corner = static_cast<std::int32_t>(3 * facet);
+void FacetDivider::divide_facet(std::int32_t facet) {
+    const std::int32_t corner = 3 * facet;
     const std::array sides = {side(corner), side(corner + 1), side(corner + 2)};
     std::vector<std::int32_t> outline;
     for (const auto& s : sides) outline.insert(outline.end(), s.begin(), s.end());
@@ -180,15 +181,15 @@ void FacetDivider::divide_facet(std::size_t facet) {
     result_.kept += triangles.size() == 1;
     after.facets.insert(after.facets.end(), triangles.begin(), triangles.end());
     after.patch.resize(after.facets.size(), before_.patch[facet]);
-    result_.facet_before.resize(after.facets.size(), static_cast<std::int32_t>(facet));
-    if (static_cast<std::int64_t>(after.facets.size()) > most_facets)
+    result_.facet_before.resize(after.facets.size(), facet);
+    if (std::ssize(after.facets) > most_facets)
         throw Error(ErrorCode::memory, fmt::format("The surface would be divided into more than {} facets. Use a "
                                                    "larger size, or --surface keep.",
                                                    grouped(most_facets)));
 }
 
 void FacetDivider::divide_facets(const CancellationCheck& check_cancelled) {
-    for (std::size_t f = 0; f < before_.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(before_.facets); ++f) {
         check_cancelled.at(f);
         divide_facet(f);
     }
@@ -215,7 +216,7 @@ bool has_facets_to_divide(const Complex& complex, const FacetSizes& all) {
         const Triangle t = complex.vertices(f);
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3 &a = complex.point(t[i]), &b = complex.point(t[(i + 1) % 3]);
-            if (pieces_of(lengths_along(a, b, all.of(static_cast<std::size_t>(f)))) > 1) return true;
+            if (pieces_of(lengths_along(a, b, all.of(f))) > 1) return true;
         }
     }
     return false;

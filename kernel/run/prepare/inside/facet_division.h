@@ -22,7 +22,7 @@ class FacetSizes {
     bool is_empty() const;
     /// Returns the number of the field of a facet.
     std::int32_t field_of(std::size_t facet) const { return field_.empty() ? 0 : field_[facet]; }
-    const SizeField& field(std::int32_t number) const { return fields_[static_cast<std::size_t>(number)]; }
+    const SizeField& field(std::int32_t number) const { return fields_[number]; }
     const SizeField& of(std::size_t facet) const { return field(field_of(facet)); }
 
  private:

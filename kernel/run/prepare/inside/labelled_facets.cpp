@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "surface/complex/touching.h"
 
 namespace kerf {
@@ -11,14 +12,14 @@ namespace kerf {
 LabelledFacets label_facets(const Complex& complex) {
     LabelledFacets result = {joined_by_key(complex.arrays()), {}, {}};
     std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, std::int32_t> numbers;
-    for (std::size_t f = 0; f < result.surface.facets.size(); ++f) {
-        FacetSides sides = complex.sides(static_cast<std::int32_t>(f));
+    for (std::int32_t f = 0; f < count_of(result.surface.facets); ++f) {
+        FacetSides sides = complex.sides(f);
         if (sides.back < 0 || (sides.front >= 0 && sides.front < sides.back)) {
             sides = sides.turned();
             std::swap(result.surface.facets[f][1], result.surface.facets[f][2]);
         }
         std::int32_t& patch = result.surface.patch[f];
-        const auto next = static_cast<std::int32_t>(result.labels.size());
+        const auto next = count_of(result.labels);
         const auto [label, is_new] = numbers.try_emplace({patch, sides.front, sides.back}, next);
         if (is_new) result.labels.push_back({patch, sides});
         patch = label->second;
@@ -30,7 +31,7 @@ LabelledFacets label_facets(const Complex& complex) {
 Complex LabelledFacets::to_complex(SurfaceArrays facets, std::vector<std::string> names) const {
     std::vector<FacetSides> sides;
     for (std::int32_t& patch : facets.patch) {
-        const Label& label = labels[static_cast<std::size_t>(patch)];
+        const Label& label = labels[patch];
         patch = label.patch;
         if (!names.empty()) sides.push_back(label.sides);
     }

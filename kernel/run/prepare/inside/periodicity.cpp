@@ -138,7 +138,7 @@ std::optional<Periodicity> find_periodicity(const std::vector<Vec3>& vertices, c
         const Columns columns(vertices, axis, tolerance);
         found.period[axis] = columns.period(least_share_of_extent * box.diagonal()[axis]);
         if (found.period[axis] == 0) return std::nullopt;
-        partners[static_cast<std::size_t>(axis)] = columns.partners_above(found.period[axis]);
+        partners[axis] = columns.partners_above(found.period[axis]);
     }
     const FacetsByCorners by_corners(facets);
     for (const std::vector<std::int32_t>& partner : partners) {
@@ -147,8 +147,8 @@ std::optional<Periodicity> find_periodicity(const std::vector<Vec3>& vertices, c
             const auto& [a, b, c] = facets[f];
             if (partner[a] < 0 || partner[b] < 0 || partner[c] < 0) continue;
             const std::int32_t other = by_corners.find({partner[a], partner[b], partner[c]});
-            if (other < 0 || has_edge(facets[static_cast<std::size_t>(other)], partner[a], partner[b])) continue;
-            found.is_paired[f] = found.is_paired[static_cast<std::size_t>(other)] = 1;
+            if (other < 0 || has_edge(facets[other], partner[a], partner[b])) continue;
+            found.is_paired[f] = found.is_paired[other] = 1;
             ++pairs;
         }
         if (pairs < least_pairs) return std::nullopt;

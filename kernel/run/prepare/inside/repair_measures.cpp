@@ -14,6 +14,7 @@
 
 #include "base/core/cancellation.h"
 #include "base/core/elements.h"
+#include "base/core/ids.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "surface/complex/mass_properties.h"
@@ -86,7 +87,7 @@ class FacetsByPlace {
             const Vec3& p = soup.vertices[v];
             const auto found =
                 p.allFinite() ? std::lower_bound(points_.begin(), points_.end(), p, is_before) : points_.end();
-            v = found != points_.end() && *found == p ? static_cast<std::int32_t>(found - points_.begin()) : -1;
+            v = found != points_.end() && *found == p ? found - points_.begin() : -1;
         }
         std::sort(t.begin(), t.end());
         return t;
@@ -124,7 +125,7 @@ class GrowingBound {
 };
 
 std::int32_t facets_in_file(const Soup& soup) {
-    return soup.polygon.empty() ? static_cast<std::int32_t>(soup.facets.size()) : soup.polygon.back() + 1;
+    return soup.polygon.empty() ? count_of(soup.facets) : soup.polygon.back() + 1;
 }
 
 std::int64_t count_lost(const Soup& before, const Soup& after) {
@@ -137,7 +138,7 @@ std::int64_t count_lost(const Soup& before, const Soup& after) {
 
 SoupMeasures measure_soup(const Soup& soup) {
     SoupMeasures measures;
-    measures.facets = static_cast<std::int64_t>(soup.facets.size());
+    measures.facets = std::ssize(soup.facets);
     const std::vector<Triangle> finite = finite_facets(soup);
     for (const Triangle& t : finite) measures.area += triangle_area(soup.vertices, t);
     const std::vector<Triangle> outer = outer_facets(soup);
@@ -162,11 +163,11 @@ RepairMeasures measure_repair(const Soup& before, const Soup& after, const std::
     GrowingBound changed(tree, facets, diagonal), added(tree, facets, diagonal);
     const FacetsByPlace known(before);
     const CancellationCheck check(check_cancelled);
-    for (std::size_t f = 0; f < after.facets.size(); ++f) {
+    for (std::int32_t f = 0; f < count_of(after.facets); ++f) {
         check.at(f);
         const Triangle& t = after.facets[f];
         if (!is_finite(after, t) || known.has(after, t)) continue;
-        const bool is_new = (after.polygon.empty() ? static_cast<std::int32_t>(f) : after.polygon[f]) >= first_new;
+        const bool is_new = (after.polygon.empty() ? f : after.polygon[f]) >= first_new;
         (is_new ? added : changed).take(after, t);
         ++(is_new ? measures.added_facets : measures.changed_facets);
     }

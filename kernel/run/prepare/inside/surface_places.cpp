@@ -25,7 +25,7 @@ bool meet_sharply(const std::vector<Vec3>& points, const Triangle& a, const Tria
 PlacedSurface::PlacedSurface(const SurfaceArrays& arrays) : patch(arrays.patch) {
     std::int32_t count = 0;
     for (const Key key : arrays.vertex_key) count = std::max(count, key_index(key) + 1);
-    points.resize(static_cast<std::size_t>(count));
+    points.resize(count);
     for (std::size_t v = 0; v < arrays.vertices.size(); ++v)
         points[key_index(arrays.vertex_key[v])] = arrays.vertices[v];
     facets.reserve(arrays.facets.size());

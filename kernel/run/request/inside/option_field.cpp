@@ -53,7 +53,7 @@ std::string text_of(const OptionField::Memory& memory) { return fmt::format("{}"
 std::string text_of(const OptionField::Count& count) { return fmt::format("{}", *count); }
 std::string text_of(const Length* length) { return length->text(); }
 std::string text_of(const OptionField::List items) { return join_items(*items); }
-std::string text_of(const OptionField::Choice& choice) { return choice.names[static_cast<std::size_t>(choice.get())]; }
+std::string text_of(const OptionField::Choice& choice) { return choice.names[choice.get()]; }
 
 // Sets the value. Throws Error(usage) for a text that is none.
 template <class Number>
@@ -63,8 +63,7 @@ void assign(Number* value, const std::string& text, const OptionField& field) {
 // Sets a whole number that may have had a unit.
 void assign_whole(std::int64_t& value, std::optional<std::int64_t> number, const std::string& text,
                   const OptionField& field) {
-    if (!number || !field.range.contains(static_cast<double>(*number)))
-        refuse_number(field.name, text, field.range.words);
+    if (!number || !field.range.contains(*number)) refuse_number(field.name, text, field.range.words);
     value = *number;
 }
 void assign(const OptionField::Memory& memory, const std::string& text, const OptionField& field) {
@@ -88,7 +87,7 @@ void assign(const OptionField::Choice& choice, const std::string& text, const Op
     if (found == choice.names.end())
         throw Error(ErrorCode::usage, fmt::format("--{} is '{}', but it must be one of {}.", field.name, text,
                                                   fmt::join(choice.names, ", ")));
-    choice.set(static_cast<int>(found - choice.names.begin()));
+    choice.set(found - choice.names.begin());
 }
 
 }  // namespace
@@ -133,7 +132,7 @@ void OptionField::check() const {
             require_in(range, name, place->number());
         else if constexpr (std::is_same_v<Place, double*> || std::is_same_v<Place, std::int32_t*> ||
                            std::is_same_v<Place, Memory> || std::is_same_v<Place, Count>)
-            require_in(range, name, static_cast<double>(*place));
+            require_in(range, name, *place);
     };
     std::visit(check_value, value);
 }

@@ -13,6 +13,7 @@
 #include <span>
 #include <utility>
 
+#include "base/core/ids.h"
 #include "files/part/curved_part.h"
 #include "run/run/inside/range_of_rank.h"
 
@@ -86,7 +87,7 @@ class PartsCurver {
         for (const std::int32_t e : curved.straightened) {
             const auto place = std::lower_bound(wanted.begin(), wanted.end(), e,
                                                 [](const CurvedEdge& a, std::int32_t b) { return a.edge < b; });
-            state.straightened.push_back(surface_edge[static_cast<std::size_t>(place - wanted.begin())]);
+            state.straightened.push_back(surface_edge[place - wanted.begin()]);
         }
         const std::vector<std::int64_t> ids = numbers_.of(part, edges);
         for (const auto& [edge, node] : curved.curved) state.nodes.push_back({ids[edge], node, inside[edge]});
@@ -114,8 +115,8 @@ class PartsCurver {
     std::int32_t surface_edge_of(std::int64_t a, std::int64_t b) const {
         constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
         if (std::max(a, b) > most) return -1;
-        const Vec3* node = surface_.find(undirected(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)));
-        return node ? static_cast<std::int32_t>(node - surface_.points.data()) : -1;
+        const Vec3* node = surface_.find(undirected(a, b));
+        return node ? node - surface_.points.data() : -1;
     }
 
     const PartSource& parts_;
@@ -148,8 +149,8 @@ CurvedMesh curve_parts(Communicator& ranks, const PartSource& parts, const EdgeN
     mesh.report.surface_edges = surface.surface_edges;
     if (surface.edges.empty()) return mesh;
     PartsCurver curver(parts, numbers, surface);
-    const LeafRange share = range_of_rank(static_cast<std::int32_t>(parts.outline().parts.size()), ranks);
-    std::vector<PartState> states(static_cast<std::size_t>(share.last - share.first));
+    const LeafRange share = range_of_rank(count_of(parts.outline().parts), ranks);
+    std::vector<PartState> states(share.last - share.first);
     std::vector<char> is_due(states.size(), 1);
     for (;;) {
         const std::vector<std::int32_t> straightened = in_agreement(ranks, [&] {
@@ -157,7 +158,7 @@ CurvedMesh curve_parts(Communicator& ranks, const PartSource& parts, const EdgeN
             for (std::size_t i = 0; i < states.size(); ++i) {
                 if (is_due[i] == 0) continue;
                 tell_progress(listener, "curve", i, states.size());
-                states[i] = curver.curve(PartIndex(share.first + static_cast<std::int32_t>(i)));
+                states[i] = curver.curve(PartIndex(share.first + i));
                 own.insert(own.end(), states[i].straightened.begin(), states[i].straightened.end());
             }
             return own;

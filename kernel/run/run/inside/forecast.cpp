@@ -44,12 +44,11 @@ const MesherForecast& known_of(const MesherOptions& mesher) { return find_mesher
 
 // Facets of the interfaces as the bound of the volume will have them: a dry run leaves them coarse.
 double expected_interface_facets(const PartReport& part) {
-    return std::max(static_cast<double>(part.interface_facets),
-                    part.interface_in_squared_edges / area_per_squared_edge);
+    return std::max<double>(part.interface_facets, part.interface_in_squared_edges / area_per_squared_edge);
 }
 
 double expected_facets(const PartReport& part) {
-    return static_cast<double>(part.surface_facets - part.interface_facets) + expected_interface_facets(part);
+    return part.surface_facets - part.interface_facets + expected_interface_facets(part);
 }
 
 Forecast forecast_of(const PartReport& part, const MesherOptions& mesher) {
@@ -92,7 +91,7 @@ std::int32_t choose_parts(const WorkerOptions& workers, const MesherOptions& mes
     const double tets = most_tets(facets, volume, mesher);
     double parts = std::min<double>(parts_per_worker * ranks * workers.count, tets / least_tets_per_part);
     if (workers.memory_mb > 0) {
-        const double available = static_cast<double>(workers.memory_mb) * (1 << 20) - reserved_bytes;
+        const double available = workers.memory_mb * 0x1p20 - reserved_bytes;
         if (available <= 0)
             throw Error(ErrorCode::usage, fmt::format("--memory is {}, but a worker needs {:.0f} MB before it begins.",
                                                       workers.memory_mb, reserved_bytes / (1 << 20)));
@@ -110,7 +109,7 @@ double bytes_waiting(const std::string& output) {
         if (std::error_code ignored; std::filesystem::exists(folder + "/work/run.json", ignored))
             for (const std::string& file : list_files(folder)) {
                 const std::uintmax_t size = std::filesystem::file_size(std::filesystem::path(folder) / file, ignored);
-                if (!ignored) bytes += static_cast<double>(size);
+                if (!ignored) bytes += size;
             }
     return bytes;
 }
@@ -118,7 +117,7 @@ double bytes_waiting(const std::string& output) {
 // Bytes of all files that lie there at once, for a tetrahedron. Stores of parts that no format asks for again make room
 // while these are written.
 double disk_bytes_per_tet(const RunChoices& choices) {
-    const auto fields = static_cast<double>(choices.fields.count());
+    const double fields = choices.fields.count();
     double bytes = 0, stored = 0;
     for (const Format* format : choices.formats) {
         const bool is_vtu = format == &find_format("vtu");
@@ -176,7 +175,7 @@ void check_budget(const RunChoices& choices, const MesherOptions& mesher, std::i
     std::filesystem::path folder = std::filesystem::path(RunFolder::folders_of(request.output).front()).parent_path();
     while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
     const std::filesystem::space_info space = std::filesystem::space(folder, error);
-    const double available = static_cast<double>(space.available) + bytes_waiting(request.output);
+    const double available = space.available + bytes_waiting(request.output);
     const bool is_known = !error && space.capacity > 0;
     const double bytes = disk_bytes_per_tet(choices);
     if (!is_known || certain * tets * bytes <= available) return;
@@ -213,7 +212,7 @@ std::string plan_text(const std::vector<PartReport>& parts, const MesherOptions&
 
 std::string plan_text(double seconds, std::int64_t peak_rss_bytes) {
     return fmt::format("{:<11} {} to read and to cut, {:.0f} MB on the first rank\n", "before", seconds_text(seconds),
-                       static_cast<double>(peak_rss_bytes) / (1 << 20));
+                       peak_rss_bytes / 0x1p20);
 }
 
 std::string plan_text(const FoundSize& found) { return fmt::format("{:<11} {}\n", "cells", found_size_text(found)); }
@@ -232,7 +231,7 @@ void RunningForecast::add(const PartReport& part) {
     tets_ahead_ -= f.tets;
     if (part.result.tets > 0) {
         tets_forecast_ += f.tets;
-        tets_found_ += static_cast<double>(part.result.tets);
+        tets_found_ += part.result.tets;
     }
     if (part.resumed) return;
     seconds_ahead_ -= f.seconds;

@@ -29,7 +29,7 @@ std::int64_t count_missing_sides(const Complex& input, std::int32_t facet, std::
     const auto [front, back] = input.sides(facet);
     const Triangle t = input.vertices(facet);
     std::int64_t missing = 0;
-    auto foreign = static_cast<std::ptrdiff_t>(pieces.size());
+    auto foreign = std::ssize(pieces);
     for (const std::int32_t region : {back, front}) {
         if (region < 0) continue;
         const auto [first, last] =

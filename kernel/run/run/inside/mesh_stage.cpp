@@ -91,7 +91,7 @@ Reference compare_with_whole(const RunFolder& folder, const RunReport& report, P
     const std::string name = std::filesystem::path(report.input.path).filename().string();
     MeshQuality parts, one;
     parts.name = fmt::format("{} in {} parts", name, report.parts.size());
-    parts.parts = static_cast<std::int64_t>(report.parts.size());
+    parts.parts = std::ssize(report.parts);
     parts.vertices = report.mesh.vertices;
     parts.cells = report.mesh.quality;
     one.name = name + " in one piece";
@@ -133,8 +133,7 @@ RunReport with_node_counts(RunReport report, const SecondOrderParts& parts) {
     for (const PartReport& part : report.parts) ids.push_back(part.id);
     const PartIndices index(ids);
     for (const PartExtent& extent : parts.outline().parts)
-        report.parts[static_cast<std::size_t>(index.of(extent.id).value())].mesh_nodes =
-            extent.vertices + extent.edge_nodes;
+        report.parts[index.of(extent.id).value()].mesh_nodes = extent.vertices + extent.edge_nodes;
     return report;
 }
 

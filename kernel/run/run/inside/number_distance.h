@@ -9,8 +9,8 @@ namespace kerf {
 /// Returns |a - b|, at most 2^40: files may have any numbers, and counts of wrong ones are added up.
 inline std::int64_t number_distance(std::int64_t a, std::int64_t b) {
     constexpr std::uint64_t most = std::uint64_t{1} << 40;
-    const auto low = static_cast<std::uint64_t>(std::min(a, b)), high = static_cast<std::uint64_t>(std::max(a, b));
-    return static_cast<std::int64_t>(std::min(most, high - low));
+    const std::uint64_t low = std::min(a, b), high = std::max(a, b);
+    return std::min(most, high - low);
 }
 
 }  // namespace kerf

@@ -129,7 +129,7 @@ void PartFilesCheck::check_what_follows(const Part& part, PartFindings& found) c
     if (is_vtu(found.file) && is_valid &&
         hash_of_file(found.file) != hash_text(hash_of_part(part, read_layout(folder_ + "/" + found.file))))
         found.differences.push_back(found.file + " has arrays that do not follow from its mesh");
-    const std::string surface = "parts/" + part_surface_file_name(static_cast<NodeId>(found.hash.leaf));
+    const std::string surface = "parts/" + part_surface_file_name(found.hash.leaf);
     std::error_code ignored;
     if (!std::filesystem::exists(folder_ + "/" + surface, ignored)) return;  // the list of files says so
     if (hash_of_file(surface) != hash_text(hash_of_part_surface(part)))

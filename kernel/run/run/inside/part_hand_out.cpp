@@ -31,7 +31,7 @@ void PartHandOut::fill(std::size_t free_workers) {
 }
 
 void PartHandOut::answer(const VolumeMessage& wish) {
-    const std::optional<std::size_t> part = tickets_.take(host_of_rank_[static_cast<std::size_t>(wish.number)]);
+    const std::optional<std::size_t> part = tickets_.take(host_of_rank_[wish.number]);
     ranks_.post(wish.number, to_bytes(VolumeMessage{
                                  VolumeMessage::Kind::assignment, part ? static_cast<std::int32_t>(*part) : -1, {}}));
 }
@@ -39,7 +39,7 @@ void PartHandOut::answer(const VolumeMessage& wish) {
 void PartHandOut::receive(const VolumeMessage& assignment) {
     --wishes_;
     is_anything_left_ = assignment.number >= 0;
-    if (is_anything_left_) on_taken_(static_cast<std::size_t>(assignment.number));
+    if (is_anything_left_) on_taken_(assignment.number);
 }
 
 }  // namespace kerf

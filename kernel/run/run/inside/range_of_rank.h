@@ -8,7 +8,7 @@ namespace kerf {
 
 /// Returns the share of a rank in `count` things, as first_of_rank() divides them.
 inline LeafRange range_of_rank(std::int32_t count, int rank, const Communicator& ranks) {
-    const auto begin = [&](int r) { return static_cast<std::int32_t>(first_of_rank(count, r, ranks)); };
+    const auto begin = [&](int r) -> std::int32_t { return first_of_rank(count, r, ranks); };
     return {begin(rank), begin(rank + 1)};
 }
 inline LeafRange range_of_rank(std::int32_t count, const Communicator& ranks) {

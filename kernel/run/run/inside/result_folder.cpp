@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "base/parallel/process_memory.h"
 #include "files/io/folder_files.h"
 #include "files/io/output_file.h"
@@ -83,12 +84,12 @@ std::vector<RunFile> list_run_files(const RunContext& run, const RunFolder& fold
         ranks, [&] { return run.is_root() ? find_other_files(folder, written) : std::vector<std::string>(); });
     const std::vector<std::string> files = all_gather(ranks, found).front();
     const std::map<std::string, FileHash> expected = hashes_of_parts(parts);
-    const LeafRange share = range_of_rank(static_cast<std::int32_t>(files.size()), ranks);
+    const LeafRange share = range_of_rank(count_of(files), ranks);
     const std::vector<RunFile> own = in_agreement(ranks, [&] {
         std::vector<RunFile> described;
         for (std::int32_t i = share.first; i < share.last; ++i) {
-            tell_progress(run.listener, "hash", static_cast<std::size_t>(i), files.size());
-            described.push_back(describe_file(folder.partial_path(), files[static_cast<std::size_t>(i)]));
+            tell_progress(run.listener, "hash", i, files.size());
+            described.push_back(describe_file(folder.partial_path(), files[i]));
             const auto hash = expected.find(described.back().path);
             if (hash != expected.end() && described.back().hash != hash_text(hash->second))
                 throw Error(ErrorCode::io, fmt::format("{} is not what was written: the disk or the memory has damaged "

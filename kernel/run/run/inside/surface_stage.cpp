@@ -26,7 +26,7 @@ namespace kerf {
 CutParts cut_into_parts(const RunContext& run, RunReport report) {
     Decomposition own = run.timed(report.seconds.decompose,
                                   [&] { return cut_surface(run.ranks, report.input, run.plan, run.listener); });
-    report.cut.split_facets = static_cast<std::int64_t>(own.divided_facets.size());
+    report.cut.split_facets = std::ssize(own.divided_facets);
     PreparedParts prepared = run.timed(report.seconds.prepare, [&] {
         report.cut.nodes = gather_nodes(run.ranks, own.nodes, host_name());
         return prepare_parts(run.ranks, report.input, report.cut.nodes, std::move(own), run.plan);
@@ -56,8 +56,8 @@ RunReport hand_over_parts(const RunContext& run, RunFolder& folder, RunReport re
         }
     });
     report.parts = gather_reports(run.ranks, own);
-    const auto resumed = static_cast<std::size_t>(
-        std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed)));
+    const std::size_t resumed =
+        std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
     if (run.is_root() && resumed < finished_before)
         report.input.notes.push_back(fmt::format("{} parts of an interrupted run were no longer of use and are removed",
                                                  finished_before - resumed));
@@ -70,7 +70,7 @@ void announce_parts(const RunContext& run, const RunReport& report) {
     const Input& input = report.input;
     // The seconds of reading tell how fast the machine is, unless CAD was imported or the surface remeshed in them.
     const bool shows_pace = !input.is_cad && !input.remeshed;
-    const double pace = shows_pace ? pace_of_reading(report.seconds.read, static_cast<double>(input.facets)) : 1;
+    const double pace = shows_pace ? pace_of_reading(report.seconds.read, input.facets) : 1;
     in_agreement(run.ranks, [&] {
         if (run.listener && run.is_root() && request.volume)
             run.listener->on_parts(

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "base/core/host_name.h"
+#include "base/core/ids.h"
 #include "base/core/stopwatch.h"
 #include "files/io/checked_file.h"
 #include "run/run/inside/forecast.h"
@@ -47,8 +48,8 @@ template <class T>
 T add_up(Communicator& ranks, T own) {
     const int size = ranks.size();
     for (int step = 1; step < size; step *= 2) {
-        std::vector<Bytes> out(static_cast<std::size_t>(size));
-        if (ranks.rank() % (2 * step) == step) out[static_cast<std::size_t>(ranks.rank() - step)] = to_bytes(own);
+        std::vector<Bytes> out(size);
+        if (ranks.rank() % (2 * step) == step) out[ranks.rank() - step] = to_bytes(own);
         for (const Bytes& bytes : ranks.exchange(std::move(out)))
             if (!bytes.empty()) own.add(from_bytes<T>(bytes));
     }
@@ -60,7 +61,7 @@ std::vector<std::int32_t> number_hosts(Communicator& ranks) {
     std::map<std::string, std::int32_t> numbers;
     std::vector<std::int32_t> of_rank;
     for (const std::string& host : all_gather(ranks, host_name()))
-        of_rank.push_back(numbers.try_emplace(host, static_cast<std::int32_t>(numbers.size())).first->second);
+        of_rank.push_back(numbers.try_emplace(host, count_of(numbers)).first->second);
     return of_rank;
 }
 
@@ -177,8 +178,7 @@ PartHandOut VolumeStage::hand_out_to(PartQueue& queue, const std::vector<PartRep
                                      const std::vector<std::size_t>& order,
                                      const std::vector<std::int32_t>& host_of_rank) const {
     std::vector<WaitingPart> waiting;
-    for (const std::size_t i : order)
-        waiting.push_back({parts[i].load, host_of_rank[static_cast<std::size_t>(parts[i].rank)]});
+    for (const std::size_t i : order) waiting.push_back({parts[i].load, host_of_rank[parts[i].rank]});
     return {ranks_, std::move(waiting), host_of_rank, [&](std::size_t place) {
                 if (!plan_.request().transient) CheckedFile(folder_.begun_file(parts[order[place]].id), "wb").close();
                 queue.add(place);

@@ -16,6 +16,7 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
 #include "fill/mesh/adjacency.h"
 #include "run/run/inside/range_of_rank.h"
 
@@ -151,15 +152,13 @@ std::vector<RunFile> write_parts(Communicator& ranks, const PartSource& parts, s
                                  const WriteTarget& target, int threads, RunListener* listener,
                                  const PartWritten& part_written) {
     const std::vector<FormatFiles> opened = open_formats(formats, target);
-    const auto check = [&](std::int32_t done, std::int32_t total) {
-        tell_progress(listener, "write", static_cast<std::size_t>(done), static_cast<std::size_t>(total));
-    };
+    const auto check = [&](std::int32_t done, std::int32_t total) { tell_progress(listener, "write", done, total); };
     in_agreement(ranks, [&] {
         if (ranks.rank() != 0) return;
         for (const auto& [format, files] : opened)
             if (format->write_whole) format->write_whole(parts, *files);
     });
-    const LeafRange share = range_of_rank(static_cast<std::int32_t>(parts.outline().parts.size()), ranks);
+    const LeafRange share = range_of_rank(count_of(parts.outline().parts), ranks);
     const bool any_in_parts =
         std::any_of(formats.begin(), formats.end(), [](const FormatPlace& f) { return f.format->write_part; });
     const std::vector<RunFile> own = in_agreement(ranks, [&] {

@@ -48,7 +48,7 @@ constexpr std::size_t most_vertices = std::size_t{1} << 18;  // of which all edg
 
 // Returns the sampling: in large meshes the edges of one vertex in so many are enough.
 std::int32_t sampling_of(const TetMesh& mesh) {
-    return static_cast<std::int32_t>(std::bit_ceil((mesh.vertices.size() + most_vertices - 1) / most_vertices));
+    return std::bit_ceil((mesh.vertices.size() + most_vertices - 1) / most_vertices);
 }
 
 // Calls visit(a, b) for every edge with an end beyond the boundary vertices, once, if its smaller end is a multiple of
@@ -61,15 +61,15 @@ void for_each_inner_edge(const TetMesh& mesh, std::int32_t sampling, const Visit
             for (std::size_t i = 0; i < 4; ++i)
                 for (std::size_t j = i + 1; j < 4; ++j) {
                     const std::int32_t a = std::min(t[i], t[j]), b = std::max(t[i], t[j]);
-                    if ((a & left_out) == 0 && b >= mesh.boundary_vertex_count) take(static_cast<std::size_t>(a), b);
+                    if ((a & left_out) == 0 && b >= mesh.boundary_vertex_count) take(a, b);
                 }
     };
     const std::size_t most_sides = mesh.tets.size() * sizeof(Tetrahedron) / sizeof(std::int32_t) / 2;
     DistinctNumbers distinct;
-    visit_buckets<std::int32_t>(
-        mesh.vertices.size(), most_sides, for_each_side, [&](std::size_t a, std::span<std::int32_t> others) {
-            distinct.visit(others, [&](std::int32_t b) { visit(static_cast<std::int32_t>(a), b); });
-        });
+    visit_buckets<std::int32_t>(mesh.vertices.size(), most_sides, for_each_side,
+                                [&](std::size_t a, std::span<std::int32_t> others) {
+                                    distinct.visit(others, [&](std::int32_t b) { visit(a, b); });
+                                });
 }
 
 RatioCounts& counts_of_patch(SizeRatios& ratios, std::int32_t patch) {
@@ -90,7 +90,7 @@ std::string ratios_text(const RatioCounts& r) {
 void RatioCounts::add(double ratio, std::int64_t times) {
     const double above_low = std::isnormal(ratio) ? quick_log2(ratio / low) : std::log2(ratio / low);
     const double octave = above_low + octaves_below;
-    const double bin = std::clamp(std::floor(octave * bins_per_octave), 0.0, static_cast<double>(bins_.size() - 1));
+    const double bin = std::clamp<double>(std::floor(octave * bins_per_octave), 0, bins_.size() - 1);
     bins_[static_cast<std::size_t>(bin)] += times;
 }
 
@@ -102,20 +102,17 @@ std::int64_t RatioCounts::count() const { return std::accumulate(bins_.begin(), 
 
 double RatioCounts::share_obeyed() const {
     const auto begin = bins_.begin() + octaves_below * bins_per_octave;
-    const std::int64_t all = count();
-    return all == 0 ? 0
-                    : static_cast<double>(std::accumulate(begin, begin + bins_per_octave, std::int64_t{0})) /
-                          static_cast<double>(all);
+    const double all = count();
+    return all == 0 ? 0 : std::accumulate(begin, begin + bins_per_octave, std::int64_t{0}) / all;
 }
 
 double RatioCounts::percentile(double fraction) const {
-    const double wanted = fraction * static_cast<double>(count());
+    const double wanted = fraction * count();
     double below = 0;
     std::size_t bin = 0;
-    while (bin + 1 < bins_.size() && below + static_cast<double>(bins_[bin]) < wanted)
-        below += static_cast<double>(bins_[bin++]);
-    const double within = bins_[bin] == 0 ? 0 : (wanted - below) / static_cast<double>(bins_[bin]);
-    return low * std::exp2((static_cast<double>(bin) + within) / bins_per_octave - octaves_below);
+    while (bin + 1 < bins_.size() && below + bins_[bin] < wanted) below += bins_[bin++];
+    const double within = bins_[bin] == 0 ? 0 : (wanted - below) / bins_[bin];
+    return low * std::exp2((bin + within) / bins_per_octave - octaves_below);
 }
 
 void SizeRatios::add(const SizeRatios& other) {
@@ -152,8 +149,7 @@ std::string size_text(const SizeRatios& ratios, const std::vector<std::string>& 
     if (ratios.interfaces.count() > 0) add("interfaces " + ratios_text(ratios.interfaces));
     for (std::size_t i = 0; i < std::min(most_patches, ratios.by_patch.size()); ++i) {
         const SizeRatios::OfPatch& of_patch = ratios.by_patch[i];
-        add(fmt::format("on {} {}", patch_names[static_cast<std::size_t>(of_patch.patch)],
-                        ratios_text(of_patch.edges)));
+        add(fmt::format("on {} {}", patch_names[of_patch.patch], ratios_text(of_patch.edges)));
     }
     if (ratios.by_patch.size() > most_patches)
         add(fmt::format("and {} more patches, in report.json", ratios.by_patch.size() - most_patches));
