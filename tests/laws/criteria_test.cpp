@@ -43,7 +43,8 @@ class CutRuns : public testing::TestWithParam<std::string> {
         options.output = folder_.file("out");
         options.volume = false;
         options.workers.count = 2;
-        options.decompose = decompose;
+        options.parts = decompose.parts;
+        options.cut = decompose.cut;
         SingleRank rank;
         RunReport report = run(options, 2, rank, listener);
         EXPECT_EQ(report.exit_code, 0);

@@ -42,7 +42,7 @@ class Session {
 
     const Document& document() const;
 
-    /// Cuts and, if `volume`, meshes the surface that is open, with options.decompose and so on as given, into
+    /// Cuts and, if `volume`, meshes the surface that is open, with the options as given, into
     /// options.output, or into a temporary folder if that is empty. The document fills as it goes.
     void start_run(RunRequest options, bool volume);
     /// Interrupts our run or repair. A run is killed if it has not ended after five seconds.

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -88,8 +89,10 @@ Image averaged(const Image& image, int factor) {
 Image read_png(const std::string& path) {
     const std::string file = read_file(path);
     Image image;
-    const Bytes pixels(stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), count_of(file),
-                                             &image.width, &image.height, nullptr, 3));
+    const bool is_small = std::in_range<int>(file.size());
+    const Bytes pixels(is_small ? stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), count_of(file),
+                                                        &image.width, &image.height, nullptr, 3)
+                                : nullptr);
     if (!pixels) throw Error(ErrorCode::io, fmt::format("{} is no PNG.", path));
     image.rgb.assign(pixels.get(), pixels.get() + std::size_t{3} * image.width * image.height);
     return image;

@@ -24,7 +24,7 @@ constexpr float flat_shading = 0, interface_shading = 0.4f;        // so that se
 std::vector<std::array<Vec3, 2>> ends_of(const std::vector<SurfaceEdge>& edges, const NodeSurface& surface) {
     std::vector<std::array<Vec3, 2>> ends;
     for (const SurfaceEdge& edge : edges)
-        if (std::max(edge[0], edge[1]).value() < count_of(surface.vertices))
+        if (std::min(edge[0], edge[1]).is_valid() && std::max(edge[0], edge[1]).value() < count_of(surface.vertices))
             ends.push_back({surface.vertices[edge[0].value()], surface.vertices[edge[1].value()]});
     return ends;
 }
