@@ -294,7 +294,7 @@ TEST_F(OwnRun, WithoutTetrahedra) {
 TEST_F(OwnRun, CanBeCancelled) {
     RunRequest fine = options(6);
     fine.sizes.size = 0.8;
-    fine.workers = 1;
+    fine.workers.count = 1;
     fine.output = folder_.file("fine");
     start("bearing_cap_52k", fine, true);
     ASSERT_TRUE(reach(session_, [&] { return document().progress.stage == "volume"; }));
@@ -627,8 +627,8 @@ TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old);
     EXPECT_EQ(by_folder_.other_document(), nullptr);
-    by_folder_.pair().redo_cut(2, test::options_of(*old));
-    by_folder_.pair().redo_cut(1, test::options_of(*old));
+    by_folder_.pair().redo_cut(2, test::request_of(*old));
+    by_folder_.pair().redo_cut(1, test::request_of(*old));
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     const Document& d = by_folder_.document();
@@ -654,7 +654,7 @@ TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old && old->find(2));
     const std::size_t nodes = by_folder_.document().tree.rows.size();
-    RunRequest other = test::options_of(*old);
+    RunRequest other = test::request_of(*old);
     other.cut.criterion = Criterion::volume;
     other.cut.axis = 2;
     by_folder_.pair().redo_cut(2, other);

@@ -33,7 +33,7 @@ struct WorkerOptions {
     double timeout_seconds = 600;  ///< limit of one attempt at one part; 0: none
     std::int64_t memory_mb = 0;    ///< address space of one worker; 0: unlimited
     std::int32_t attempts = 10;    ///< most attempts at one part (fill/volume/retries.h)
-    std::string program;           ///< path of kerf-worker; empty: the one that find_kerf_program() finds
+    std::string program = {};      ///< path of kerf-worker; empty: the one that find_kerf_program() finds
 };
 
 /// The files of a run beside its input and folder, and the content of its folder.

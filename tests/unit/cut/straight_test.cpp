@@ -231,7 +231,7 @@ TEST_P(SplitShape, PlaneThroughAVertexIsRefused) {
 // gap, also where that lies at the end of the window.
 std::array<double, 2> load_window(const Surface& surface, int axis, double fraction, const CutOptions& options) {
     constexpr double margin = 0.0101;  // of the extent
-    const LoadProfile profile(surface, Plane(Vec3::Zero(), Vec3::Unit(axis)), options.load);
+    const LoadProfile profile(surface, Plane(Vec3::Zero(), Vec3::Unit(axis)), options.load());
     const double away = margin * (profile.highest() - profile.lowest());
     return {profile.bisect(fraction - options.load_window) - away,
             profile.bisect(fraction + options.load_window) + away};

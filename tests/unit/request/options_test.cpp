@@ -174,7 +174,7 @@ TEST(OptionFields, TextGivesTheValueBack) {
     EXPECT_EQ(copy.sizes.size, 0.1);
     EXPECT_EQ(copy.sizes.on, options.sizes.on);
     EXPECT_EQ(copy.mesher.tetgen.switches, "q1.2 a");
-    EXPECT_TRUE(copy.stl);
+    EXPECT_TRUE(copy.outputs.stl);
     EXPECT_EQ(copy.cut.axis, 1);
 }
 

@@ -62,9 +62,7 @@ RunRequest in_parts(std::int32_t parts, ContourMethod contour = ContourMethod::m
     return options;
 }
 
-void expect_the_same_for_any_ranks(const char* what, const std::function<Input()>& read, const RunRequest& request) {
-    RunPlan plan;
-    plan.choices = choices_of(request);
+void expect_the_same_for_any_ranks(const char* what, const std::function<Input()>& read, const RunRequest& options) {
     const Preparation alone = prepare_on(1, read, options);
     EXPECT_GT(alone.shared_edges, 0) << what;
     for (const int size : {2, 4, 8}) {
