@@ -154,11 +154,11 @@ TEST_F(RepairPanel, LeavesToTheUserWhetherTheResultIsMeshedOrSaved) {
     EXPECT_FALSE(driver_->document().trace) << "nobody has asked for it";
     driver_->click("Save to");
     driver_->key(key_of('A'), true);
-    driver_->type(folder_.file("saved.outputs.stl"));
+    driver_->type(folder_.file("saved.stl"));
     driver_->settle();
     driver_->click("Save surface");
     driver_->await("the file", [&] { return !driver_->document().surface_saved_as.empty(); });
-    EXPECT_TRUE(std::filesystem::exists(folder_.file("saved.outputs.stl")));
+    EXPECT_TRUE(std::filesystem::exists(folder_.file("saved.stl")));
     driver_->settle();
     ASSERT_FALSE(driver_->document().has_problems());
     driver_->click("Mesh it");

@@ -359,12 +359,12 @@ TEST(Runs, AViewKnowsWhatItWasMadeOf) {
     EXPECT_EQ(same.picture.height, 480);
     EXPECT_EQ(same.run.parts, 3);
     const ViewCommand other =
-        parse({"screenshot", "other.outputs.stl", "--state", state.c_str(), "--resolution", "800x600", "-o", "a.png"});
-    EXPECT_EQ(other.input, "other.outputs.stl");
+        parse({"screenshot", "other.stl", "--state", state.c_str(), "--resolution", "800x600", "-o", "a.png"});
+    EXPECT_EQ(other.input, "other.stl");
     EXPECT_EQ(other.picture.width, 800);
     EXPECT_EQ(parse({"screenshot", "-o", "a.png"}).exit_code, 2);
-    EXPECT_TRUE(parse({"view", "a.outputs.stl"}).auto_run);
-    EXPECT_FALSE(parse({"view", "a.outputs.stl", "--no-run"}).auto_run);
+    EXPECT_TRUE(parse({"view", "a.stl"}).auto_run);
+    EXPECT_FALSE(parse({"view", "a.stl", "--no-run"}).auto_run);
 
     // Bit for bit, and of another body in its middle.
     const std::string again = folder.file("again.png");

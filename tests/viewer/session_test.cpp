@@ -930,10 +930,10 @@ TEST(LoaderTest, DropsWhatNobodyWants) {
 
 TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
     RunRequest options;
-    options.input = "/a b.outputs.stl";
+    options.input = "/a b.stl";
     options.output = "/out";
     EXPECT_EQ(command_line_of(options, true),
-              (std::vector<std::string>{"mesh", "/a b.outputs.stl", "--output=/out", "--quiet"}));
+              (std::vector<std::string>{"mesh", "/a b.stl", "--output=/out", "--quiet"}));
     options.parts = 8;
     options.sizes.size = 0.1;
     options.cut.axis = 2;
@@ -942,7 +942,7 @@ TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
     options.mesher.improve = false;
     options.mesher.tetgen.switches = "q1.2";
     EXPECT_EQ(command_line_of(options, false),
-              (std::vector<std::string>{"decompose", "/a b.outputs.stl", "--output=/out", "--quiet", "--parts=8",
+              (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8",
                                         "--size=0.1", "--axis=z", "--no-improve", "--workers=3",
                                         "--tetgen-switches=q1.2", "--stl"}));
 }

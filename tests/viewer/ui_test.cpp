@@ -491,7 +491,7 @@ TEST(Ui, OpensAFileFromTheBrowser) {
 
 TEST(Ui, ListsWhatItCanOpen) {
     const TemporaryFolder folder;
-    for (const char* name : {"a.outputs.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "letter.txt"})
+    for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "letter.txt"})
         std::ofstream(folder.file(name)) << "-";
     std::filesystem::create_directories(folder.file("solved/solution"));
     std::ofstream(folder.file("solved/solution/report.json")) << "{}";
@@ -500,7 +500,7 @@ TEST(Ui, ListsWhatItCanOpen) {
     Driver driver(options);
     browse(driver, folder.file(""));
     driver.settle();
-    for (const char* name : {"a.outputs.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "solved"})
+    for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "solved"})
         EXPECT_TRUE(driver.app().widgets().find(std::string("entry ") + name)) << name;
     EXPECT_FALSE(driver.app().widgets().find("entry letter.txt"));
     driver.click("entry solved");

@@ -42,8 +42,8 @@ TEST_F(FileDiagnosisTest, AClosedSurfaceCanBeMeshed) {
 }
 
 TEST_F(FileDiagnosisTest, TheCommandHasAllFilesAndOptions) {
-    const std::string one = write(test::box(), "one.outputs.stl"),
-                      other = write(test::box(Vec3(1 - 1e-4, 0, 0), Vec3(2, 1, 1)), "other.outputs.stl");
+    const std::string one = write(test::box(), "one.stl"),
+                      other = write(test::box(Vec3(1 - 1e-4, 0, 0), Vec3(2, 1, 1)), "other.stl");
     InputOptions options;
     options.more_files = {other};
     options.scale = 0.001;
