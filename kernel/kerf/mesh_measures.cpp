@@ -118,8 +118,8 @@ std::vector<std::array<std::int64_t, 4>> neighbours_of(const MeshArrays& mesh) {
     std::transform(mesh.tets.begin(), mesh.tets.end(), tets.begin(), narrowed<4>);
     std::vector<std::array<std::int64_t, 4>> neighbours(tets.size(), {-1, -1, -1, -1});
     const auto join = [&](FaceSide a, FaceSide b) {
-        neighbours[a.tet()][a.corner()] = b.tet();
-        neighbours[b.tet()][b.corner()] = a.tet();
+        neighbours[a.tet().value()][a.corner()] = b.tet().value();
+        neighbours[b.tet().value()][b.corner()] = a.tet().value();
     };
     match_faces(mesh.vertices.size(), tets, join, [](FaceSide) {});
     return neighbours;

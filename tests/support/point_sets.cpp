@@ -118,7 +118,7 @@ CellPoints sorted_corners(const std::array<Vec3, 4>& corners) {
 
 std::vector<CellPoints> sorted_cells(const SpatialTriangulation& triangulation) {
     std::vector<CellPoints> cells;
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
+    for (const CellId cell : triangulation.cells()) {
         if (triangulation.is_ghost(cell)) continue;
         std::array<Vec3, 4> corners;
         for (int i = 0; i < 4; ++i) corners[i] = triangulation.points()[triangulation.vertices(cell)[i]];
@@ -131,7 +131,7 @@ std::vector<CellPoints> sorted_cells(const SpatialTriangulation& triangulation) 
 void expect_valid(const SpatialTriangulation& triangulation) {
     const auto point = [&](std::int32_t v) { return point_of(triangulation.points()[v]); };
     std::vector<bool> has_cell(triangulation.points().size());
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
+    for (const CellId cell : triangulation.cells()) {
         const Tetrahedron& v = triangulation.vertices(cell);
         for (int i = 0; i < 4; ++i) {
             const CellFace face = cell_face(cell, i), behind = triangulation.mirror(face);
@@ -152,8 +152,8 @@ void expect_valid(const SpatialTriangulation& triangulation) {
         }
     }
     for (std::size_t v = 0; v < has_cell.size(); ++v) {
-        const std::int32_t cell = triangulation.cell_at(static_cast<std::int32_t>(v));
-        ASSERT_EQ(has_cell[v], cell != SpatialTriangulation::none);
+        const CellId cell = triangulation.cell_at(static_cast<std::int32_t>(v));
+        ASSERT_EQ(has_cell[v], cell.is_valid());
         if (has_cell[v]) {
             ASSERT_LT(index_of(triangulation.vertices(cell), static_cast<std::int32_t>(v)), 4);
         }
@@ -164,7 +164,7 @@ void expect_valid(const SpatialTriangulation& triangulation) {
 // edge beyond it.
 void expect_delaunay(const SpatialTriangulation& triangulation) {
     const auto point = [&](std::int32_t v) { return point_of(triangulation.points()[v]); };
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
+    for (const CellId cell : triangulation.cells())
         for (int i = 0; i < 4; ++i) {
             const std::int32_t behind = triangulation.opposite_vertex(triangulation.mirror(cell_face(cell, i)));
             const Tetrahedron& v = triangulation.vertices(cell);

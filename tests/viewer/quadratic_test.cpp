@@ -146,10 +146,11 @@ TEST(CurvedCells, BoundABodyWithoutAGap) {
         PartCells cells;
         cells.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 1)};
         cells.tets = {{0, 1, 2, 3}};
-        cells.neighbours = {{-1, -1, -1, -1}};
+        const CellId none = CellId::none();
+        cells.neighbours = {{none, none, none, none}};
         if (trial % 2 == 1) {
             cells.tets.push_back({1, 2, 3, 4});
-            cells.neighbours = {{1, -1, -1, -1}, {-1, -1, -1, 0}};
+            cells.neighbours = {{CellId(1), none, none, none}, {none, none, none, CellId(0)}};
         }
         const EdgeTable table(cells.tets, cells.vertices.size());
         table.for_all([&](std::int64_t e, const UndirectedEdge& edge) {

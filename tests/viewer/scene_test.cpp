@@ -48,7 +48,7 @@ PartCells grid(int n) {
                 }
     TetMesh mesh;
     mesh.vertices = cells.vertices;
-    mesh.tets = cells.tets;
+    mesh.tets.assign(cells.tets.begin(), cells.tets.end());
     connect_tets(mesh);
     cells.neighbours = mesh.neighbours;
     return cells;
@@ -155,7 +155,7 @@ TEST(Cells, ShrunkOnesAreComplete) {
     double outer = 0;
     for (std::size_t t = 0; t < cells.tets.size(); ++t) {
         const auto& n = cells.neighbours[t];
-        if (std::find(n.begin(), n.end(), -1) == n.end()) continue;
+        if (std::find(n.begin(), n.end(), CellId::none()) == n.end()) continue;
         ++outer;
         EXPECT_EQ(faces_of[static_cast<std::int32_t>(t)], 4) << t;
     }

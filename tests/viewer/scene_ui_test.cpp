@@ -406,7 +406,7 @@ TEST(SceneUi, ACellAndItsNeighbours) {
         std::int64_t faces = 0;
         for (std::int32_t t = 0; t < std::ssize(cells.tets); ++t)
             if (is_in(t))
-                for (const std::int32_t n : cells.neighbours[static_cast<std::size_t>(t)]) faces += !is_in(n);
+                for (const CellId n : cells.neighbours[static_cast<std::size_t>(t)]) faces += !is_in(n.value());
         return faces;
     };
     EXPECT_GT(faces_of_ring(*other), 0);

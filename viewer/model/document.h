@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
+#include "fill/mesh/tet_mesh.h"
 #include "run/prepare/input.h"
 #include "run/request/run_request.h"
 #include "run/run/trace.h"
@@ -70,12 +71,12 @@ struct PartCells {
     std::vector<Vec3> vertices;  ///< the boundary's come first and are those of the part's surface
     std::int32_t boundary_vertex_count = 0;
     std::vector<std::array<std::int32_t, 4>> tets;
-    std::vector<std::array<std::int32_t, 4>> neighbours;  ///< the cell across the face opposite to corner i, or -1
-    std::vector<std::int32_t> tet_at_facet;               ///< the cell behind each facet of the part's surface, or -1
-    std::vector<std::int64_t> vertex_number;              ///< global numbers; -1: not known
-    std::vector<char> at_interface;                       ///< per tet: 1 if it has a vertex on an interface, else 0
-    std::int64_t core_tets = 0;                           ///< Filling::core_tets
-    EdgePoints edges = {};                                ///< nodes on the edges of cells of second order
+    TetNeighbours neighbours;
+    std::vector<std::int32_t> tet_at_facet;   ///< the cell behind each facet of the part's surface, or -1
+    std::vector<std::int64_t> vertex_number;  ///< global numbers; -1: not known
+    std::vector<char> at_interface;           ///< per tet: 1 if it has a vertex on an interface, else 0
+    std::int64_t core_tets = 0;               ///< Filling::core_tets
+    EdgePoints edges = {};                    ///< nodes on the edges of cells of second order
     std::vector<std::array<std::int32_t, 6>> edges_of_tet = {};  ///< #T; indices in `edges`, of 01 12 02 03 13 23
 };
 

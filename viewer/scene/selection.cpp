@@ -120,7 +120,8 @@ std::string describe_cell(const Document& document, const PartCells& cells, std:
         text += vertex_line("vertex", v, cells.vertex_number[v], p[k]);
     }
     std::vector<std::string> neighbours;
-    for (const std::int32_t n : cells.neighbours[cell]) neighbours.push_back(n < 0 ? "boundary" : std::to_string(n));
+    for (const CellId n : cells.neighbours[cell])
+        neighbours.push_back(n.is_valid() ? std::to_string(n.value()) : "boundary");
     text += fmt::format("neighbours {}\n", fmt::join(neighbours, ", "));
     text += cells.at_interface[cell] ? "at an interface\n" : "inside of the part\n";
     if (cells.core_tets > 0)

@@ -52,12 +52,12 @@ void check_offsets(PartArraysFile& file, std::int64_t tet_count) {
 
 // Takes the corners of the next cells of the open array, which have so many `nodes`; every corner must be one of the
 // first `vertex_count` vertices.
-template <class Cell, std::size_t nodes>
-std::vector<Cell> take_corners(PartArraysFile& file, std::int64_t count, std::int64_t vertex_count) {
-    std::vector<Cell> cells;
+template <class Cells, std::size_t nodes>
+Cells take_corners(PartArraysFile& file, std::int64_t count, std::int64_t vertex_count) {
+    Cells cells;
     cells.reserve(count);
     file.visit<std::array<std::int32_t, nodes>>(count, [&](const std::array<std::int32_t, nodes>& cell) {
-        Cell& corners = cells.emplace_back();
+        auto& corners = cells.emplace_back();
         std::copy_n(cell.begin(), corners.size(), corners.begin());
         for (const std::int32_t v : corners)
             if (v < 0 || v >= vertex_count) file.fail(fmt::format("a cell names vertex {} of {}", v, vertex_count));
@@ -175,12 +175,12 @@ void read_connectivity(PartArraysFile& file, std::int64_t tets, Part& part) {
     const std::int64_t facets = header.cell_count - tets;
     file.open<std::int32_t>("connectivity", file.nodes_of_tet() * tets + file.nodes_of_facet() * facets);
     if (header.order == 1) {
-        part.mesh.tets = take_corners<Tetrahedron, 4>(file, tets, header.vertex_count);
-        part.facets = take_corners<Triangle, 3>(file, facets, header.boundary_vertex_count);
+        part.mesh.tets = take_corners<Array<CellId, Tetrahedron>, 4>(file, tets, header.vertex_count);
+        part.facets = take_corners<std::vector<Triangle>, 3>(file, facets, header.boundary_vertex_count);
         return;
     }
-    part.mesh.tets = take_corners<Tetrahedron, 10>(file, tets, header.vertex_count);
-    part.facets = take_corners<Triangle, 6>(file, facets, header.boundary_vertex_count);
+    part.mesh.tets = take_corners<Array<CellId, Tetrahedron>, 10>(file, tets, header.vertex_count);
+    part.facets = take_corners<std::vector<Triangle>, 6>(file, facets, header.boundary_vertex_count);
     find_edges(file, part);
 }
 

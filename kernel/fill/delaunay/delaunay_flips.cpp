@@ -19,16 +19,16 @@ namespace {
 
 class DelaunayFlips {
  public:
-    DelaunayFlips(EditableTets& tets, const std::function<void(std::int32_t)>& on_made) : t_(tets), on_made_(on_made) {}
+    DelaunayFlips(EditableTets& tets, const std::function<void(CellId)>& on_made) : t_(tets), on_made_(on_made) {}
 
-    void push(std::int32_t cell) { cells_.push_back({cell, t_.vertices(cell)}); }
+    void push(CellId cell) { cells_.push_back({cell, t_.vertices(cell)}); }
 
     std::int64_t run() {
         std::int64_t flips = 0;
         while (!cells_.empty()) {
             const Entry at = cells_.back();
             cells_.pop_back();
-            if (at.cell >= t_.cell_count() || t_.vertices(at.cell) != at.vertices) continue;
+            if (at.cell.value() >= t_.cell_count() || t_.vertices(at.cell) != at.vertices) continue;
             for (int i = 0; i < 4; ++i)
                 if (flip(cell_face(at.cell, i))) {
                     ++flips;
@@ -40,7 +40,7 @@ class DelaunayFlips {
 
  private:
     struct Entry {
-        std::int32_t cell;
+        CellId cell;
         Tetrahedron vertices;  // vertices of the cell when it was pushed
     };
 
@@ -83,8 +83,8 @@ class DelaunayFlips {
         return replace(std::array{ring.cells[0], ring.cells[1], ring.cells[2]}, two);
     }
 
-    bool replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by) {
-        for (const std::int32_t made : t_.replace(cells, by)) {
+    bool replace(std::span<const CellId> cells, std::span<const Tetrahedron> by) {
+        for (const CellId made : t_.replace(cells, by)) {
             push(made);
             on_made_(made);
         }
@@ -92,22 +92,22 @@ class DelaunayFlips {
     }
 
     EditableTets& t_;
-    const std::function<void(std::int32_t)>& on_made_;
+    const std::function<void(CellId)>& on_made_;
     std::vector<Entry> cells_;
 };
 
 }  // namespace
 
 std::int64_t flip_to_delaunay(EditableTets& tets) {
-    std::vector<std::int32_t> all(tets.cell_count());
-    std::iota(all.rbegin(), all.rend(), 0);
-    return flip_to_delaunay(tets, all, [](std::int32_t) {});
+    std::vector<CellId> all(tets.cell_count());
+    std::iota(all.rbegin(), all.rend(), CellId(0));
+    return flip_to_delaunay(tets, all, [](CellId) {});
 }
 
-std::int64_t flip_to_delaunay(EditableTets& tets, std::span<const std::int32_t> cells,
-                              const std::function<void(std::int32_t cell)>& on_made) {
+std::int64_t flip_to_delaunay(EditableTets& tets, std::span<const CellId> cells,
+                              const std::function<void(CellId cell)>& on_made) {
     DelaunayFlips flips(tets, on_made);
-    for (const std::int32_t cell : cells) flips.push(cell);
+    for (const CellId cell : cells) flips.push(cell);
     return flips.run();
 }
 

@@ -17,7 +17,7 @@ namespace kerf {
 std::int64_t flip_to_delaunay(EditableTets& tets);
 /// Flips only from the faces of the given cells and of those that flips make; cells that are not Delaunay elsewhere
 /// stay so. `on_made` is told of each new cell, which a later flip may replace.
-std::int64_t flip_to_delaunay(EditableTets& tets, std::span<const std::int32_t> cells,
-                              const std::function<void(std::int32_t cell)>& on_made);
+std::int64_t flip_to_delaunay(EditableTets& tets, std::span<const CellId> cells,
+                              const std::function<void(CellId cell)>& on_made);
 
 }  // namespace kerf

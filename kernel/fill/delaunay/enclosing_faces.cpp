@@ -51,7 +51,7 @@ TrianglesByVertex by_smallest_vertex(const std::vector<Triangle>& triangles, std
 std::vector<CellFace> find_faces(const SpatialTriangulation& triangulation, const std::vector<Triangle>& triangles) {
     const auto [start, list] = by_smallest_vertex(triangles, triangulation.points().size());
     std::vector<CellFace> faces(triangles.size(), SpatialTriangulation::none);
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
+    for (const CellId cell : triangulation.cells())
         for (int i = triangulation.is_ghost(cell) ? 3 : 0; i < 4; ++i) {
             const CellFace face = cell_face(cell, i), behind = triangulation.mirror(face);
             if (behind < face) continue;
@@ -68,10 +68,10 @@ std::vector<CellFace> find_faces(const SpatialTriangulation& triangulation, cons
 std::optional<std::vector<bool>> cells_behind(const SpatialTriangulation& triangulation,
                                               const std::vector<CellFace>& faces) {
     std::vector<bool> is_behind(triangulation.cell_count());
-    std::vector<std::int32_t> found;
-    const auto reach = [&](std::int32_t cell) {
-        if (is_behind[cell]) return;
-        is_behind[cell] = true;
+    std::vector<CellId> found;
+    const auto reach = [&](CellId cell) {
+        if (is_behind[cell.value()]) return;
+        is_behind[cell.value()] = true;
         found.push_back(cell);
     };
     for (const CellFace face : faces) {
@@ -79,14 +79,14 @@ std::optional<std::vector<bool>> cells_behind(const SpatialTriangulation& triang
         reach(cell_of(face));
     }
     while (!found.empty()) {
-        const std::int32_t cell = found.back();
+        const CellId cell = found.back();
         found.pop_back();
         if (triangulation.is_ghost(cell)) return std::nullopt;
         for (int i = 0; i < 4; ++i)
             if (!triangulation.is_constrained(cell_face(cell, i))) reach(triangulation.neighbour(cell, i));
     }
     for (const CellFace face : faces)
-        if (is_behind[cell_of(triangulation.mirror(face))]) return std::nullopt;
+        if (is_behind[cell_of(triangulation.mirror(face)).value()]) return std::nullopt;
     return is_behind;
 }
 

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t cells_a_vertex = 7;  // a little more than the mean among random points
 
 // Returns the orientation of a cell with p in place of its vertex i.
-int orientation_with(const EditableTets& tets, std::int32_t cell, int i, const Vec3& p) {
+int orientation_with(const EditableTets& tets, CellId cell, int i, const Vec3& p) {
     const Tetrahedron& vertex = tets.vertices(cell);
     std::array<const Vec3*, 4> corners;
     for (int k = 0; k < 4; ++k) corners[k] = k == i ? &p : &tets.points()[vertex[k]];
@@ -33,7 +33,7 @@ int orientation_with(const EditableTets& tets, std::int32_t cell, int i, const V
 
 // Returns a face of the cell beyond which the point lies; 4 if there is none. The face through which the walk came is
 // not asked.
-int face_towards(const EditableTets& tets, const Vec3& p, std::int32_t cell, int came_from, int first) {
+int face_towards(const EditableTets& tets, const Vec3& p, CellId cell, int came_from, int first) {
     for (int k = 0; k < 4; ++k) {
         const int i = (first + k) & 3;
         if (i != came_from && orientation_with(tets, cell, i, p) < 0) return i;
@@ -44,29 +44,29 @@ int face_towards(const EditableTets& tets, const Vec3& p, std::int32_t cell, int
 // Walks from cell to cell towards a point. Among Delaunay cells every walk ends (Edelsbrunner 1990, edelsbrunner1990);
 // with constrained faces, one that always asks faces in the same order may turn in circles, so the first one is random.
 template <bool stops_at_constraints>
-std::int32_t walk(const EditableTets& tets, const Vec3& p, std::int32_t hint) {
-    std::int32_t cell = tets.is_ghost(hint) ? tets.neighbour(hint, 3) : hint;
+CellId walk(const EditableTets& tets, const Vec3& p, CellId hint) {
+    CellId cell = tets.is_ghost(hint) ? tets.neighbour(hint, 3) : hint;
     std::uint32_t random = 1;
     int came_from = 4;
     while (!tets.is_ghost(cell)) {
         random = random * 1664525 + 1013904223;
         const int i = face_towards(tets, p, cell, came_from, random >> 30);
         if (i == 4) break;
-        if (stops_at_constraints && tets.is_constrained(cell_face(cell, i))) return EditableTets::none;
+        if (stops_at_constraints && tets.is_constrained(cell_face(cell, i))) return CellId::none();
         const CellFace behind = tets.mirror(cell_face(cell, i));
         cell = cell_of(behind);
         came_from = index_in_cell(behind);
     }
-    return stops_at_constraints && tets.is_ghost(cell) ? EditableTets::none : cell;
+    return stops_at_constraints && tets.is_ghost(cell) ? CellId::none() : cell;
 }
 
-std::int32_t vertex_at(const EditableTets& tets, const Vec3& p, std::int32_t cell) {
+std::int32_t vertex_at(const EditableTets& tets, const Vec3& p, CellId cell) {
     for (const std::int32_t v : tets.vertices(cell))
         if (v >= 0 && tets.points()[v] == p) return v;
     return EditableTets::none;
 }
 
-inline bool sphere_contains(const EditableTets& tets, std::int32_t cell, const Vec3& p) {
+inline bool sphere_contains(const EditableTets& tets, CellId cell, const Vec3& p) {
     const Tetrahedron& v = tets.vertices(cell);
     const std::vector<Vec3>& points = tets.points();
     return in_sphere(points[v[0]], points[v[1]], points[v[2]], points[v[3]], p);
@@ -77,7 +77,7 @@ inline bool sphere_contains(const EditableTets& tets, std::int32_t cell, const V
 SpatialTriangulation::SpatialTriangulation(const std::array<Vec3, 4>& corners, std::int32_t most)
     : EditableTets({corners.begin(), corners.end()}, most) {
     KERF_CHECK(orientation(corners[0], corners[1], corners[2], corners[3]) > 0);
-    cell_at_vertex_.assign(4, 0);
+    cell_at_vertex_.assign(4, CellId(0));
     cells_.push_back({{0, 1, 2, 3}, {}});
     for (int i = 0; i < 4; ++i) {
         // Seen from the ghost, which took the place of vertex i, the others turn the other way.
@@ -87,13 +87,14 @@ SpatialTriangulation::SpatialTriangulation(const std::array<Vec3, 4>& corners, s
         if (i == 3) std::swap(ghost_cell[0], ghost_cell[1]);
         cells_.push_back({ghost_cell, {}});
     }
-    for (std::int32_t cell = 1; cell <= 4; ++cell)
+    for (std::int32_t v = 0; v < 4; ++v)
         for (int i = 0; i < 4; ++i) {
             // The four ghost cells lie around one tetrahedron: ghost cell 1 + v is the one without vertex v.
+            const CellId cell(1 + v);
             const std::int32_t missing = cells_[cell].vertex[i];
-            const std::int32_t other = missing == ghost ? 0 : 1 + missing;
-            cells_[cell].link[i] = cell_face(other, index_of(vertices(other), cell - 1));
-            if (missing == ghost) cells_[0].link[cell - 1] = cell_face(cell, i);
+            const CellId other(missing == ghost ? 0 : 1 + missing);
+            cells_[cell].link[i] = cell_face(other, index_of(vertices(other), v));
+            if (missing == ghost) cells_[CellId(0)].link[v] = cell_face(cell, i);
         }
 }
 
@@ -106,48 +107,44 @@ void SpatialTriangulation::reserve(std::size_t vertices) {
 
 // --- the place of a point ---
 
-std::int32_t SpatialTriangulation::locate(const Vec3& p, std::int32_t hint) const {
-    return walk<false>(*this, p, hint);
-}
+CellId SpatialTriangulation::locate(const Vec3& p, CellId hint) const { return walk<false>(*this, p, hint); }
 
-std::int32_t SpatialTriangulation::locate_in_sight(const Vec3& p, std::int32_t hint) const {
-    return walk<true>(*this, p, hint);
-}
+CellId SpatialTriangulation::locate_in_sight(const Vec3& p, CellId hint) const { return walk<true>(*this, p, hint); }
 
 // Returns the cell of a point. Without a hint the walk begins at the last cell made; where others have been replaced,
 // that may be gone, and any other one will do.
-std::int32_t SpatialTriangulation::start_of(const Vec3& p, std::int32_t hint) const {
-    return locate(p, hint == none ? std::min(last_cell_, cell_count() - 1) : hint);
+CellId SpatialTriangulation::start_of(const Vec3& p, CellId hint) const {
+    return locate(p, hint.is_valid() ? hint : std::min(last_cell_, CellId(cell_count() - 1)));
 }
 
 // --- The cells that a point removes ---
 
 // The sphere of a ghost cell is the half-space beyond its face. In its plane, it is the disk of the face, which the
 // sphere behind it has, too, with the same decision of ties: heights in a plane say nothing about those outside of it.
-bool SpatialTriangulation::ghost_conflicts(std::int32_t cell, const Vec3& p) const {
+bool SpatialTriangulation::ghost_conflicts(CellId cell, const Vec3& p) const {
     const Tetrahedron& v = cells_[cell].vertex;
     const int side = orientation(points_[v[0]], points_[v[1]], points_[v[2]], p);
     if (side != 0) return side > 0;
-    const std::int32_t inside = neighbour(cell, 3);
+    const CellId inside = neighbour(cell, 3);
     return cells_[inside].is_marked() || sphere_contains(*this, inside, p);
 }
 
-inline bool SpatialTriangulation::conflicts(std::int32_t cell, const Vec3& p) const {
+inline bool SpatialTriangulation::conflicts(CellId cell, const Vec3& p) const {
     return is_ghost(cell) ? ghost_conflicts(cell, p) : sphere_contains(*this, cell, p);
 }
 
 void SpatialTriangulation::unmark_cavity() {
-    for (const std::int32_t cell : cavity_) cells_[cell].flip_mark();
+    for (const CellId cell : cavity_) cells_[cell].flip_mark();
 }
 
-void SpatialTriangulation::grow_cavity(const Vec3& p, std::int32_t start) {
+void SpatialTriangulation::grow_cavity(const Vec3& p, CellId start) {
     cavity_.assign(1, start);
     cells_[start].flip_mark();
     for (std::size_t k = 0; k < cavity_.size(); ++k) {
-        const std::int32_t cell = cavity_[k];
+        const CellId cell = cavity_[k];
         for (int i = 0; i < 4; ++i) {
             const CellFace behind = cells_[cell].link[i];
-            const std::int32_t next = cell_of(behind);
+            const CellId next = cell_of(behind);
             if (cells_[next].is_marked()) continue;
             if (conflicts(next, p)) {
                 for (const CellFace beyond : cells_[next].link) __builtin_prefetch(&cells_[cell_of(beyond)]);
@@ -177,8 +174,7 @@ int SpatialTriangulation::side_of(const Vec3& p, CellFace face) const {
 
 // Grows the cavity by steps through faces that the point sees, or on which it lies. So all cells are found that it sees
 // through others with spheres around it, and few that it does not see. Returns false if a face keeps the point off.
-bool SpatialTriangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t start,
-                                                const InsertionConditions& conditions) {
+bool SpatialTriangulation::grow_cavity_in_sight(const Vec3& p, CellId start, const InsertionConditions& conditions) {
     unseen_.clear();
     cavity_.assign(1, start);
     cells_[start].flip_mark();
@@ -186,7 +182,7 @@ bool SpatialTriangulation::grow_cavity_in_sight(const Vec3& p, std::int32_t star
         for (int i = 0; i < 4; ++i) {
             const CellFace face = cell_face(cavity_[k], i), behind = link(face);
             const bool is_free = (behind & constraint) == 0;
-            const std::int32_t next = cell_of(behind & ~constraint);
+            const CellId next = cell_of(behind & ~constraint);
             if (is_free && cells_[next].is_marked()) continue;
             const int side = side_of(p, face);
             if (side <= 0) unseen_.push_back(face);
@@ -206,15 +202,15 @@ void SpatialTriangulation::shrink_cavity(const Vec3& p) {
     while (!unseen_.empty()) {
         const CellFace face = unseen_.back();
         unseen_.pop_back();
-        const std::int32_t cell = cell_of(face);
+        const CellId cell = cell_of(face);
         if (!cells_[cell].is_marked() || is_inside_cavity(link(face))) continue;
         cells_[cell].flip_mark();
         has_left_cells_ = true;
         for (const CellFace behind : cells_[cell].link)
             if (is_inside_cavity(behind) && side_of(p, behind) <= 0) unseen_.push_back(behind);
     }
-    if (has_left_cells_) std::erase_if(cavity_, [&](std::int32_t cell) { return !cells_[cell].is_marked(); });
-    for (const std::int32_t cell : cavity_)
+    if (has_left_cells_) std::erase_if(cavity_, [&](CellId cell) { return !cells_[cell].is_marked(); });
+    for (const CellId cell : cavity_)
         for (int i = 0; i < 4; ++i)
             if (const CellFace face = cell_face(cell, i); !is_inside_cavity(link(face)))
                 cavity_faces_.push_back({face, link(face)});
@@ -222,7 +218,7 @@ void SpatialTriangulation::shrink_cavity(const Vec3& p) {
 
 // Finds the cavity; returns false if the point may not be inserted. Among Delaunay cells the point sees all of its
 // cavity. No vertex is lost: the cell behind it, seen from the point, has the point outside of its sphere.
-bool SpatialTriangulation::find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions) {
+bool SpatialTriangulation::find_cavity(const Vec3& p, CellId start, const InsertionConditions& conditions) {
     cavity_faces_.clear();
     has_left_cells_ = false;
     if (!is_altered_) {
@@ -250,7 +246,7 @@ void SpatialTriangulation::place_cells() {
     std::int32_t next_cell = cell_count();
     for (std::size_t k = 0; k < cavity_faces_.size(); ++k) {
         const auto [inside, outside] = cavity_faces_[k];
-        const std::int32_t cell = made_[k] = k < cavity_.size() ? cavity_[k] : next_cell++;
+        const CellId cell = made_[k] = k < cavity_.size() ? cavity_[k] : CellId(next_cell++);
         const int i = index_in_cell(inside);
         NewCell& made = new_cells_[k];
         made.vertex = vertices(cell_of(inside));
@@ -329,14 +325,14 @@ std::int32_t SpatialTriangulation::insert_in_cavity(const Vec3& p) {
     return vertex;
 }
 
-std::int32_t SpatialTriangulation::insert(const Vec3& p, std::int32_t hint) {
-    const std::int32_t start = start_of(p, hint);
+std::int32_t SpatialTriangulation::insert(const Vec3& p, CellId hint) {
+    const CellId start = start_of(p, hint);
     if (const std::int32_t same = vertex_at(*this, p, start); same != none) return same;
     return find_cavity(p, start, {}) ? insert_in_cavity(p) : none;
 }
 
-std::int32_t SpatialTriangulation::insert_if(const Vec3& p, std::int32_t hint, const InsertionConditions& conditions) {
-    const std::int32_t start = start_of(p, hint);
+std::int32_t SpatialTriangulation::insert_if(const Vec3& p, CellId hint, const InsertionConditions& conditions) {
+    const CellId start = start_of(p, hint);
     if (const std::int32_t same = vertex_at(*this, p, start); same != none) return same;
     if (!find_cavity(p, start, conditions)) return none;
     star_.faces.clear();
@@ -347,7 +343,7 @@ std::int32_t SpatialTriangulation::insert_if(const Vec3& p, std::int32_t hint, c
 }
 
 void SpatialTriangulation::renumber(const std::vector<std::int32_t>& number, std::vector<Vec3> points) {
-    std::vector<std::int32_t> cell_at_vertex(points.size(), none);
+    std::vector<CellId> cell_at_vertex(points.size(), CellId::none());
     for (std::size_t v = 0; v < number.size(); ++v) cell_at_vertex[number[v]] = cell_at_vertex_[v];
     for (Cell& cell : cells_)
         for (std::int32_t& v : cell.vertex)

@@ -17,8 +17,8 @@ struct Star {
         Triangle vertices;
         bool is_constrained;
     };
-    std::vector<Face> faces;                ///< faces around the cells that are removed
-    std::span<const std::int32_t> removed;  ///< cells that are removed
+    std::vector<Face> faces;          ///< faces around the cells that are removed
+    std::span<const CellId> removed;  ///< cells that are removed
 };
 
 /// The conditions of SpatialTriangulation::insert_if().
@@ -51,25 +51,25 @@ class SpatialTriangulation : public EditableTets {
     /// whose face the point is strictly beyond, if it is outside. Walks from cell to cell towards it (Devillers, Pion
     /// and Teillaud 2002, devillers2002), starting at `hint`: about a dozen cells where the hint is near. Requires
     /// cells.
-    std::int32_t locate(const Vec3& p, std::int32_t hint) const;
+    CellId locate(const Vec3& p, CellId hint) const;
     /// Returns the cell of locate(), but none where the walk meets a constrained face or the hull.
-    std::int32_t locate_in_sight(const Vec3& p, std::int32_t hint) const;
+    CellId locate_in_sight(const Vec3& p, CellId hint) const;
     /// Inserts a point. Returns the number of the new vertex, or that of the old one if there is one at the point.
     ///
     /// Removes the cells in whose spheres the point lies, and joins it with the faces around them (Bowyer 1981,
     /// bowyer1981; Watson 1981, watson1981). Once faces have been constrained or cells replaced, cells behind a
     /// constrained face are left as they are, and so are cells whose faces the point cannot see; the result is `none`,
     /// and nothing has changed, if the point lies on a constrained face or is not strictly inside of the hull. `hint`:
-    /// a cell near the point; `none` for one that the last insertion made. About 3 us near the hint. Requires cells.
+    /// a cell near the point; none for one that the last insertion made. About 3 us near the hint. Requires cells.
     /// Throws Error(memory), and nothing has changed, if there might be too many: more than some 39 million vertices in
     /// space.
-    std::int32_t insert(const Vec3& p, std::int32_t hint = none);
+    std::int32_t insert(const Vec3& p, CellId hint = CellId::none());
     /// Inserts a point under these conditions; returns `none`, and nothing has changed, if they do not hold.
-    std::int32_t insert_if(const Vec3& p, std::int32_t hint, const InsertionConditions& conditions);
+    std::int32_t insert_if(const Vec3& p, CellId hint, const InsertionConditions& conditions);
 
     /// Returns the cells that the last insertion made, one for each face in the order of Star::faces. Valid until the
     /// next change.
-    const std::vector<std::int32_t>& made_cells() const { return made_; }
+    const std::vector<CellId>& made_cells() const { return made_; }
 
     /// Returns whether the last insertion has left some cells in whose spheres its point lies, because the point does
     /// not see all of their faces.
@@ -93,17 +93,17 @@ class SpatialTriangulation : public EditableTets {
         std::array<StarEdges::Place, 3> place;  // places of the vertices of the face, in the order of tet_faces
     };
 
-    std::int32_t start_of(const Vec3& p, std::int32_t hint) const;
-    bool ghost_conflicts(std::int32_t cell, const Vec3& p) const;
-    bool conflicts(std::int32_t cell, const Vec3& p) const;
+    CellId start_of(const Vec3& p, CellId hint) const;
+    bool ghost_conflicts(CellId cell, const Vec3& p) const;
+    bool conflicts(CellId cell, const Vec3& p) const;
     Triangle cavity_face_vertices(CellFace face) const;
     int side_of(const Vec3& p, CellFace face) const;
     bool is_inside_cavity(CellFace behind) const {
         return (behind & constraint) == 0 && cells_[cell_of(behind)].is_marked();
     }
-    bool find_cavity(const Vec3& p, std::int32_t start, const InsertionConditions& conditions);
-    void grow_cavity(const Vec3& p, std::int32_t start);
-    bool grow_cavity_in_sight(const Vec3& p, std::int32_t start, const InsertionConditions& conditions);
+    bool find_cavity(const Vec3& p, CellId start, const InsertionConditions& conditions);
+    void grow_cavity(const Vec3& p, CellId start);
+    bool grow_cavity_in_sight(const Vec3& p, CellId start, const InsertionConditions& conditions);
     void shrink_cavity(const Vec3& p);
     void unmark_cavity();
     std::int32_t insert_in_cavity(const Vec3& p);
@@ -112,10 +112,10 @@ class SpatialTriangulation : public EditableTets {
     void join_cells();
     void join_cells_of_large_star();
 
-    std::int32_t last_cell_ = 0;
+    CellId last_cell_;
 
     // State of the insertion under way.
-    std::vector<std::int32_t> cavity_, made_;
+    std::vector<CellId> cavity_, made_;
     bool has_left_cells_ = false;
     std::vector<CellFace> unseen_;  // faces of cells of the cavity
     std::vector<CavityFace> cavity_faces_;

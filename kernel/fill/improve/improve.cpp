@@ -52,7 +52,7 @@ class Improver {
           useless_(square_from_degrees(angle_of_a_useless_cell_deg)) {}
 
     void run() {
-        for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell)
+        for (const CellId cell : mesh_.cells())
             if (is_bad(cell)) waiting_.push_back(cell);
         result_->bad_cells_before = waiting_count();
         while (!waiting_.empty() && result_->rounds < options_->most_rounds && !is_spent()) {
@@ -62,7 +62,7 @@ class Improver {
             const std::int64_t gained = before - waiting_count();
             if (gained < least_share_of_a_round * before) break;
         }
-        for (std::int32_t cell = 0; cell < mesh_.cell_count(); ++cell) result_->bad_cells_after += is_bad(cell);
+        for (const CellId cell : mesh_.cells()) result_->bad_cells_after += is_bad(cell);
     }
     bool is_cancelled() const { return is_cancelled_; }
     TetMesh finish() { return mesh_.finish(); }
@@ -70,7 +70,7 @@ class Improver {
  private:
     struct Entry {
         double badness;
-        std::int32_t cell;
+        CellId cell;
         bool operator<(const Entry& other) const {
             return badness != other.badness ? badness < other.badness : cell > other.cell;
         }
@@ -84,17 +84,17 @@ class Improver {
         return evaluations_of_any_mesh + static_cast<std::int64_t>(options.evaluation_budget * cells);
     }
     bool is_spent() const { return mesh_.evaluations() >= evaluation_budget_; }
-    bool is_bad(std::int32_t cell) const {
+    bool is_bad(CellId cell) const {
         return !mesh_.is_removed(cell) && !mesh_.is_frozen(cell) && mesh_.badness(cell) > bad_;
     }
     std::int64_t waiting_count() const { return std::ssize(waiting_); }
-    void push(std::int32_t cell) {
+    void push(CellId cell) {
         if (is_bad(cell)) queue_.push({mesh_.badness(cell), cell});
     }
 
     // Queues cells that have changed; their vertices may move again.
-    void requeue(std::span<const std::int32_t> cells) {
-        for (const std::int32_t cell : cells) {
+    void requeue(std::span<const CellId> cells) {
+        for (const CellId cell : cells) {
             for (const std::int32_t v : mesh_.corners(cell)) is_settled_[v] = 0;
             push(cell);
         }
@@ -104,7 +104,7 @@ class Improver {
     // queue is not empty if the budget is spent.
     bool run_round() {
         ++result_->rounds;
-        for (const std::int32_t cell : waiting_) push(cell);
+        for (const CellId cell : waiting_) push(cell);
         waiting_.clear();
         for (int until_question = 0; !queue_.empty() && !is_spent(); --until_question) {
             if (until_question == 0) {
@@ -119,18 +119,18 @@ class Improver {
         }
         std::sort(waiting_.begin(), waiting_.end());  // one may come twice, if its neighbours have changed it
         waiting_.erase(std::unique(waiting_.begin(), waiting_.end()), waiting_.end());
-        std::erase_if(waiting_, [&](std::int32_t cell) { return !is_bad(cell); });
+        std::erase_if(waiting_, [&](CellId cell) { return !is_bad(cell); });
         return true;
     }
 
     // Removes the edge without which the worst of the cells around it is best; false if none can be removed.
-    bool remove_an_edge(std::int32_t cell) {
+    bool remove_an_edge(CellId cell) {
         double best = std::numeric_limits<double>::infinity();
         for (int i = 0; i < 4; ++i)
             for (int j = i + 1; j < 4; ++j) {
                 if (!mesh_.find_ring(cell, i, j, ring_)) continue;
                 double limit = -std::numeric_limits<double>::infinity();
-                for (const std::int32_t at : ring_.cells) limit = std::max(limit, mesh_.badness(at));
+                for (const CellId at : ring_.cells) limit = std::max(limit, mesh_.badness(at));
                 if (!edge_.find(mesh_, ring_, std::min(limit, best))) continue;
                 best = edge_.badness();
                 best_ring_.swap(ring_.cells);
@@ -142,7 +142,7 @@ class Improver {
         return true;
     }
 
-    bool move_a_corner(std::int32_t cell) {
+    bool move_a_corner(CellId cell) {
         for (int i = 0; i < 4; ++i) {
             const std::int32_t vertex = mesh_.corners(cell)[i];
             if (is_settled_[vertex] || !mesh_.find_star(cell, i, star_)) continue;
@@ -160,7 +160,7 @@ class Improver {
     bool move_to_best_place(std::int32_t vertex) {
         places_.clear();
         double worst = -std::numeric_limits<double>::infinity();
-        for (const std::int32_t cell : star_) {
+        for (const CellId cell : star_) {
             const Triangle face = mesh_.face(cell, index_of(mesh_.corners(cell), vertex));
             places_.add({mesh_.point(face[0]), mesh_.point(face[1]), mesh_.point(face[2])});
             worst = std::max(worst, mesh_.badness(cell));
@@ -171,7 +171,7 @@ class Improver {
                mesh_.move(vertex, best.at, star_);
     }
 
-    bool insert_a_vertex(std::int32_t cell) {
+    bool insert_a_vertex(CellId cell) {
         const double badness = mesh_.badness(cell);
         const bool may_be = options_->adds_vertices && result_->rounds >= first_round_with_vertices;
         if (!may_be || badness < bad_enough_for_a_vertex_) return false;
@@ -187,7 +187,7 @@ class Improver {
         evaluations_for_vertices_ -= mesh_.evaluations();
         std::span<const double> depths = depths_below_facets;
         if (badness <= without_volume_) depths = depths.first(badness > useless_ ? 1 : 0);
-        const std::span<const std::int32_t> cavity = insertion_.insert(mesh_, cell, limit, depths);
+        const std::span<const CellId> cavity = insertion_.insert(mesh_, cell, limit, depths);
         evaluations_for_vertices_ += mesh_.evaluations();
         if (cavity.empty()) return false;
         is_settled_.push_back(0);
@@ -205,12 +205,12 @@ class Improver {
     std::int64_t evaluations_for_vertices_ = 0;
     bool is_cancelled_ = false;
     std::priority_queue<Entry> queue_;
-    std::vector<std::int32_t> waiting_;  // bad cells that are not in the queue; ascending between rounds
+    std::vector<CellId> waiting_;  // bad cells that are not in the queue; ascending between rounds
     EdgeRemoval edge_;
     BestPlace places_;
     VertexInsertion insertion_;
     EdgeRing ring_;
-    std::vector<std::int32_t> best_ring_, star_;
+    std::vector<CellId> best_ring_, star_;
     std::vector<Tetrahedron> best_cells_;
 };
 

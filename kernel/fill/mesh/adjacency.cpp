@@ -8,7 +8,7 @@ namespace kerf {
 
 TetNeighbours find_neighbours(const TetMesh& mesh) {
     KERF_CHECK(are_in_range(mesh.tets, mesh.vertices.size()));
-    TetNeighbours neighbours(mesh.tets.size(), {-1, -1, -1, -1});
+    TetNeighbours neighbours(mesh.tets.size(), {CellId::none(), CellId::none(), CellId::none(), CellId::none()});
     const auto join = [&](FaceSide a, FaceSide b) {
         neighbours[a.tet()][a.corner()] = b.tet();
         neighbours[b.tet()][b.corner()] = a.tet();

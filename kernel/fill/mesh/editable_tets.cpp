@@ -33,21 +33,21 @@ Triangle ascending_face(const Tetrahedron& vertices, int i) {
 }  // namespace
 
 EditableTets::EditableTets(std::vector<Vec3> points, std::int32_t most)
-    : points_(std::move(points)), cell_at_vertex_(points_.size(), none), most_(most) {
+    : points_(std::move(points)), cell_at_vertex_(points_.size(), CellId::none()), most_(most) {
     KERF_CHECK(most <= most_cells);
 }
 
 EditableTets::EditableTets(TetMesh mesh, std::int32_t most)
-    : cell_at_vertex_(mesh.vertices.size(), none), most_(most), keeps_numbers_(true) {
+    : cell_at_vertex_(mesh.vertices.size(), CellId::none()), most_(most), keeps_numbers_(true) {
     KERF_CHECK(most <= most_cells);
     require_room(mesh.tets.size());
     if (mesh.neighbours.empty()) connect_tets(mesh);
     cells_.reserve(mesh.tets.size());
-    for (std::int32_t cell = 0; cell < count_of(mesh.tets); ++cell) {
+    for (const CellId cell : mesh.tets.ids()) {
         Cell& made = cells_.emplace_back(Cell{mesh.tets[cell], {none, none, none, none}});
         for (int i = 0; i < 4; ++i) {
             cell_at_vertex_[made.vertex[i]] = cell;
-            if (const std::int32_t other = mesh.neighbours[cell][i]; other >= 0)
+            if (const CellId other = mesh.neighbours[cell][i]; other.is_valid())
                 made.link[i] = cell_face(other, index_of(mesh.neighbours[other], cell));
         }
     }
@@ -56,11 +56,11 @@ EditableTets::EditableTets(TetMesh mesh, std::int32_t most)
 
 TetMesh EditableTets::take_mesh(bool with_neighbours) {
     TetMesh mesh;
-    const auto is_taken = [&](std::int32_t cell) { return cells_[cell].vertex[0] >= 0; };
+    const auto is_taken = [&](CellId cell) { return cells_[cell].vertex[0] >= 0; };
     std::size_t count = 0;
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell) count += is_taken(cell);
+    for (const CellId cell : cells()) count += is_taken(cell);
     mesh.tets.reserve(count);
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell)
+    for (const CellId cell : cells())
         if (is_taken(cell)) {
             mesh.tets.push_back(cells_[cell].vertex);
             cells_[cell].vertex[0] = count_of(mesh.tets) - 1;  // its new number
@@ -68,37 +68,38 @@ TetMesh EditableTets::take_mesh(bool with_neighbours) {
             cells_[cell].vertex[0] = none;
         }
     if (with_neighbours) mesh.neighbours.reserve(count);
-    for (std::int32_t cell = 0; with_neighbours && cell < cell_count(); ++cell) {
+    for (const CellId cell : ids<CellId>(with_neighbours ? cell_count() : 0)) {
         if (cells_[cell].vertex[0] == none) continue;
         auto& neighbours = mesh.neighbours.emplace_back();
         for (int i = 0; i < 4; ++i)
-            neighbours[i] = is_constrained(cell_face(cell, i)) ? none : cells_[neighbour(cell, i)].vertex[0];
+            neighbours[i] =
+                is_constrained(cell_face(cell, i)) ? CellId::none() : CellId(cells_[neighbour(cell, i)].vertex[0]);
     }
     mesh.vertices = std::move(points_);
     *this = EditableTets();
     return mesh;
 }
 
-std::vector<std::int32_t> EditableTets::cells_around_vertex(std::int32_t vertex) {
-    std::vector<std::int32_t> cells;
+std::vector<CellId> EditableTets::cells_around_vertex(std::int32_t vertex) {
+    std::vector<CellId> cells;
     find_star(cell_at_vertex_[vertex], vertex, cells);
     return cells;
 }
 
-void EditableTets::find_star(std::int32_t cell, std::int32_t vertex, std::vector<std::int32_t>& star) {
+void EditableTets::find_star(CellId cell, std::int32_t vertex, std::vector<CellId>& star) {
     star.assign(1, cell);
     cells_[cell].flip_mark();
     for (std::size_t k = 0; k < star.size(); ++k) {
         Cell at = cells_[star[k]];
         at.flip_mark();  // all cells of the star have it
         for (int i = 0; i < 4; ++i) {
-            const std::int32_t next = cell_of(at.link[i] & ~constraint);
+            const CellId next = cell_of(at.link[i] & ~constraint);
             if (at.vertex[i] == vertex || cells_[next].is_marked()) continue;
             cells_[next].flip_mark();
             star.push_back(next);
         }
     }
-    for (const std::int32_t found : star) cells_[found].flip_mark();
+    for (const CellId found : star) cells_[found].flip_mark();
 }
 
 void EditableTets::constrain(CellFace face) {
@@ -116,13 +117,12 @@ void EditableTets::require_room(std::size_t more_cells) const {
                                                    cell_at_vertex_.size(), cells, most_));
 }
 
-std::span<const std::int32_t> EditableTets::replace(std::span<const std::int32_t> cells,
-                                                    std::span<const Tetrahedron> by) {
+std::span<const CellId> EditableTets::replace(std::span<const CellId> cells, std::span<const Tetrahedron> by) {
     if (const std::size_t reused = cells.size() + gaps_.size(); by.size() > reused) require_room(by.size() - reused);
     is_altered_ = true;
     open_.clear();
-    for (const std::int32_t cell : cells) cells_[cell].flip_mark();
-    for (const std::int32_t cell : cells) {
+    for (const CellId cell : cells) cells_[cell].flip_mark();
+    for (const CellId cell : cells) {
         Cell old = cells_[cell];
         old.flip_mark();
         for (int i = 0; i < 4; ++i)
@@ -131,7 +131,7 @@ std::span<const std::int32_t> EditableTets::replace(std::span<const std::int32_t
     }
     places_.assign(cells.begin(), cells.end());
     for (; places_.size() < by.size() && !gaps_.empty(); gaps_.pop_back()) places_.push_back(gaps_.back());
-    for (; places_.size() < by.size(); cells_.emplace_back()) places_.push_back(cell_count());
+    for (; places_.size() < by.size(); cells_.emplace_back()) places_.push_back(CellId(cell_count()));
     for (std::size_t k = 0; k < by.size(); ++k) {
         cells_[places_[k]].vertex = by[k];
         for (int i = 0; i < 4; ++i) {
@@ -152,7 +152,7 @@ std::span<const std::int32_t> EditableTets::replace(std::span<const std::int32_t
     }
     KERF_CHECK(open_.empty());
     const std::span made = std::span(places_).first(by.size()), left = std::span(places_).subspan(by.size());
-    for (const std::int32_t cell : left) cells_[cell].vertex[0] = none;
+    for (const CellId cell : left) cells_[cell].vertex[0] = none;
     if (keeps_numbers_)
         gaps_.insert(gaps_.end(), left.rbegin(), left.rend());
     else if (!left.empty())
@@ -160,11 +160,11 @@ std::span<const std::int32_t> EditableTets::replace(std::span<const std::int32_t
     return made;
 }
 
-void EditableTets::remove_cells(std::span<const std::int32_t> cells, std::span<std::int32_t> followed) {
-    std::vector<std::int32_t> descending(cells.begin(), cells.end());
+void EditableTets::remove_cells(std::span<const CellId> cells, std::span<CellId> followed) {
+    std::vector<CellId> descending(cells.begin(), cells.end());
     std::sort(descending.begin(), descending.end(), std::greater<>());
-    for (const std::int32_t to : descending) {
-        const std::int32_t from = cell_count() - 1;
+    for (const CellId to : descending) {
+        const CellId from(cell_count() - 1);
         if (to != from) {
             cells_[to] = cells_[from];
             for (int i = 0; i < 4; ++i) {
@@ -180,19 +180,19 @@ void EditableTets::remove_cells(std::span<const std::int32_t> cells, std::span<s
 }
 
 void EditableTets::keep_cells(const std::vector<bool>& is_kept) {
-    std::vector<std::int32_t> number(cells_.size(), none);
+    Array<CellId, CellId> number(cells_.size(), CellId::none());
     std::int32_t count = 0;
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell)
-        if (is_kept[cell]) number[cell] = count++;
-    std::fill(cell_at_vertex_.begin(), cell_at_vertex_.end(), none);
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell) {
-        if (!is_kept[cell]) continue;
+    for (const CellId cell : cells())
+        if (is_kept[cell.value()]) number[cell] = CellId(count++);
+    std::fill(cell_at_vertex_.begin(), cell_at_vertex_.end(), CellId::none());
+    for (const CellId cell : cells()) {
+        if (!is_kept[cell.value()]) continue;
         Cell& kept = cells_[number[cell]] = cells_[cell];
         for (CellFace& behind : kept.link) {
             if (behind < 0) continue;
             const CellFace face = behind & ~constraint;
-            const std::int32_t other = number[cell_of(face)];
-            behind = other == none ? none : cell_face(other, index_in_cell(face)) | (behind & constraint);
+            const CellId other = number[cell_of(face)];
+            behind = other.is_valid() ? cell_face(other, index_in_cell(face)) | (behind & constraint) : none;
         }
         for (const std::int32_t v : kept.vertex) cell_at_vertex_[v] = number[cell];
     }
@@ -203,11 +203,11 @@ void EditableTets::keep_cells(const std::vector<bool>& is_kept) {
 void EditableTets::add_cells(std::span<const Tetrahedron> cells) {
     require_room(cells.size());
     for (const Tetrahedron& cell : cells) {
-        for (const std::int32_t v : cell) cell_at_vertex_[v] = cell_count();
+        for (const std::int32_t v : cell) cell_at_vertex_[v] = CellId(cell_count());
         cells_.push_back({cell, {none, none, none, none}});
     }
     open_.clear();
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell)
+    for (const CellId cell : cells_.ids())
         for (int i = 0; i < 4; ++i)
             if (cells_[cell].link[i] < 0) open_.push_back({ascending_face(cells_[cell].vertex, i), cell_face(cell, i)});
     std::sort(open_.begin(), open_.end(), [](const OpenFace& f, const OpenFace& g) { return f.vertices < g.vertices; });
@@ -220,12 +220,12 @@ void EditableTets::add_cells(std::span<const Tetrahedron> cells) {
 
 std::int32_t EditableTets::add_vertex(const Vec3& p) {
     points_.push_back(p);
-    cell_at_vertex_.push_back(none);
+    cell_at_vertex_.push_back(CellId::none());
     return count_of(points_) - 1;
 }
 
 void EditableTets::remove_unused_vertices(std::size_t count) {
-    for (std::size_t v = count; v < points_.size(); ++v) KERF_CHECK(cell_at_vertex_[v] == none);
+    for (std::size_t v = count; v < points_.size(); ++v) KERF_CHECK(!cell_at_vertex_[v].is_valid());
     points_.resize(count);
     cell_at_vertex_.resize(count);
 }
@@ -234,13 +234,13 @@ std::size_t EdgeRing::place_of(std::int32_t vertex) const {
     return std::find(ring.begin(), ring.end(), vertex) - ring.begin();
 }
 
-bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRing& ring, std::size_t most) {
+bool find_ring(const EditableTets& tets, CellId cell, int i, int j, EdgeRing& ring, std::size_t most) {
     ring.a = tets.vertices(cell)[i];
     ring.b = tets.vertices(cell)[j];
     ring.cells.clear();
     ring.ring.clear();
     auto [behind, ahead] = other_two[i][j];
-    std::int32_t at = cell;
+    CellId at = cell;
     do {
         if (ring.cells.size() == most) return false;
         ring.cells.push_back(at);
@@ -256,7 +256,7 @@ bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRi
 }
 
 bool is_spoke_constrained(const EditableTets& tets, const EdgeRing& ring, std::size_t k) {
-    const std::int32_t cell = ring.cells[k];
+    const CellId cell = ring.cells[k];
     return tets.is_constrained(cell_face(cell, index_of(tets.vertices(cell), ring.ring[(k + 1) % ring.size()])));
 }
 

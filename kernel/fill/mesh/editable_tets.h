@@ -23,15 +23,16 @@ namespace kerf {
 /// 4 * cell + i: the face of the cell that is opposite to its vertex i.
 using CellFace = std::int32_t;
 
-constexpr CellFace cell_face(std::int32_t cell, int i) { return 4 * cell + i; }
-constexpr std::int32_t cell_of(CellFace face) { return face >> 2; }
+constexpr CellFace cell_face(CellId cell, int i) { return 4 * cell.value() + i; }
+constexpr CellId cell_of(CellFace face) { return CellId(face >> 2); }
 constexpr int index_in_cell(CellFace face) { return face & 3; }
 
-/// Returns the place of a vertex among four different ones; 4 if it is none of them. Without branches, which could not
-/// be predicted.
-inline int index_of(const Tetrahedron& vertices, std::int32_t vertex) {
-    const int matches = (vertices[0] == vertex) | (vertices[1] == vertex) << 1 | (vertices[2] == vertex) << 2 |
-                        (vertices[3] == vertex) << 3;
+/// Returns the place of a vertex or cell among four different ones; 4 if it is none of them. Without branches, which
+/// could not be predicted.
+template <class T>
+inline int index_of(const std::array<T, 4>& items, T item) {
+    const int matches =
+        (items[0] == item) | (items[1] == item) << 1 | (items[2] == item) << 2 | (items[3] == item) << 3;
     return std::countr_zero(static_cast<unsigned>(matches | 1 << 4));
 }
 
@@ -51,6 +52,7 @@ inline constexpr std::array<std::array<std::array<int, 2>, 4>, 4> other_two = {{
 /// that have been removed leave gaps, which new cells fill.
 class EditableTets {
  public:
+    /// The ghost as a vertex, and the number of no vertex and of no face.
     static constexpr std::int32_t ghost = -1, none = -1;
     /// Faces of cells are numbered by 30 bits.
     static constexpr std::int32_t most_cells = 1 << 28;
@@ -70,14 +72,15 @@ class EditableTets {
     const std::vector<Vec3>& points() const { return points_; }
     /// Returns the number of cells, ghosts and gaps included.
     std::int32_t cell_count() const { return count_of(cells_); }
-    bool is_ghost(std::int32_t cell) const { return cells_[cell].vertex[3] < 0; }
+    IdRange<CellId> cells() const { return cells_.ids(); }
+    bool is_ghost(CellId cell) const { return cells_[cell].vertex[3] < 0; }
     /// Returns the vertices of a cell. The ghost is always vertex 3, and would see the others counter-clockwise. In a
     /// gap the first vertex is below 0.
-    const Tetrahedron& vertices(std::int32_t cell) const { return cells_[cell].vertex; }
+    const Tetrahedron& vertices(CellId cell) const { return cells_[cell].vertex; }
     /// Returns the name of a face seen from its other cell; below 0 where there is none.
     CellFace mirror(CellFace face) const { return cells_[cell_of(face)].link[index_in_cell(face)] & ~constraint; }
-    /// Returns the cell behind the face opposite to vertex i; below 0 where there is none.
-    std::int32_t neighbour(std::int32_t cell, int i) const { return cell_of(mirror(cell_face(cell, i))); }
+    /// Returns the cell behind the face opposite to vertex i; not a valid one where there is none.
+    CellId neighbour(CellId cell, int i) const { return cell_of(mirror(cell_face(cell, i))); }
     std::int32_t opposite_vertex(CellFace face) const { return cells_[cell_of(face)].vertex[index_in_cell(face)]; }
     /// Returns the vertices of a face that is not the ghost's, counter-clockwise seen from outside of the cell.
     Triangle face_vertices(CellFace face) const {
@@ -86,13 +89,13 @@ class EditableTets {
         return {corners[i], corners[j], corners[k]};
     }
     /// Returns one of the cells around a vertex; none if it has no cells.
-    std::int32_t cell_at(std::int32_t vertex) const { return cell_at_vertex_[vertex]; }
+    CellId cell_at(std::int32_t vertex) const { return cell_at_vertex_[vertex]; }
     /// Returns all cells around a vertex, ghosts included. The vertex must have cells and be on no face without a cell
     /// behind. Linear.
-    std::vector<std::int32_t> cells_around_vertex(std::int32_t vertex);
+    std::vector<CellId> cells_around_vertex(std::int32_t vertex);
     /// Puts all cells around a vertex into `star`, whose memory is used again. The given cell must be one of them, and
     /// is the first.
-    void find_star(std::int32_t cell, std::int32_t vertex, std::vector<std::int32_t>& star);
+    void find_star(CellId cell, std::int32_t vertex, std::vector<CellId>& star);
 
     // --- faces that stay ---
 
@@ -109,7 +112,7 @@ class EditableTets {
     /// between the cells must not be constrained. Ghost cells may be among both. Returns the numbers of the new cells,
     /// in the order of `by`; they are valid until the next change. Throws Error(memory), before anything has changed,
     /// if there would be too many. Quadratic in the number of faces.
-    std::span<const std::int32_t> replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
+    std::span<const CellId> replace(std::span<const CellId> cells, std::span<const Tetrahedron> by);
     /// Removes all cells but those with `is_kept`, which must have no ghosts and keep their order. Faces between kept
     /// and removed cells have no cell behind them then. Linear.
     void keep_cells(const std::vector<bool>& is_kept);
@@ -138,11 +141,11 @@ class EditableTets {
     CellFace& link(CellFace face) { return cells_[cell_of(face)].link[index_in_cell(face)]; }
     void require_room(std::size_t more_cells) const;
     // Removes cells. The last cells move to their places, and numbers in `followed` are changed with them.
-    void remove_cells(std::span<const std::int32_t> cells, std::span<std::int32_t> followed);
+    void remove_cells(std::span<const CellId> cells, std::span<CellId> followed);
 
     std::vector<Vec3> points_;
-    std::vector<Cell> cells_;
-    std::vector<std::int32_t> cell_at_vertex_;
+    Array<CellId, Cell> cells_;
+    std::vector<CellId> cell_at_vertex_;
     std::int32_t most_ = most_cells;
     bool is_altered_ = false;  // whether faces were constrained, or cells replaced
 
@@ -154,8 +157,8 @@ class EditableTets {
     };
 
     bool keeps_numbers_ = false;
-    std::vector<std::int32_t> gaps_;  // places of removed cells; the last one is filled first
-    std::vector<std::int32_t> places_;
+    std::vector<CellId> gaps_;  // places of removed cells; the last one is filled first
+    std::vector<CellId> places_;
     std::vector<OpenFace> open_;
 };
 
@@ -163,7 +166,8 @@ class EditableTets {
 /// ghost may be among the ring.
 struct EdgeRing {
     std::int32_t a = 0, b = 0;
-    std::vector<std::int32_t> cells, ring;
+    std::vector<CellId> cells;
+    std::vector<std::int32_t> ring;
 
     std::size_t size() const { return cells.size(); }
     /// Returns the place of a vertex in the ring; size() if it has none.
@@ -172,7 +176,7 @@ struct EdgeRing {
 
 /// Finds the ring of the edge from vertex i to vertex j of a cell, which is the first in it. Cells turn
 /// counter-clockwise seen from b. Returns false if there is a face without a cell behind, or more cells than `most`.
-bool find_ring(const EditableTets& tets, std::int32_t cell, int i, int j, EdgeRing& ring,
+bool find_ring(const EditableTets& tets, CellId cell, int i, int j, EdgeRing& ring,
                std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// Returns whether the face between cells k - 1 and k of a ring is constrained.

@@ -21,7 +21,7 @@ namespace kerf {
 struct FaceSide {
     std::uint64_t code;  ///< 8 x tetrahedron + 2 x opposite corner + 1 if turned
 
-    std::int32_t tet() const { return code >> 3; }
+    CellId tet() const { return CellId(code >> 3); }
     std::size_t corner() const { return code >> 1 & 3; }  ///< corner of the tetrahedron that is opposite to the face
     /// Returns whether the vertices in ascending order run clockwise, seen from outside of the tetrahedron as tet_faces
     /// has it. The two sides of a face between positive tetrahedra differ in this.

@@ -75,13 +75,13 @@ std::vector<OwnedFace> sorted_facets(const std::vector<Triangle>& facets, std::s
 // The faces all of whose corners lie on the boundary: the boundary faces are among them.
 std::vector<OwnedFace> sorted_faces_over_boundary(const TetMesh& mesh) {
     std::vector<OwnedFace> faces;
-    for (std::int32_t t = 0; t < count_of(mesh.tets); ++t) {
+    for (const CellId t : mesh.tets.ids()) {
         const Tetrahedron& tet = mesh.tets[t];
         const auto is_inside = [&](std::int32_t v) { return v >= mesh.boundary_vertex_count; };
         if (std::count_if(tet.begin(), tet.end(), is_inside) > 1) continue;
         for (int i = 0; i < 4; ++i) {
             const Triangle face = corners_of_face(tet, i);
-            if (std::none_of(face.begin(), face.end(), is_inside)) faces.push_back({smallest_first(face), t});
+            if (std::none_of(face.begin(), face.end(), is_inside)) faces.push_back({smallest_first(face), t.value()});
         }
     }
     return sorted_faces(std::move(faces), mesh.boundary_vertex_count);
@@ -100,7 +100,7 @@ void match_facets(const std::vector<OwnedFace>& facets, const std::vector<OwnedF
 }
 
 // Whether tetrahedron n names t over the same face as t names n.
-bool names_back(const TetMesh& mesh, std::int32_t n, std::int32_t t, const Triangle& face) {
+bool names_back(const TetMesh& mesh, CellId n, CellId t, const Triangle& face) {
     for (int j = 0; j < 4; ++j)
         if (mesh.neighbours[n][j] == t && opposite(corners_of_face(mesh.tets[n], j), face)) return true;
     return false;
@@ -108,13 +108,13 @@ bool names_back(const TetMesh& mesh, std::int32_t n, std::int32_t t, const Trian
 
 // Each pair of sides is looked at from the smaller tetrahedron only, because the other may lie far away in memory.
 std::int64_t count_mismatched_neighbours(const TetMesh& mesh) {
-    const auto tet_count = count_of(mesh.tets);
+    const CellId end(count_of(mesh.tets));
     std::int64_t inner_sides = 0, pairs = 0;
-    for (std::int32_t t = 0; t < tet_count; ++t)
+    for (const CellId t : mesh.tets.ids())
         for (int i = 0; i < 4; ++i) {
-            const std::int32_t n = mesh.neighbours[t][i];
-            inner_sides += n != -1;
-            pairs += t < n && n < tet_count && names_back(mesh, n, t, corners_of_face(mesh.tets[t], i));
+            const CellId n = mesh.neighbours[t][i];
+            inner_sides += n != CellId::none();
+            pairs += t < n && n < end && names_back(mesh, n, t, corners_of_face(mesh.tets[t], i));
         }
     return inner_sides - 2 * pairs;
 }
@@ -124,16 +124,16 @@ struct Faces {
     std::vector<OwnedFace> boundary;
     std::int64_t mismatched_sides = 0;  // sides of all other faces
 
-    void add_boundary(const TetMesh& mesh, std::int32_t t, int i) {
-        boundary.push_back({smallest_first(corners_of_face(mesh.tets[t], i)), t});
+    void add_boundary(const TetMesh& mesh, CellId t, int i) {
+        boundary.push_back({smallest_first(corners_of_face(mesh.tets[t], i)), t.value()});
     }
 };
 
 Faces faces_as_named(const TetMesh& mesh) {
     Faces faces;
-    for (std::int32_t t = 0; t < count_of(mesh.tets); ++t)
+    for (const CellId t : mesh.tets.ids())
         for (int i = 0; i < 4; ++i)
-            if (mesh.neighbours[t][i] == -1) faces.add_boundary(mesh, t, i);
+            if (mesh.neighbours[t][i] == CellId::none()) faces.add_boundary(mesh, t, i);
     faces.mismatched_sides = count_mismatched_neighbours(mesh);
     return faces;
 }

@@ -112,7 +112,7 @@ bool settle(EditableTets& tets, std::int32_t v) {
 std::int64_t settle_steiner_points(EditableTets& tets, std::int32_t first) {
     std::vector<std::int32_t> left(tets.points().size() - first);
     std::iota(left.begin(), left.end(), first);
-    std::erase_if(left, [&](std::int32_t v) { return tets.cell_at(v) == EditableTets::none; });
+    std::erase_if(left, [&](std::int32_t v) { return !tets.cell_at(v).is_valid(); });
     for (int visit = 0; visit < most_visits; ++visit)
         std::erase_if(left, [&](std::int32_t v) { return settle(tets, v); });
     return std::ssize(left);
@@ -139,7 +139,7 @@ void merge_if_close(EditableTets& tets, std::int32_t v, const SizeField& size) {
 // that are merged are left without cells. Deterministic.
 void merge_close_vertices(EditableTets& tets, std::int32_t first, const SizeField& size) {
     for (std::int32_t v = first; v < count_of(tets.points()); ++v)
-        if (tets.cell_at(v) != EditableTets::none) merge_if_close(tets, v, size);
+        if (tets.cell_at(v).is_valid()) merge_if_close(tets, v, size);
 }
 
 // --- the whole ---

@@ -86,7 +86,7 @@ class PartTaker {
  private:
     void add_boundary(std::int32_t tet, std::int32_t place, Part& part) {
         for (std::size_t i = 0; i < 4; ++i) {
-            const std::int32_t beyond = whole_.neighbours[tet][i];
+            const std::int32_t beyond = whole_.neighbours[tet][i].value();
             const NodeId neighbour = beyond < 0 ? -1 : mesh_.part[beyond];
             if (neighbour == part.id) continue;
             Corners corners;

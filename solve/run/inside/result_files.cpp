@@ -66,7 +66,7 @@ std::vector<PartValues> values_of_part(const ElasticProblem& problem, const std:
 void write_sizes(const std::string& path, const SizedMesh& sizes) {
     Part part;
     part.mesh.vertices = sizes.vertices;
-    part.mesh.tets = sizes.tets;
+    part.mesh.tets.assign(sizes.tets.begin(), sizes.tets.end());
     part.global_id.resize(sizes.vertices.size());
     std::iota(part.global_id.begin(), part.global_id.end(), 0);
     const PartValues size = {"size", PartValues::Of::points, 1,

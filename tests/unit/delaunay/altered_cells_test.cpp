@@ -42,23 +42,23 @@ SpatialTriangulation altered(std::mt19937& random) {
 
 // The cells that p may remove, by the slowest way: all whose spheres contain it are reached from the one where it is,
 // those with a face that it does not see are refused, and so on from the beginning.
-std::set<std::int32_t> removed_by(const SpatialTriangulation& triangulation, const Vec3& p) {
+std::set<CellId> removed_by(const SpatialTriangulation& triangulation, const Vec3& p) {
     const std::vector<Vec3>& points = triangulation.points();
-    const std::int32_t start = triangulation.locate(p, 0);
-    for (std::set<std::int32_t> refused;;) {
-        std::vector<std::int32_t> reached = {start};
-        std::set<std::int32_t> removed = {start};
+    const CellId start = triangulation.locate(p, CellId(0));
+    for (std::set<CellId> refused;;) {
+        std::vector<CellId> reached = {start};
+        std::set<CellId> removed = {start};
         for (std::size_t k = 0; k < reached.size(); ++k)
             for (int i = 0; i < 4; ++i) {
                 const CellFace face = cell_face(reached[k], i);
-                const std::int32_t next = cell_of(triangulation.mirror(face));
+                const CellId next = cell_of(triangulation.mirror(face));
                 const Tetrahedron& v = triangulation.vertices(next);
                 if (!triangulation.is_constrained(face) && !triangulation.is_ghost(next) && !refused.contains(next) &&
                     in_sphere(points[v[0]], points[v[1]], points[v[2]], points[v[3]], p) && removed.insert(next).second)
                     reached.push_back(next);
             }
-        std::set<std::int32_t> unseen;
-        for (const std::int32_t cell : removed)
+        std::set<CellId> unseen;
+        for (const CellId cell : removed)
             for (int i = 0; i < 4; ++i) {
                 const CellFace face = cell_face(cell, i);
                 const auto [a, b, c] = triangulation.face_vertices(face);
@@ -78,12 +78,12 @@ TEST(SpatialTriangulation, RemovesAllCellsOfWhichAPointSeesTheFaces) {
     for (int round = 0; round < 5; ++round) {
         SpatialTriangulation triangulation = altered(random);
         for (int i = 0; i < 100; ++i) {
-            const auto corners = triangulation.vertices(
-                static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(triangulation.cell_count())));
+            const auto corners =
+                triangulation.vertices(CellId(random() % static_cast<std::uint32_t>(triangulation.cell_count())));
             if (std::any_of(corners.begin(), corners.end(), [](std::int32_t v) { return v < 0; })) continue;
             Vec3 p = Vec3::Zero();
             for (const std::int32_t v : corners) p += triangulation.points()[v] / 4;
-            const std::set<std::int32_t> expected = removed_by(triangulation, p);
+            const std::set<CellId> expected = removed_by(triangulation, p);
             std::set<Triangle> asked;
             bool is_star_known = false;
             const auto is_kept_off_by = [&](const Triangle& face) {
@@ -97,7 +97,7 @@ TEST(SpatialTriangulation, RemovesAllCellsOfWhichAPointSeesTheFaces) {
                     EXPECT_TRUE(!face.is_constrained || asked.contains(face.vertices));
                 return true;
             };
-            const std::int32_t vertex = triangulation.insert_if(p, 0, {accepts, is_kept_off_by});
+            const std::int32_t vertex = triangulation.insert_if(p, CellId(0), {accepts, is_kept_off_by});
             ASSERT_EQ(vertex != SpatialTriangulation::none, is_star_known);
             ASSERT_EQ(is_star_known, asked.size() < 3 && !expected.empty());
             inserted += is_star_known;

@@ -67,7 +67,7 @@ TEST(Delaunay, FillsTheHull) {
     for (const bool is_centred : {false, true}) {
         const SpatialTriangulation triangulation = delaunay(test::lattice(6, 0.25, is_centred)).triangulation;
         double volume = 0;
-        for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
+        for (const CellId cell : triangulation.cells()) {
             if (triangulation.is_ghost(cell)) continue;
             const auto [a, b, c, d] = triangulation.vertices(cell);
             const std::vector<Vec3>& p = triangulation.points();
@@ -103,7 +103,7 @@ TEST(Delaunay, KeepsItsCellsWhenScaledByPowersOfTwo) {
         for (const double by : {0x1p-150, 0x1p-20, 0x1p100}) {
             const Delaunay other = delaunay(scaled(set.points, by));
             ASSERT_EQ(other.triangulation.cell_count(), original.triangulation.cell_count());
-            for (std::int32_t cell = 0; cell < other.triangulation.cell_count(); ++cell)
+            for (const CellId cell : other.triangulation.cells())
                 ASSERT_EQ(other.triangulation.vertices(cell), original.triangulation.vertices(cell));
         }
     }
@@ -121,7 +121,7 @@ TEST(Delaunay, NumbersVerticesAsItsPoints) {
             ASSERT_EQ(representative[i], known->second);
             if (name.starts_with("flat")) continue;
             ASSERT_EQ(triangulation.points()[i], points[i]);
-            ASSERT_EQ(triangulation.cell_at(number) != SpatialTriangulation::none, representative[i] == number);
+            ASSERT_EQ(triangulation.cell_at(number).is_valid(), representative[i] == number);
         }
     }
 }

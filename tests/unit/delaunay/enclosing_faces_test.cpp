@@ -75,11 +75,12 @@ TEST(Faces, EncloseCells) {
         if (triangulation.cell_count() == 0) continue;
         std::vector<bool> is_inside(static_cast<std::size_t>(triangulation.cell_count()));
         const std::uint32_t one_in = 2 + random() % 4;
-        for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
-            is_inside[cell] = !triangulation.is_ghost(cell) && (cell < 10 || random() % one_in == 0);
+        for (const CellId cell : triangulation.cells())
+            is_inside[cell.value()] = !triangulation.is_ghost(cell) && (cell < CellId(10) || random() % one_in == 0);
         std::vector<CellFace> boundary;
         for (CellFace face = 0; face < 4 * triangulation.cell_count(); ++face)
-            if (is_inside[cell_of(face)] && !is_inside[cell_of(triangulation.mirror(face))]) boundary.push_back(face);
+            if (is_inside[cell_of(face).value()] && !is_inside[cell_of(triangulation.mirror(face)).value()])
+                boundary.push_back(face);
         std::shuffle(boundary.begin(), boundary.end(), random);
         const CellFace last = boundary.back();
         boundary.pop_back();

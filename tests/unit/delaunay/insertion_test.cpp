@@ -51,19 +51,19 @@ struct Snapshot {
 
 Snapshot snapshot(const SpatialTriangulation& triangulation) {
     Snapshot seen{triangulation.points().size(), {}};
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
+    for (const CellId cell : triangulation.cells())
         for (int i = 0; i < 4; ++i) {
             const CellFace face = cell_face(cell, i);
             seen.numbers.insert(seen.numbers.end(), {triangulation.vertices(cell)[i], triangulation.mirror(face),
                                                      triangulation.is_constrained(face)});
         }
     for (std::size_t v = 0; v < seen.points; ++v)
-        seen.numbers.push_back(triangulation.cell_at(static_cast<std::int32_t>(v)));
+        seen.numbers.push_back(triangulation.cell_at(static_cast<std::int32_t>(v)).value());
     return seen;
 }
 
 // Whether p is in the closed cell, or strictly beyond the face of a ghost cell.
-bool is_in(const SpatialTriangulation& triangulation, std::int32_t cell, const Vec3& p) {
+bool is_in(const SpatialTriangulation& triangulation, CellId cell, const Vec3& p) {
     const std::vector<Vec3>& points = triangulation.points();
     const Tetrahedron& v = triangulation.vertices(cell);
     if (triangulation.is_ghost(cell)) return orientation(points[v[0]], points[v[1]], points[v[2]], p) > 0;
@@ -83,7 +83,7 @@ bool lies_on(const SpatialTriangulation& triangulation, CellFace face, const Vec
 
 // With constrained faces.
 bool must_be_refused(const SpatialTriangulation& triangulation, const Vec3& p) {
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
+    for (const CellId cell : triangulation.cells())
         for (int i = 0; i < 4; ++i) {
             if (triangulation.is_ghost(cell)) continue;
             const CellFace face = cell_face(cell, i);
@@ -91,7 +91,7 @@ bool must_be_refused(const SpatialTriangulation& triangulation, const Vec3& p) {
                 triangulation.is_constrained(face) || triangulation.is_ghost(cell_of(triangulation.mirror(face)));
             if (is_fixed && lies_on(triangulation, face, p)) return true;
         }
-    return triangulation.is_ghost(triangulation.locate(p, 0));
+    return triangulation.is_ghost(triangulation.locate(p, CellId(0)));
 }
 
 bool is_vertex(const SpatialTriangulation& triangulation, const Vec3& p) {
@@ -117,11 +117,11 @@ TEST(SpatialTriangulation, GrowsPointByPointToTheSameCells) {
         SCOPED_TRACE(name);
         const SpatialTriangulation all = delaunay(points).triangulation;
         if (all.cell_count() == 0) continue;
-        std::int32_t first = 0;
+        CellId first;
         while (all.is_ghost(first)) ++first;
         const auto [a, b, c, d] = all.vertices(first);
         SpatialTriangulation triangulation({points[a], points[b], points[c], points[d]});
-        std::int32_t hint = SpatialTriangulation::none;
+        CellId hint = CellId::none();
         for (const Vec3& p : points) {
             const std::int32_t vertex = triangulation.insert(p, hint);
             ASSERT_EQ(triangulation.points()[vertex], p);
@@ -145,7 +145,7 @@ TEST(SpatialTriangulation, LocatesPoints) {
             const std::array<Vec3, 5> queries = {a, (a + b) / 2, 2 * a - b, (a + b + some_point()) / 3,
                                                  Vec3(a[0], b[1], some_point()[2])};
             const Vec3& p = queries[static_cast<std::size_t>(i) % queries.size()];
-            const std::int32_t cell = triangulation.locate(p, static_cast<std::int32_t>(random() % count));
+            const CellId cell = triangulation.locate(p, CellId(random() % count));
             ASSERT_TRUE(is_in(triangulation, cell, p));
         }
     }
@@ -154,13 +154,13 @@ TEST(SpatialTriangulation, LocatesPoints) {
 TEST(SpatialTriangulation, FindsTheCellsAroundVertices) {
     for (auto& [name, triangulation] : cases()) {
         SCOPED_TRACE(name);
-        std::vector<std::vector<std::int32_t>> around(triangulation.points().size());
-        for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
+        std::vector<std::vector<CellId>> around(triangulation.points().size());
+        for (const CellId cell : triangulation.cells())
             for (const std::int32_t v : triangulation.vertices(cell))
                 if (v >= 0) around[v].push_back(cell);
         for (std::size_t v = 0; v < around.size(); ++v) {
             if (around[v].empty()) continue;
-            std::vector<std::int32_t> found = triangulation.cells_around_vertex(static_cast<std::int32_t>(v));
+            std::vector<CellId> found = triangulation.cells_around_vertex(static_cast<std::int32_t>(v));
             std::sort(found.begin(), found.end());
             ASSERT_EQ(found, around[v]);
         }
@@ -172,22 +172,23 @@ TEST(SpatialTriangulation, TurnsAroundEdges) {
     for (const auto& [name, triangulation] : cases()) {
         SCOPED_TRACE(name);
         std::map<UndirectedEdge, std::int32_t> cells_at;
-        for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
+        for (const CellId cell : triangulation.cells())
             for (int i = 0; i < 4; ++i)
                 for (int j = 0; j < i; ++j)
                     ++cells_at[undirected(triangulation.vertices(cell)[i], triangulation.vertices(cell)[j])];
         const std::vector<Vec3>& points = triangulation.points();
-        for (std::int32_t cell = 0; cell < triangulation.cell_count(); cell += 7) {
-            const int i = cell % 4, j = (i + 1 + cell / 4 % 3) % 4;
+        for (int number = 0; number < triangulation.cell_count(); number += 7) {
+            const CellId cell(number);
+            const int i = number % 4, j = (i + 1 + number / 4 % 3) % 4;
             const std::int32_t from = triangulation.vertices(cell)[i], to = triangulation.vertices(cell)[j];
             EdgeRing ring;
             ASSERT_TRUE(find_ring(triangulation, cell, i, j, ring));
-            const std::vector<std::int32_t>& cells = ring.cells;
+            const std::vector<CellId>& cells = ring.cells;
             ASSERT_EQ(cells[0], cell);
             ASSERT_EQ(static_cast<std::int32_t>(cells.size()), cells_at.at(undirected(from, to)));
             ASSERT_EQ(std::set(cells.begin(), cells.end()).size(), cells.size());
             for (std::size_t k = 0; k < cells.size(); ++k) {
-                const std::int32_t next = cells[(k + 1) % cells.size()];
+                const CellId next = cells[(k + 1) % cells.size()];
                 ASSERT_LT(index_of(triangulation.vertices(cells[k]), from), 4);
                 ASSERT_LT(index_of(triangulation.vertices(cells[k]), to), 4);
                 std::vector<std::int32_t> order;  // that of the cell which is left, then that of both
@@ -214,8 +215,8 @@ TEST(SpatialTriangulation, KeepsConstrainedFacesAndRefusesWithoutAChange) {
         const std::set<Corners> constrained = constrained_faces(triangulation);
         ASSERT_EQ(constrained.size(), (faces.size() + 19) / 20);
         for (int i = 0; i < 40; ++i) {
-            const auto corners = triangulation.vertices(
-                static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(triangulation.cell_count())));
+            const auto corners =
+                triangulation.vertices(CellId(random() % static_cast<std::uint32_t>(triangulation.cell_count())));
             const auto point = [&](int k) -> Vec3 { return triangulation.points()[std::max(corners[k], 0)]; };
             const std::array<Vec3, 4> candidates = {(point(0) + point(1) + point(2) + point(3)) / 4,
                                                     (point(0) + point(1) + 2 * point(2)) / 4, (point(2) + point(3)) / 2,
@@ -230,7 +231,7 @@ TEST(SpatialTriangulation, KeepsConstrainedFacesAndRefusesWithoutAChange) {
                 ASSERT_TRUE(snapshot(triangulation) == before);
             } else {
                 ASSERT_EQ(triangulation.points()[vertex], p);
-                ASSERT_NE(triangulation.cell_at(vertex), SpatialTriangulation::none);
+                ASSERT_TRUE(triangulation.cell_at(vertex).is_valid());
             }
         }
         ASSERT_TRUE(constrained_faces(triangulation) == constrained);
@@ -254,7 +255,7 @@ TEST(SpatialTriangulation, RefusesPointsOnConstrainedFacesAndOnTheHull) {
         EXPECT_EQ(triangulation.insert(p), SpatialTriangulation::none);
     for (const Vec3& p : {Vec3(1.25, 1.5, 1.75), Vec3(1.25, 1.5, 2.25), Vec3(1.25, 1.5, 1.5), Vec3(2.5, 2, 1)})
         EXPECT_GE(triangulation.insert(p), 125);
-    EXPECT_EQ(triangulation.insert({2, 2, 2}), triangulation.insert({2, 2, 2}, 0));
+    EXPECT_EQ(triangulation.insert({2, 2, 2}), triangulation.insert({2, 2, 2}, CellId(0)));
     EXPECT_TRUE(constrained_faces(triangulation) == square);
     test::expect_valid(triangulation);
 }
@@ -277,13 +278,13 @@ TEST(SpatialTriangulation, RefusesMoreCellsThanNumbersWithoutAChange) {
         EXPECT_EQ(code_of([&] { inserted.insert(inside); }), is_refused ? 5 : 0);
         const std::int32_t v = replaced.add_vertex(inside);
         const std::array<Tetrahedron, 4> by = {{{v, 1, 2, 3}, {0, v, 2, 3}, {0, 1, v, 3}, {0, 1, 2, v}}};
-        EXPECT_EQ(code_of([&] { replaced.replace(std::array{0}, by); }), is_refused ? 5 : 0);
+        EXPECT_EQ(code_of([&] { replaced.replace(std::array{CellId(0)}, by); }), is_refused ? 5 : 0);
         for (const SpatialTriangulation* grown : {&inserted, &replaced})
             EXPECT_EQ(grown->cell_count(), is_refused ? 5 : 8);
         if (is_refused) {
             EXPECT_EQ(inserted.points().size(), 4U);
-            EXPECT_EQ(replaced.vertices(0), (Tetrahedron{0, 1, 2, 3}));
-            EXPECT_EQ(replaced.cell_at(v), SpatialTriangulation::none);
+            EXPECT_EQ(replaced.vertices(CellId(0)), (Tetrahedron{0, 1, 2, 3}));
+            EXPECT_FALSE(replaced.cell_at(v).is_valid());
         }
     }
 }

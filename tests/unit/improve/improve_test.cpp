@@ -128,7 +128,7 @@ TEST(ImprovedMesh, RefusesMoreCellsThanNumbersWithoutAChange) {
         ImprovedMesh improved(
             two, 0, {}, [](const CellShape&) {}, most);
         try {
-            improved.replace(std::array{0, 1}, three);
+            improved.replace(std::array{CellId(0), CellId(1)}, three);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::memory);
         }
@@ -305,7 +305,7 @@ TEST(Improve, KeepsTheBoundaryOfAnyCells) {
             const TetNeighbours neighbours = find_neighbours(of);
             for (std::size_t cell = 0; cell < of.tets.size(); ++cell)
                 for (std::size_t i = 0; i < 4; ++i) {
-                    if (neighbours[cell][i] >= 0) continue;
+                    if (neighbours[cell][i].is_valid()) continue;
                     const auto& [a, b, c] = tet_faces[i];
                     std::array<Vec3, 3>& face = faces.emplace_back();
                     face = {of.vertices[of.tets[cell][a]], of.vertices[of.tets[cell][b]],
@@ -448,19 +448,19 @@ TetMesh four_cells(const Vec3& inside) {
 TEST(ImprovedMesh, MovesNoVertexToWhereACellIsNotPositive) {
     TetMesh mesh = four_cells(Vec3::Zero());
     ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
-    std::vector<std::int32_t> star;
-    ASSERT_TRUE(improved.find_star(0, 0, star));
+    std::vector<CellId> star;
+    ASSERT_TRUE(improved.find_star(CellId(0), 0, star));
     ASSERT_EQ(star.size(), 4u);
-    const double badness = improved.badness(0);
+    const double badness = improved.badness(CellId(0));
     const Vec3 in_a_face(-0.5, -0.25, -0.25);
     constexpr double least = 0x1p-54;
     for (const Vec3& to : {Vec3(2, 2, 2), in_a_face, Vec3(in_a_face - Vec3(2 * least, 0, 0))}) {
         EXPECT_FALSE(improved.move(4, to, star));
         EXPECT_EQ(improved.point(4), Vec3(0, 0, 0));
-        EXPECT_EQ(improved.badness(0), badness);
+        EXPECT_EQ(improved.badness(CellId(0)), badness);
     }
     EXPECT_TRUE(improved.move(4, in_a_face + Vec3(least, 0, 0), star));  // flat, but for the last bit
-    EXPECT_GT(improved.badness(0), 1e20);
+    EXPECT_GT(improved.badness(CellId(0)), 1e20);
 }
 
 // --- one operation alone ---
@@ -510,7 +510,7 @@ TEST(EdgeRemoval, FindsTheBestOfAllTriangulations) {
             const TetMesh input = mesh;
             const ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
             EdgeRing ring;
-            ASSERT_TRUE(improved.find_ring(0, 0, 1, ring));
+            ASSERT_TRUE(improved.find_ring(CellId(0), 0, 1, ring));
             ASSERT_EQ(ring.size(), static_cast<std::size_t>(n));
             double limit = -infinity;
             for (const Tetrahedron& cell : input.tets) limit = std::max(limit, shape_of(input, cell).badness());
@@ -533,9 +533,9 @@ TEST(EdgeRemoval, RefusesEdgesOfTheBoundaryAndOfTooManyCells) {
     TetMesh mesh = cells_around_edge(random_ring(random, 11), Vec3(0, 0, -1), Vec3(0, 0, 1));
     const ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
     EdgeRing ring;
-    EXPECT_FALSE(improved.find_ring(0, 0, 1, ring));
+    EXPECT_FALSE(improved.find_ring(CellId(0), 0, 1, ring));
     for (int i = 0; i < 4; ++i)
-        for (int j = 2; j < 4; ++j) EXPECT_TRUE(i == j || !improved.find_ring(0, i, j, ring));
+        for (int j = 2; j < 4; ++j) EXPECT_TRUE(i == j || !improved.find_ring(CellId(0), i, j, ring));
 }
 
 // Four vertices almost in a plane, with cells above and below.
@@ -608,16 +608,16 @@ TEST(VertexInsertion, HelpsWhereNothingElseDoes) {
 
 TEST(Smoothing, MovesOnlyWhatMayMove) {
     TetMesh mesh = four_cells(Vec3::Zero());
-    std::vector<std::int32_t> star;
+    std::vector<CellId> star;
     for (const std::int32_t boundary_vertices : {4, 5}) {
         mesh.boundary_vertex_count = boundary_vertices;
         ImprovedMesh improved(mesh, 0, {}, [](const CellShape&) {});
-        EXPECT_EQ(improved.find_star(0, 0, star), boundary_vertices == 4);
-        EXPECT_FALSE(improved.find_star(0, 1, star));
+        EXPECT_EQ(improved.find_star(CellId(0), 0, star), boundary_vertices == 4);
+        EXPECT_FALSE(improved.find_star(CellId(0), 1, star));
     }
     mesh.boundary_vertex_count = 0;  // those of the boundary are known by its faces
-    EXPECT_FALSE(ImprovedMesh(mesh, 0, {}, [](const CellShape&) {}).find_star(0, 1, star));
-    EXPECT_FALSE(ImprovedMesh(mesh, 1, {}, [](const CellShape&) {}).find_star(1, 1, star));
+    EXPECT_FALSE(ImprovedMesh(mesh, 0, {}, [](const CellShape&) {}).find_star(CellId(0), 1, star));
+    EXPECT_FALSE(ImprovedMesh(mesh, 1, {}, [](const CellShape&) {}).find_star(CellId(1), 1, star));
 }
 
 }  // namespace

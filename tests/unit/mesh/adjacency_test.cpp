@@ -23,12 +23,13 @@ TetMesh random_tets(std::mt19937& random, int vertices, int count) {
     return mesh;
 }
 
-std::vector<std::array<std::int32_t, 4>> neighbours_by_definition(const TetMesh& mesh) {
+TetNeighbours neighbours_by_definition(const TetMesh& mesh) {
     struct Side {
-        std::size_t tet, corner;
+        CellId tet;
+        std::size_t corner;
     };
     std::map<Triangle, std::vector<Side>> sides;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const CellId t : mesh.tets.ids())
         for (std::size_t i = 0; i < 4; ++i) {
             Triangle face = {};
             std::size_t corners = 0;
@@ -37,11 +38,12 @@ std::vector<std::array<std::int32_t, 4>> neighbours_by_definition(const TetMesh&
             std::sort(face.begin(), face.end());
             sides[face].push_back({t, i});
         }
-    std::vector<std::array<std::int32_t, 4>> neighbours(mesh.tets.size(), {-1, -1, -1, -1});
+    constexpr CellId none = CellId::none();
+    TetNeighbours neighbours(mesh.tets.size(), {none, none, none, none});
     for (const auto& [face, at] : sides) {
         if (at.size() < 2) continue;
-        neighbours[at[0].tet][at[0].corner] = static_cast<std::int32_t>(at[1].tet);
-        neighbours[at[1].tet][at[1].corner] = static_cast<std::int32_t>(at[0].tet);
+        neighbours[at[0].tet][at[0].corner] = at[1].tet;
+        neighbours[at[1].tet][at[1].corner] = at[0].tet;
     }
     return neighbours;
 }

@@ -22,10 +22,12 @@ TetMesh four_cells() {
     return mesh;
 }
 
+std::vector<CellId> cells(const std::vector<std::int32_t>& numbers) { return {numbers.begin(), numbers.end()}; }
+
 TetMesh all_of(EditableTets tets) { return tets.take_mesh(true); }
 
 void expect_links_agree(const EditableTets& tets) {
-    for (std::int32_t cell = 0; cell < tets.cell_count(); ++cell) {
+    for (const CellId cell : tets.cells()) {
         if (tets.vertices(cell)[0] < 0) continue;
         for (int i = 0; i < 4; ++i) {
             const CellFace face = cell_face(cell, i), behind = tets.mirror(face);
@@ -62,7 +64,7 @@ TEST(EditableTets, RefusesMoreCellsThanItMayHave) {
     EditableTets tets(four_cells(), 4);
     const std::int32_t v = tets.add_vertex((tets.points()[1] + tets.points()[2] + tets.points()[3]) / 4);
     const std::array<Tetrahedron, 4> by = {{{v, 1, 2, 3}, {4, v, 2, 3}, {4, 1, v, 3}, {4, 1, 2, v}}};
-    EXPECT_THROW(tets.replace(std::array{0}, by), Error);
+    EXPECT_THROW(tets.replace(std::array{CellId(0)}, by), Error);
     tets.remove_unused_vertices(5);
     EXPECT_EQ(all_of(tets).tets, four_cells().tets);
 }
@@ -70,11 +72,11 @@ TEST(EditableTets, RefusesMoreCellsThanItMayHave) {
 TEST(EditableTets, FindsRingsAndStarsInsideOnly) {
     EditableTets tets(four_cells(), EditableTets::most_cells);
     EdgeRing ring;
-    ASSERT_TRUE(find_ring(tets, 2, 0, 2, ring));  // from vertex 0 to vertex 4
+    ASSERT_TRUE(find_ring(tets, CellId(2), 0, 2, ring));  // from vertex 0 to vertex 4
     EXPECT_EQ(ring.a, 0);
     EXPECT_EQ(ring.b, 4);
     ASSERT_EQ(ring.size(), 3u);
-    EXPECT_EQ(ring.cells[0], 2);
+    EXPECT_EQ(ring.cells[0], CellId(2));
     for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t p = ring.ring[k], q = ring.ring[(k + 1) % 3];
         const auto point = [&](std::int32_t v) { return tets.points()[v]; };
@@ -83,13 +85,13 @@ TEST(EditableTets, FindsRingsAndStarsInsideOnly) {
         EXPECT_EQ(ring.place_of(p), k);
     }
     EXPECT_EQ(ring.place_of(4), ring.size());
-    EXPECT_FALSE(find_ring(tets, 2, 0, 2, ring, 2)) << "more cells than asked for";
-    EXPECT_FALSE(find_ring(tets, 2, 0, 1, ring)) << "on the boundary";
-    std::vector<std::int32_t> star;
-    tets.find_star(3, 4, star);
-    EXPECT_EQ(star[0], 3);
+    EXPECT_FALSE(find_ring(tets, CellId(2), 0, 2, ring, 2)) << "more cells than asked for";
+    EXPECT_FALSE(find_ring(tets, CellId(2), 0, 1, ring)) << "on the boundary";
+    std::vector<CellId> star;
+    tets.find_star(CellId(3), 4, star);
+    EXPECT_EQ(star[0], CellId(3));
     std::sort(star.begin(), star.end());
-    EXPECT_EQ(star, (std::vector<std::int32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(star, cells({0, 1, 2, 3}));
 }
 
 // Three cells around an edge, one with another cell behind a face, become two, and one number is free; it is taken
@@ -100,34 +102,34 @@ TEST(EditableTets, FillsGapsBeforeItGrows) {
                      Vec3(-0.5, -0.8, 0), Vec3(0, 0, 1), Vec3(2, 3, -2)};
     mesh.tets = {{0, 4, 1, 2}, {0, 4, 2, 3}, {0, 4, 3, 1}, {0, 2, 1, 5}};
     EditableTets tets(mesh, EditableTets::most_cells);
-    tets.constrain(cell_face(0, 1));
+    tets.constrain(cell_face(CellId(0), 1));
     EdgeRing ring;
-    ASSERT_TRUE(find_ring(tets, 1, 0, 1, ring));
-    EXPECT_EQ(ring.cells, (std::vector{1, 2, 0}));
+    ASSERT_TRUE(find_ring(tets, CellId(1), 0, 1, ring));
+    EXPECT_EQ(ring.cells, cells({1, 2, 0}));
     const std::array<Tetrahedron, 2> two = {{{0, 1, 2, 3}, {1, 2, 3, 4}}};
     const auto made = tets.replace(ring.cells, two);
-    EXPECT_EQ(std::vector(made.begin(), made.end()), (std::vector{1, 2}));
-    EXPECT_LT(tets.vertices(0)[0], 0);
+    EXPECT_EQ(std::vector(made.begin(), made.end()), cells({1, 2}));
+    EXPECT_LT(tets.vertices(CellId(0))[0], 0);
     EXPECT_EQ(tets.cell_count(), 4);
-    EXPECT_EQ(tets.neighbour(3, 3), 1);
-    EXPECT_TRUE(tets.is_constrained(cell_face(3, 3)));
+    EXPECT_EQ(tets.neighbour(CellId(3), 3), CellId(1));
+    EXPECT_TRUE(tets.is_constrained(cell_face(CellId(3), 3)));
     expect_links_agree(tets);
 
     const std::int32_t v = tets.add_vertex(Vec3(0, 0, -0.1));
     const std::array<Tetrahedron, 4> four = {{{v, 1, 2, 3}, {0, v, 2, 3}, {0, 1, v, 3}, {0, 1, 2, v}}};
-    const auto filled = tets.replace(std::array{1}, four);
-    EXPECT_EQ(std::vector(filled.begin(), filled.end()), (std::vector{1, 0, 4, 5}));
+    const auto filled = tets.replace(std::array{CellId(1)}, four);
+    EXPECT_EQ(std::vector(filled.begin(), filled.end()), cells({1, 0, 4, 5}));
     expect_links_agree(tets);
 
-    const Tetrahedron outside = tets.vertices(3);
+    const Tetrahedron outside = tets.vertices(CellId(3));
     std::vector<bool> is_kept(6, true);
     is_kept[3] = false;
     tets.keep_cells(is_kept);
     EXPECT_EQ(tets.cell_count(), 5);
-    EXPECT_EQ(tets.cell_at(5), EditableTets::none);
+    EXPECT_EQ(tets.cell_at(5), CellId::none());
     expect_links_agree(tets);
     tets.add_cells(std::span(&outside, 1));
-    EXPECT_EQ(tets.neighbour(5, 3), 4);
+    EXPECT_EQ(tets.neighbour(CellId(5), 3), CellId(4));
     expect_links_agree(tets);
     const TetMesh inside = tets.take_mesh(true);
     EXPECT_EQ(inside.tets.size(), 6u);

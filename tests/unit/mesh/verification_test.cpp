@@ -65,10 +65,12 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
+constexpr std::array no_neighbours = {CellId::none(), CellId::none(), CellId::none(), CellId::none()};
+
 void set_neighbours(TetMesh& mesh) {
-    std::map<Triangle, std::vector<std::pair<std::int32_t, int>>> sides;
-    mesh.neighbours.assign(mesh.tets.size(), {-1, -1, -1, -1});
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.tets.size()); ++t)
+    std::map<Triangle, std::vector<std::pair<CellId, int>>> sides;
+    mesh.neighbours.assign(mesh.tets.size(), no_neighbours);
+    for (const CellId t : mesh.tets.ids())
         for (int i = 0; i < 4; ++i) sides[sorted(face_of(mesh.tets[t], i))].push_back({t, i});
     for (const auto& [face, side] : sides)
         if (side.size() == 2) {
@@ -92,7 +94,7 @@ MeshedSurface meshed_cube() {
     cube.surface.vertices = mesh.vertices;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
         for (int i = 0; i < 4; ++i)
-            if (mesh.neighbours[t][i] < 0) cube.surface.facets.push_back(face_of(mesh.tets[t], i));
+            if (!mesh.neighbours[t][i].is_valid()) cube.surface.facets.push_back(face_of(mesh.tets[t], i));
     return cube;
 }
 
@@ -113,7 +115,7 @@ Counts counts(const MeshedSurface& m) {
 }
 
 int boundary_faces(const TetMesh& mesh, std::int32_t t) {
-    return static_cast<int>(std::count(mesh.neighbours[t].begin(), mesh.neighbours[t].end(), -1));
+    return static_cast<int>(std::count(mesh.neighbours[t].begin(), mesh.neighbours[t].end(), CellId::none()));
 }
 
 // A tetrahedron in the inside and one at the boundary, so that every kind of damage meets both.
@@ -148,7 +150,7 @@ TEST(Verification, DoesNotDependOnOrderAndRotation) {
             ASSERT_GE(behind[f], 0);
             int same = 0;
             for (int i = 0; i < 4; ++i)
-                same += cube.mesh.neighbours[behind[f]][i] == -1 &&
+                same += cube.mesh.neighbours[behind[f]][i] == CellId::none() &&
                         sorted(face_of(cube.mesh.tets[behind[f]], i)) == sorted(cube.surface.facets[f]);
             EXPECT_EQ(same, 1);
         }
@@ -266,14 +268,14 @@ TEST(Verification, FindsABrokenNeighbour) {
     for (std::int32_t t = 0; t < tet_count; t += 7)
         for (int i = 0; i < 4; ++i) {
             SCOPED_TRACE(testing::Message() << "tetrahedron " << t << ", face " << i);
-            const int inner = whole.neighbours[t][i] >= 0;
+            const int inner = whole.neighbours[t][i].is_valid();
             for (const std::int32_t wrong : {t, tet_count, -2, std::numeric_limits<std::int32_t>::max()}) {
                 MeshedSurface cube = meshed_cube();
-                cube.mesh.neighbours[t][i] = wrong;
+                cube.mesh.neighbours[t][i] = CellId(wrong);
                 EXPECT_EQ(counts(cube), (Counts{0, 1 - inner, 0, 1 + inner, 0}));
             }
             MeshedSurface cut = meshed_cube();
-            cut.mesh.neighbours[t][i] = -1;
+            cut.mesh.neighbours[t][i] = CellId::none();
             EXPECT_EQ(counts(cut), (Counts{0, 0, inner, inner, 0}));
         }
 }
@@ -306,7 +308,7 @@ TEST(Verification, OrientationIsExact) {
     const auto inverted = [&](double z) {
         one.mesh.vertices = {Vec3(0.1, 0.1, 0.1), Vec3(1.1, 0.1, 1.1), Vec3(0.1, 1.1, 1.1), Vec3(0.6, 0.6, z)};
         one.mesh.tets = {{0, 1, 2, 3}};
-        one.mesh.neighbours = {{-1, -1, -1, -1}};
+        one.mesh.neighbours = {no_neighbours};
         return counts(one).inverted;
     };
     int changes = 0;
@@ -334,7 +336,7 @@ TEST(Verification, CellsWithoutVolumeByRoundingAreCounted) {
                    d = a + coordinate(random) * (b - a) + coordinate(random) * (c - a);
         one.mesh.vertices = {a, b, c, d};
         one.mesh.tets = {{0, 1, 2, 3}};
-        one.mesh.neighbours = {{-1, -1, -1, -1}};
+        one.mesh.neighbours = {no_neighbours};
         const bool is_positive = orientation(a, b, c, d) > 0, has_volume = has_volume_in_any_order(a, b, c, d);
         EXPECT_EQ(counts(one).inverted, !is_positive) << i;
         EXPECT_EQ(counts(one).without_volume, is_positive && !has_volume) << i;

@@ -44,14 +44,13 @@ std::set<Triangle> constrained_triangles(const SpatialTriangulation& triangulati
 
 std::vector<Tetrahedron> all_cells(const SpatialTriangulation& triangulation) {
     std::vector<Tetrahedron> cells;
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell)
-        cells.push_back(triangulation.vertices(cell));
+    for (const CellId cell : triangulation.cells()) cells.push_back(triangulation.vertices(cell));
     return cells;
 }
 
 double six_volumes_of(const SpatialTriangulation& triangulation) {
     double sum = 0;
-    for (std::int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
+    for (const CellId cell : triangulation.cells()) {
         if (triangulation.is_ghost(cell)) continue;
         const auto& v = triangulation.vertices(cell);
         const auto& points = triangulation.points();
@@ -63,7 +62,7 @@ double six_volumes_of(const SpatialTriangulation& triangulation) {
 
 // One flip at a random place. Whether it changed anything.
 bool flip_somewhere(SpatialTriangulation& triangulation, Random& random) {
-    const std::int32_t cell = integer(random, 0, triangulation.cell_count() - 1);
+    const CellId cell(integer(random, 0, triangulation.cell_count() - 1));
     if (triangulation.is_ghost(cell)) return false;
     const int i = integer(random, 0, 3), j = (i + integer(random, 1, 3)) % 4, kind = integer(random, 0, 4);
     if (kind == 0) return replace_face_by_edge(triangulation, cell_face(cell, i));

@@ -146,8 +146,8 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
     const std::vector<char> chosen = chosen_cells(cells, choice);
     const Places places = places_of(cells, choice);
     const auto is_open = [&](std::int32_t t, std::size_t face) {
-        const std::int32_t neighbour = cells.neighbours[t][face];
-        return neighbour < 0 || !chosen[neighbour];
+        const CellId neighbour = cells.neighbours[t][face];
+        return !neighbour.is_valid() || !chosen[neighbour.value()];
     };
     const auto is_outer = [&](std::int32_t t) {
         return is_open(t, 0) || is_open(t, 1) || is_open(t, 2) || is_open(t, 3);
@@ -163,7 +163,7 @@ std::shared_ptr<Geometry> cell_faces(const PartCells& cells, const Frame& frame,
         // A cell behind shrunk ones has those faces drawn that these would cover.
         const auto is_drawn = [&](std::size_t face) {
             if (outer) return shrinks || is_open(t, face);
-            return is_outer(cells.neighbours[t][face]);
+            return is_outer(cells.neighbours[t][face].value());
         };
         for (std::size_t face = 0; face < 4; ++face) {
             if (!is_drawn(face)) continue;

@@ -149,15 +149,15 @@ void begin_corners(ListFile& faces, std::int64_t count) {
 
 // Writes the faces between cells, in upper-triangular order.
 void write_inner_faces(const TetMesh& mesh, ListFile& faces, ListFile& owner, ListFile& neighbour) {
-    for (Label t = 0; t < count_of(mesh.tets); ++t) {
-        const std::array<std::int32_t, 4>& across = mesh.neighbours[t];
+    for (const CellId t : mesh.tets.ids()) {
+        const std::array<CellId, 4>& across = mesh.neighbours[t];
         std::array<std::size_t, 4> order = {0, 1, 2, 3};
         std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return across[a] < across[b]; });
         for (const std::size_t i : order) {
             if (across[i] <= t) continue;
             faces.entry(face_of_cell(mesh, t, i));
-            owner.entry(t);
-            neighbour.entry(across[i]);
+            owner.entry(t.value());
+            neighbour.entry(across[i].value());
         }
     }
 }
@@ -203,7 +203,7 @@ void write_boundary(const std::vector<Patch>& patches, const MeshPlace& place, E
 }  // namespace mesh_files
 }  // namespace
 
-Triangle face_of_cell(const TetMesh& mesh, std::size_t t, std::size_t opposite) {
+Triangle face_of_cell(const TetMesh& mesh, CellId t, std::size_t opposite) {
     const auto& [a, b, c] = tet_faces[opposite];
     const Tetrahedron& tet = mesh.tets[t];
     return {tet[a], tet[b], tet[c]};

@@ -60,7 +60,7 @@ Boundary boundary_of_mesh(const Part& part, const MeshOutline& outline, std::int
                           std::vector<Patch> patches);
 
 /// Returns the face of a cell that lies opposite of one of its corners, its corners as seen from outside.
-Triangle face_of_cell(const TetMesh& mesh, std::size_t t, std::size_t opposite);
+Triangle face_of_cell(const TetMesh& mesh, CellId t, std::size_t opposite);
 /// Returns the number of faces of a mesh of tetrahedra.
 std::int64_t face_count(std::int64_t tets, std::int64_t boundary_faces);
 

@@ -47,16 +47,16 @@ Patch mapped_patch(const std::string& word, const std::string& other_region, con
 class Extract {
  public:
     Extract(const Part& whole, RegionIndex region, Part& piece) : whole_(whole), piece_(piece) {
-        local_tet_.assign(whole.mesh.tets.size(), -1);
+        local_tet_.assign(whole.mesh.tets.size(), CellId::none());
         local_vertex_.assign(whole.mesh.vertices.size(), -1);
         for (std::size_t run = 0; run < whole.regions.size(); ++run) {
             if (whole.regions[run].region != region) continue;
             const bool is_last = run + 1 == whole.regions.size();
             const std::int32_t end = is_last ? whole.tet_count() : whole.regions[run + 1].first_tet;
-            for (std::int32_t t = whole.regions[run].first_tet; t < end; ++t) tets_.push_back(t);
+            for (std::int32_t t = whole.regions[run].first_tet; t < end; ++t) tets_.emplace_back(t);
         }
         for (std::size_t i = 0; i < tets_.size(); ++i) {
-            local_tet_[tets_[i]] = i;
+            local_tet_[tets_[i]] = CellId(i);
             for (const std::int32_t v : whole.mesh.tets[tets_[i]]) local_vertex_[v] = 0;
         }
         for (std::size_t v = 0; v < local_vertex_.size(); ++v) {
@@ -65,26 +65,26 @@ class Extract {
             piece.mesh.vertices.push_back(whole.mesh.vertices[v]);
             piece.global_id.push_back(whole.global_id[v]);
         }
-        for (const std::int32_t t : tets_) {
+        for (const CellId t : tets_) {
             piece.mesh.tets.push_back(local(whole.mesh.tets[t]));
             auto& across = piece.mesh.neighbours.emplace_back(whole.mesh.neighbours[t]);
-            for (std::int32_t& neighbour : across) neighbour = neighbour < 0 ? -1 : local_tet_[neighbour];
+            for (CellId& neighbour : across) neighbour = neighbour.is_valid() ? local_tet_[neighbour] : CellId::none();
         }
     }
-    bool has(std::int32_t tet) const { return local_tet_[tet] >= 0; }
+    bool has(CellId tet) const { return local_tet_[tet].is_valid(); }
     // Adds a triangle with this cell behind it, both numbered as in the whole.
-    void add(const Triangle& corners, std::int32_t tet, std::int32_t patch, NodeId neighbour) {
+    void add(const Triangle& corners, CellId tet, std::int32_t patch, NodeId neighbour) {
         piece_.facets.push_back(local(corners));
         piece_.patch.push_back(patch);
         piece_.neighbour.push_back(neighbour);
-        piece_.tet_at_facet.push_back(local_tet_[tet]);
+        piece_.tet_at_facet.push_back(local_tet_[tet].value());
     }
     // Calls take(corners, tet, beyond) for each face with a cell of another region beyond it.
     template <class Take>
     void for_each_inner_wall(const Take& take) const {
-        for (const std::int32_t t : tets_)
+        for (const CellId t : tets_)
             for (std::size_t i = 0; i < 4; ++i)
-                if (const std::int32_t beyond = whole_.mesh.neighbours[t][i]; beyond >= 0 && !has(beyond))
+                if (const CellId beyond = whole_.mesh.neighbours[t][i]; beyond.is_valid() && !has(beyond))
                     take(face_of_cell(whole_.mesh, t, i), t, beyond);
     }
 
@@ -97,7 +97,9 @@ class Extract {
 
     const Part& whole_;
     Part& piece_;
-    std::vector<std::int32_t> tets_, local_tet_, local_vertex_;
+    std::vector<CellId> tets_;
+    Array<CellId, CellId> local_tet_;
+    std::vector<std::int32_t> local_vertex_;
 };
 
 }  // namespace regions
@@ -140,7 +142,7 @@ Part RegionMeshes::part_of(const Part& part, RegionIndex region) const {
     regions::Extract extract(part, region, piece);
     const std::vector<std::int32_t>& outer = walls_.outer_patches(region);
     for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        const std::int32_t tet = part.tet_at_facet[f];
+        const CellId tet(part.tet_at_facet[f]);
         if (!extract.has(tet)) continue;
         if (part.is_wall(f))
             extract.add(part.facets[f], tet, wall_patch(region, walls_.beyond(part, f)), -1);
@@ -150,8 +152,8 @@ Part RegionMeshes::part_of(const Part& part, RegionIndex region) const {
             extract.add(part.facets[f], tet,
                         std::lower_bound(outer.begin(), outer.end(), part.patch[f]) - outer.begin(), -1);
     }
-    extract.for_each_inner_wall([&](const Triangle& corners, std::int32_t tet, std::int32_t beyond) {
-        extract.add(corners, tet, wall_patch(region, part.region_of(beyond)), -1);
+    extract.for_each_inner_wall([&](const Triangle& corners, CellId tet, CellId beyond) {
+        extract.add(corners, tet, wall_patch(region, part.region_of(beyond.value())), -1);
     });
     return piece;
 }

@@ -89,7 +89,7 @@ class TetCollector {
     }
 
     /// Returns the tetrahedra; throws Error(input) if there are none.
-    std::vector<Tetrahedron> finish() {
+    Array<CellId, Tetrahedron> finish() {
         if (tets_.empty())
             throw Error(ErrorCode::input, path_ + ": the file holds no tetrahedra. Name a file of a volume mesh.");
         return std::move(tets_);
@@ -103,7 +103,7 @@ class TetCollector {
     const std::string& path_;
     const Soup& soup_;
     bool has_volumes_;
-    std::vector<Tetrahedron> tets_;
+    Array<CellId, Tetrahedron> tets_;
     std::vector<std::int32_t> volume_of_tet_;
     std::map<VolumeKey, std::int32_t> number_of_volume_;
     VolumeRegions regions_{{}, {"body"}};

@@ -27,7 +27,9 @@ class Faces {
           const std::vector<std::int32_t>& region_of_tet)
         : vertices_(vertices), tets_(tets), region_of_tet_(region_of_tet) {}
 
-    std::int32_t region(const FaceSide& side) const { return region_of_tet_.empty() ? 0 : region_of_tet_[side.tet()]; }
+    std::int32_t region(const FaceSide& side) const {
+        return region_of_tet_.empty() ? 0 : region_of_tet_[side.tet().value()];
+    }
     // Returns the exact sign: a rounded one of a flat tetrahedron may tell the wrong side.
     int sign(const FaceSide& side) const { return tet_sign(vertices_, tet(side)); }
     // Returns the corners counter-clockwise seen from outside of the tetrahedron.
@@ -45,7 +47,7 @@ class Faces {
     }
 
  private:
-    const Tetrahedron& tet(const FaceSide& side) const { return tets_[side.tet()]; }
+    const Tetrahedron& tet(const FaceSide& side) const { return tets_[side.tet().value()]; }
 
     const std::vector<Vec3>& vertices_;
     const std::vector<Tetrahedron>& tets_;

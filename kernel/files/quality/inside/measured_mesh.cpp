@@ -36,9 +36,9 @@ void add_quality(const TetMesh& mesh, const BoundaryTriangles& boundary, double 
 std::vector<Triangle> hull_of(TetMesh& mesh) {
     connect_tets(mesh);
     std::vector<Triangle> hull;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const CellId t : mesh.tets.ids())
         for (std::size_t i = 0; i < tet_faces.size(); ++i)
-            if (mesh.neighbours[t][i] < 0) {
+            if (!mesh.neighbours[t][i].is_valid()) {
                 const auto& [a, b, c] = tet_faces[i];
                 hull.push_back({mesh.tets[t][a], mesh.tets[t][b], mesh.tets[t][c]});
             }

@@ -34,7 +34,7 @@ void ImprovedMesh::find_limits(const std::function<void(const CellShape&)>& visi
     std::fill_n(is_fixed_.begin(), boundary_vertex_count_, 1);
     badness_.resize(cell_count());
     most_sharp_ = most_flat_ = -std::numeric_limits<double>::infinity();
-    for (std::int32_t cell = 0; cell < cell_count(); ++cell) {
+    for (const CellId cell : cells()) {
         const CellShape shape_of_cell = shape(corners(cell));
         visit(shape_of_cell);
         badness_[cell] = shape_of_cell.badness();
@@ -43,17 +43,17 @@ void ImprovedMesh::find_limits(const std::function<void(const CellShape&)>& visi
         if (is_frozen(cell))
             for (const std::int32_t v : corners(cell)) is_fixed_[v] = 1;
         for (int i = 0; i < 4; ++i)
-            if (neighbour(cell, i) < 0)
+            if (!neighbour(cell, i).is_valid())
                 for (const std::int32_t v : face(cell, i)) is_fixed_[v] = 1;
     }
 }
 
-bool ImprovedMesh::find_ring(std::int32_t cell, int i, int j, EdgeRing& ring) const {
+bool ImprovedMesh::find_ring(CellId cell, int i, int j, EdgeRing& ring) const {
     return kerf::find_ring(tets_, cell, i, j, ring, most_cells_of_a_ring) && ring.size() >= 3 &&
-           std::none_of(ring.cells.begin(), ring.cells.end(), [&](std::int32_t at) { return is_frozen(at); });
+           std::none_of(ring.cells.begin(), ring.cells.end(), [&](CellId at) { return is_frozen(at); });
 }
 
-bool ImprovedMesh::find_star(std::int32_t cell, int i, std::vector<std::int32_t>& star) {
+bool ImprovedMesh::find_star(CellId cell, int i, std::vector<CellId>& star) {
     const std::int32_t vertex = corners(cell)[i];
     if (is_fixed_[vertex]) return false;
     tets_.find_star(cell, vertex, star);
@@ -64,10 +64,10 @@ double ImprovedMesh::excess_of(const Vec3& a, const Vec3& b, const Vec3& c, cons
     return six_volumes / (6 * max_size_.max_volume_at((a + b + c + d) / 4));
 }
 
-double ImprovedMesh::most_excess(std::span<const std::int32_t> cells) const {
+double ImprovedMesh::most_excess(std::span<const CellId> cells) const {
     double excess = 1;
     if (max_size_.is_empty()) return excess;
-    for (const std::int32_t cell : cells) {
+    for (const CellId cell : cells) {
         const auto [a, b, c, d] = corners(cell);
         const double six_volumes = (point(b) - point(a)).cross(point(c) - point(a)).dot(point(d) - point(a));
         if (six_volumes > least_bound_six_)
@@ -90,23 +90,22 @@ bool ImprovedMesh::is_positive(const Tetrahedron& corners) const {
     return orientation(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3])) > 0;
 }
 
-std::span<const std::int32_t> ImprovedMesh::replace(std::span<const std::int32_t> cells,
-                                                    std::span<const Tetrahedron> by) {
-    const std::span<const std::int32_t> made = tets_.replace(cells, by);
+std::span<const CellId> ImprovedMesh::replace(std::span<const CellId> cells, std::span<const Tetrahedron> by) {
+    const std::span<const CellId> made = tets_.replace(cells, by);
     badness_.resize(cell_count());
-    for (const std::int32_t cell : made) badness_[cell] = shape(corners(cell)).badness();
+    for (const CellId cell : made) badness_[cell] = shape(corners(cell)).badness();
     return made;
 }
 
-bool ImprovedMesh::move(std::int32_t vertex, const Vec3& to, std::span<const std::int32_t> star) {
+bool ImprovedMesh::move(std::int32_t vertex, const Vec3& to, std::span<const CellId> star) {
     const Vec3 from = point(vertex);
     tets_.move_vertex(vertex, to);
-    for (const std::int32_t cell : star)
+    for (const CellId cell : star)
         if (!is_positive(corners(cell))) {
             tets_.move_vertex(vertex, from);
             return false;
         }
-    for (const std::int32_t cell : star) badness_[cell] = shape(corners(cell)).badness();
+    for (const CellId cell : star) badness_[cell] = shape(corners(cell)).badness();
     return true;
 }
 

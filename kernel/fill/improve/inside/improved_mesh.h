@@ -30,29 +30,30 @@ class ImprovedMesh {
     // --- cells and vertices ---
 
     std::int32_t cell_count() const { return tets_.cell_count(); }
-    bool is_removed(std::int32_t cell) const { return corners(cell)[0] < 0; }
-    bool is_frozen(std::int32_t cell) const { return cell < frozen_cells_; }
-    const Tetrahedron& corners(std::int32_t cell) const { return tets_.vertices(cell); }
+    IdRange<CellId> cells() const { return tets_.cells(); }
+    bool is_removed(CellId cell) const { return corners(cell)[0] < 0; }
+    bool is_frozen(CellId cell) const { return cell.value() < frozen_cells_; }
+    const Tetrahedron& corners(CellId cell) const { return tets_.vertices(cell); }
     const Vec3& point(std::int32_t vertex) const { return tets_.points()[vertex]; }
-    double badness(std::int32_t cell) const { return badness_[cell]; }
-    /// Returns the cell behind the face opposite to corner i; below 0: the boundary.
-    std::int32_t neighbour(std::int32_t cell, int i) const { return tets_.neighbour(cell, i); }
+    double badness(CellId cell) const { return badness_[cell]; }
+    /// Returns the cell behind the face opposite to corner i; not a valid one: the boundary.
+    CellId neighbour(CellId cell, int i) const { return tets_.neighbour(cell, i); }
     /// Returns the face opposite to corner i, in the order that makes a positive cell after that corner.
-    Triangle face(std::int32_t cell, int i) const { return tets_.face_vertices(cell_face(cell, i)); }
+    Triangle face(CellId cell, int i) const { return tets_.face_vertices(cell_face(cell, i)); }
     CellShape shape(const Tetrahedron& corners) const {
         return cell_shape(point(corners[0]), point(corners[1]), point(corners[2]), point(corners[3]));
     }
     /// Finds the cells around the edge between corners i and j of a cell. Returns false if the edge lies on the
     /// boundary, has a frozen cell, or more cells than most_cells_of_a_ring.
-    bool find_ring(std::int32_t cell, int i, int j, EdgeRing& ring) const;
+    bool find_ring(CellId cell, int i, int j, EdgeRing& ring) const;
     /// Finds the cells around the corner i of a cell. Returns false if the corner must not move.
-    bool find_star(std::int32_t cell, int i, std::vector<std::int32_t>& star);
+    bool find_star(CellId cell, int i, std::vector<CellId>& star);
 
     // --- conditions of new cells ---
 
     /// Returns the largest ratio of volume to bound of these cells, at least 1: new cells in their place may have as
     /// much.
-    double most_excess(std::span<const std::int32_t> cells) const;
+    double most_excess(std::span<const CellId> cells) const;
     /// Returns the badness of a new cell with these corners; infinity if it has an angle beyond all those of the mesh
     /// at the beginning, or exceeds its bound of volume by more than `excess`.
     double badness_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double excess) const;
@@ -65,10 +66,10 @@ class ImprovedMesh {
     /// Replaces cells by others, positive ones, that fill the same space and have the same faces around them. Returns
     /// the numbers of the new ones, valid until the next change. Throws Error(memory), and nothing has changed, if
     /// there would be too many.
-    std::span<const std::int32_t> replace(std::span<const std::int32_t> cells, std::span<const Tetrahedron> by);
+    std::span<const CellId> replace(std::span<const CellId> cells, std::span<const Tetrahedron> by);
     /// Moves a corner that all of `star` have. Returns false, and nothing has changed, if a cell would not be positive
     /// then.
-    bool move(std::int32_t vertex, const Vec3& to, std::span<const std::int32_t> star);
+    bool move(std::int32_t vertex, const Vec3& to, std::span<const CellId> star);
 
     /// Adds a vertex and returns its number. It gets cells by replace().
     std::int32_t add_vertex(const Vec3& p);
@@ -86,7 +87,7 @@ class ImprovedMesh {
     double least_bound_six_ = 0;  // six times the least bound of volume; infinity: none
     double most_sharp_ = 0, most_flat_ = 0;
     EditableTets tets_;
-    std::vector<double> badness_;
+    Array<CellId, double> badness_;
     mutable std::int64_t evaluations_ = 0;
     std::vector<char> is_fixed_;  // #V; whether a vertex must not move
 };

@@ -17,24 +17,24 @@ constexpr std::size_t most_cavity_cells = 40;
 constexpr int most_moves = 4;
 }  // namespace
 
-bool VertexInsertion::contains(std::int32_t cell) const {
+bool VertexInsertion::contains(CellId cell) const {
     return std::find(cavity_.begin(), cavity_.end(), cell) != cavity_.end();
 }
 
-double VertexInsertion::badness_at(const ImprovedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const {
+double VertexInsertion::badness_at(const ImprovedMesh& mesh, const Vec3& at, CellId cell, int i) const {
     const Triangle face = mesh.face(cell, i);
     return mesh.badness_of(at, mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2]), excess_);
 }
 
 void VertexInsertion::find_sides(const ImprovedMesh& mesh) {
     sides_.clear();
-    for (const std::int32_t cell : cavity_)
+    for (const CellId cell : cavity_)
         for (int i = 0; i < 4; ++i)
             if (!contains(mesh.neighbour(cell, i))) sides_.push_back({cell, i, 0});
 }
 
 bool VertexInsertion::has_inner_vertex(const ImprovedMesh& mesh) const {
-    for (const std::int32_t cell : cavity_)
+    for (const CellId cell : cavity_)
         for (const std::int32_t vertex : mesh.corners(cell))
             if (std::none_of(sides_.begin(), sides_.end(), [&](const Side& side) {
                     const Triangle face = mesh.face(side.cell, side.i);
@@ -51,8 +51,8 @@ bool VertexInsertion::grow(const ImprovedMesh& mesh, const Vec3& at) {
     std::stable_sort(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.badness > q.badness; });
     const std::vector<Side> candidates = sides_;
     for (const Side& side : candidates) {
-        const std::int32_t next = mesh.neighbour(side.cell, side.i);
-        if (next < 0 || mesh.is_frozen(next)) continue;
+        const CellId next = mesh.neighbour(side.cell, side.i);
+        if (!next.is_valid() || mesh.is_frozen(next)) continue;
         double worst = -std::numeric_limits<double>::infinity();
         for (int i = 0; i < 4 && worst < side.badness; ++i)
             if (!contains(mesh.neighbour(next, i))) worst = std::max(worst, badness_at(mesh, at, next, i));
@@ -85,7 +85,7 @@ void VertexInsertion::grow_and_move(const ImprovedMesh& mesh, const Vec3& start)
             places_.add({mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2])});
         }
         place.badness = worst_at(mesh, place.at);
-        place = places_.search(mesh, place, excess_, cavity_.front());
+        place = places_.search(mesh, place, excess_, cavity_.front().value());
         if (place.badness < best_.badness) {
             best_ = place;
             best_cavity_ = cavity_;
@@ -98,17 +98,17 @@ void VertexInsertion::grow_and_move(const ImprovedMesh& mesh, const Vec3& start)
 }
 
 // Returns a direction of length 1, or zero where no face of the cell is at the boundary.
-Vec3 VertexInsertion::away_from_boundary(const ImprovedMesh& mesh, std::int32_t cell) {
+Vec3 VertexInsertion::away_from_boundary(const ImprovedMesh& mesh, CellId cell) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < 4; ++i) {
-        if (mesh.neighbour(cell, i) >= 0) continue;
+        if (mesh.neighbour(cell, i).is_valid()) continue;
         const Triangle face = mesh.face(cell, i);
         sum -= doubled_area_vector(mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2])).normalized();
     }
     return sum.stableNormalized();
 }
 
-void VertexInsertion::try_all_edges(const ImprovedMesh& mesh, std::int32_t cell, const Vec3& away) {
+void VertexInsertion::try_all_edges(const ImprovedMesh& mesh, CellId cell, const Vec3& away) {
     for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j) {
             if (!mesh.find_ring(cell, i, j, ring_)) continue;
@@ -117,8 +117,8 @@ void VertexInsertion::try_all_edges(const ImprovedMesh& mesh, std::int32_t cell,
         }
 }
 
-std::span<const std::int32_t> VertexInsertion::insert(ImprovedMesh& mesh, std::int32_t cell, double limit,
-                                                      std::span<const double> depths) {
+std::span<const CellId> VertexInsertion::insert(ImprovedMesh& mesh, CellId cell, double limit,
+                                                std::span<const double> depths) {
     best_ = {Vec3::Zero(), limit};
     best_cavity_.clear();
     try_all_edges(mesh, cell, Vec3::Zero());

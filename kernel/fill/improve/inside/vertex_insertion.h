@@ -18,29 +18,28 @@ class VertexInsertion {
     /// ones; none, and nothing has changed, if there is no vertex whose worst cell is better than `limit`. `depths`:
     /// depths below the facets of the cell at which the vertex may begin, too, in lengths of an edge, tried in this
     /// order until one succeeds; needed where the cells around are as flat as the cell is.
-    std::span<const std::int32_t> insert(ImprovedMesh& mesh, std::int32_t cell, double limit,
-                                         std::span<const double> depths);
+    std::span<const CellId> insert(ImprovedMesh& mesh, CellId cell, double limit, std::span<const double> depths);
     const std::vector<Tetrahedron>& cells() const { return cells_; }
 
  private:
     struct Side {
-        std::int32_t cell;
+        CellId cell;
         int i;
         double badness;  // badness of the cell between the side and the place
     };
 
-    static Vec3 away_from_boundary(const ImprovedMesh& mesh, std::int32_t cell);
-    void try_all_edges(const ImprovedMesh& mesh, std::int32_t cell, const Vec3& away);
+    static Vec3 away_from_boundary(const ImprovedMesh& mesh, CellId cell);
+    void try_all_edges(const ImprovedMesh& mesh, CellId cell, const Vec3& away);
     void grow_and_move(const ImprovedMesh& mesh, const Vec3& start);
     void find_sides(const ImprovedMesh& mesh);
     bool grow(const ImprovedMesh& mesh, const Vec3& at);
     bool has_inner_vertex(const ImprovedMesh& mesh) const;
-    bool contains(std::int32_t cell) const;
-    double badness_at(const ImprovedMesh& mesh, const Vec3& at, std::int32_t cell, int i) const;
+    bool contains(CellId cell) const;
+    double badness_at(const ImprovedMesh& mesh, const Vec3& at, CellId cell, int i) const;
     double worst_at(const ImprovedMesh& mesh, const Vec3& at) const;
 
     EdgeRing ring_;
-    std::vector<std::int32_t> cavity_, best_cavity_;
+    std::vector<CellId> cavity_, best_cavity_;
     BestPlace::Place best_ = {};
     std::vector<Side> sides_;
     double excess_ = 1;

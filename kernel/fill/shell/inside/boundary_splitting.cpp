@@ -95,7 +95,7 @@ bool BoundarySplitting::split_edge(std::int32_t a, std::int32_t b) {
 
 std::optional<double> BoundarySplitting::find_place(const Crossing& crossing, std::int32_t a, std::int32_t b,
                                                     Place& place) const {
-    if (crossing.cell == SpatialTriangulation::none || crossing.has_end) return std::nullopt;
+    if (!crossing.cell.is_valid() || crossing.has_end) return std::nullopt;
     double share = 0;
     if (crossing.is_through_edge()) {
         const auto [p, q] = crossing.edge;
@@ -242,13 +242,13 @@ void BoundarySplitting::flip_part(std::int32_t number, int i) {
 // --- the cells ---
 
 // Returns the cells around an edge, but ghosts; none where the edge or a face at it must stay.
-std::vector<std::int32_t> BoundarySplitting::cavity_of_edge(std::int32_t cell, std::int32_t p, std::int32_t q) const {
+std::vector<CellId> BoundarySplitting::cavity_of_edge(CellId cell, std::int32_t p, std::int32_t q) const {
     if (is_kept_(p, q)) return {};
     EdgeRing ring;
     find_ring(t_, cell, index_of(t_.vertices(cell), p), index_of(t_.vertices(cell), q), ring);
     for (std::size_t k = 0; k < ring.size(); ++k)
         if (is_spoke_constrained(t_, ring, k)) return {};
-    std::erase_if(ring.cells, [&](std::int32_t at) { return t_.is_ghost(at); });
+    std::erase_if(ring.cells, [&](CellId at) { return t_.is_ghost(at); });
     return ring.cells;
 }
 
@@ -258,12 +258,12 @@ bool BoundarySplitting::is_behind(const Vec3& p, const Triangle& triangle) const
 
 // Grows the cavity by the cells behind sides that the point does not see, until it sees all sides: flat cells leave it
 // no room. Returns false if one of them must stay.
-bool BoundarySplitting::grow(std::vector<std::int32_t>& cavity, const Vec3& p) const {
+bool BoundarySplitting::grow(std::vector<CellId>& cavity, const Vec3& p) const {
     for (bool is_seen = false; !is_seen;) {
         is_seen = true;
         for (const CellFace side : sides_of(t_, cavity)) {
             if (is_behind(p, t_.face_vertices(side))) continue;
-            const std::int32_t next = cell_of(t_.mirror(side));
+            const CellId next = cell_of(t_.mirror(side));
             if (t_.is_constrained(side) || t_.is_ghost(next) || cavity.size() == most_cells_of_a_cavity) return false;
             if (!contains(cavity, next)) cavity.push_back(next);
             is_seen = false;
@@ -289,9 +289,9 @@ std::optional<std::int32_t> BoundarySplitting::insert(const Place& place) {
         if (!p.allFinite() || !std::all_of(place.triangles.begin(), place.triangles.end(),
                                            [&](const Triangle& triangle) { return is_behind(p, triangle); }))
             continue;
-        const auto removes_all = [&](std::span<const std::int32_t> removed) {
+        const auto removes_all = [&](std::span<const CellId> removed) {
             return place.is_anywhere || std::all_of(place.cavity.begin(), place.cavity.end(),
-                                                    [&](std::int32_t cell) { return contains(removed, cell); });
+                                                    [&](CellId cell) { return contains(removed, cell); });
         };
         std::optional<std::int32_t> vertex = insert_if(p, place, removes_all);
         if (!vertex && !place.is_anywhere) vertex = insert_alone(p, place);
@@ -307,8 +307,8 @@ std::optional<std::int32_t> BoundarySplitting::insert(const Place& place) {
 template <class Accepts>
 std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Place& place, const Accepts& accepts) {
     const auto before = count_of(t_.points());
-    const std::int32_t at = t_.locate_in_sight(p, place.cavity[0]);
-    if (at == SpatialTriangulation::none) return std::nullopt;
+    const CellId at = t_.locate_in_sight(p, place.cavity[0]);
+    if (!at.is_valid()) return std::nullopt;
     const auto is_free = [&](const Star& star) {
         return accepts(star.removed) && may_be_removed(t_, star.removed, is_kept_);
     };
@@ -318,7 +318,7 @@ std::optional<std::int32_t> BoundarySplitting::insert_if(const Vec3& p, const Pl
 
 // Inserts a vertex in the place of the cells that it must remove, and of those that leave it no room.
 std::optional<std::int32_t> BoundarySplitting::insert_alone(const Vec3& p, const Place& place) {
-    std::vector<std::int32_t> cavity = place.cavity;
+    std::vector<CellId> cavity = place.cavity;
     if (!grow(cavity, p)) return std::nullopt;
     const std::int32_t vertex = t_.add_vertex(p);
     std::vector<Tetrahedron> cells;

@@ -51,7 +51,7 @@ class BoundarySplitting {
 
  private:
     struct Place {
-        std::vector<std::int32_t> cavity;    // cells around the face or edge that is in the way
+        std::vector<CellId> cavity;          // cells around the face or edge that is in the way
         bool is_anywhere = false;            // whether these cells may also stay
         Vec3 foot = Vec3::Zero();            // point of the given triangle behind which the vertex lies
         Vec3 inwards = Vec3::Zero();         // direction from the foot to the vertex, of unit length
@@ -64,13 +64,13 @@ class BoundarySplitting {
     // share of the line before it, in (0, 1); nothing where it may not.
     std::optional<double> find_place(const Crossing& crossing, std::int32_t a, std::int32_t b, Place& place) const;
     bool split_edge_at(std::int32_t a, std::int32_t b, Place& place, double share);
-    std::vector<std::int32_t> cavity_of_edge(std::int32_t cell, std::int32_t p, std::int32_t q) const;
+    std::vector<CellId> cavity_of_edge(CellId cell, std::int32_t p, std::int32_t q) const;
     std::optional<std::int32_t> insert(const Place& place);
     bool is_behind(const Vec3& p, const Triangle& triangle) const;
     template <class Accepts>
     std::optional<std::int32_t> insert_if(const Vec3& p, const Place& place, const Accepts& accepts);
     std::optional<std::int32_t> insert_alone(const Vec3& p, const Place& place);
-    bool grow(std::vector<std::int32_t>& cavity, const Vec3& p) const;
+    bool grow(std::vector<CellId>& cavity, const Vec3& p) const;
     double distance_to_next(const Place& place) const;
     void replace(std::int32_t number, std::int32_t vertex, const std::vector<Triangle>& by);
 

@@ -13,15 +13,15 @@ bool has(const All& all, const One& one) {
 
 }  // namespace
 
-std::vector<CellFace> sides_of(const EditableTets& tets, std::span<const std::int32_t> cavity) {
+std::vector<CellFace> sides_of(const EditableTets& tets, std::span<const CellId> cavity) {
     std::vector<CellFace> sides;
-    for (const std::int32_t cell : cavity)
+    for (const CellId cell : cavity)
         for (int i = 0; i < 4; ++i)
             if (!has(cavity, tets.neighbour(cell, i))) sides.push_back(cell_face(cell, i));
     return sides;
 }
 
-bool may_be_removed(const EditableTets& tets, std::span<const std::int32_t> cavity, const IsKept& is_kept) {
+bool may_be_removed(const EditableTets& tets, std::span<const CellId> cavity, const IsKept& is_kept) {
     std::vector<std::int32_t> vertices;
     std::vector<UndirectedEdge> edges;
     for (const CellFace side : sides_of(tets, cavity)) {
@@ -29,7 +29,7 @@ bool may_be_removed(const EditableTets& tets, std::span<const std::int32_t> cavi
         vertices.insert(vertices.end(), corners.begin(), corners.end());
         for (int i = 0; i < 3; ++i) edges.push_back(undirected(corners[i], corners[(i + 1) % 3]));
     }
-    for (const std::int32_t cell : cavity) {
+    for (const CellId cell : cavity) {
         const Tetrahedron& v = tets.vertices(cell);
         for (int i = 0; i < 4; ++i) {
             if (!has(vertices, v[i])) return false;

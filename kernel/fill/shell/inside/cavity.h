@@ -13,10 +13,10 @@ namespace kerf {
 using IsKept = std::function<bool(std::int32_t, std::int32_t)>;
 
 /// Returns the faces around cells, seen from inside. Quadratic in the number of cells.
-std::vector<CellFace> sides_of(const EditableTets& tets, std::span<const std::int32_t> cavity);
+std::vector<CellFace> sides_of(const EditableTets& tets, std::span<const CellId> cavity);
 
 /// Returns whether cells may be removed: no vertex, no constrained face, and no edge that is kept is inside of them.
 /// Quadratic in their number.
-bool may_be_removed(const EditableTets& tets, std::span<const std::int32_t> cavity, const IsKept& is_kept);
+bool may_be_removed(const EditableTets& tets, std::span<const CellId> cavity, const IsKept& is_kept);
 
 }  // namespace kerf

@@ -59,13 +59,13 @@ bool is_face(const SpatialTriangulation& triangulation, CellFace face, const Tri
 
 Crossing crossing_of(SpatialTriangulation& triangulation, std::int32_t a, std::int32_t b) {
     Crossing crossing;
-    for (const std::int32_t cell : triangulation.cells_around_vertex(a)) {
+    for (const CellId cell : triangulation.cells_around_vertex(a)) {
         if (index_of(triangulation.vertices(cell), b) < 4) {
             crossing.cell = cell;
             crossing.has_end = true;
             return crossing;
         }
-        if (crossing.cell == SpatialTriangulation::none && !triangulation.is_ghost(cell))
+        if (!crossing.cell.is_valid() && !triangulation.is_ghost(cell))
             leaves_through(triangulation, cell_face(cell, index_of(triangulation.vertices(cell), a)), a, b, crossing);
     }
     return crossing;
@@ -74,13 +74,13 @@ Crossing crossing_of(SpatialTriangulation& triangulation, std::int32_t a, std::i
 std::vector<Crossing> crossings_of(SpatialTriangulation& triangulation, std::int32_t a, std::int32_t b) {
     std::vector<Crossing> crossings;
     Crossing next = crossing_of(triangulation, a, b);
-    while (next.cell != SpatialTriangulation::none && !next.has_end && crossings.size() < most_crossings) {
+    while (next.cell.is_valid() && !next.has_end && crossings.size() < most_crossings) {
         crossings.push_back(next);
         if (next.is_through_edge()) break;
         const CellFace from = triangulation.mirror(next.face);
         if (triangulation.is_ghost(cell_of(from)) || triangulation.opposite_vertex(from) == b) break;
         next = {};
-        for (int i = 0; i < 4 && next.cell == SpatialTriangulation::none; ++i)
+        for (int i = 0; i < 4 && !next.cell.is_valid(); ++i)
             if (i != index_in_cell(from)) leaves_through(triangulation, cell_face(cell_of(from), i), a, b, next);
     }
     return crossings;
@@ -88,7 +88,7 @@ std::vector<Crossing> crossings_of(SpatialTriangulation& triangulation, std::int
 
 std::vector<PiercingEdge> edges_through(SpatialTriangulation& triangulation, const Triangle& triangle) {
     std::vector<PiercingEdge> edges;
-    for (const std::int32_t cell : triangulation.cells_around_vertex(triangle[0])) {
+    for (const CellId cell : triangulation.cells_around_vertex(triangle[0])) {
         if (triangulation.is_ghost(cell)) continue;
         const Triangle far =
             triangulation.face_vertices(cell_face(cell, index_of(triangulation.vertices(cell), triangle[0])));
@@ -100,7 +100,7 @@ std::vector<PiercingEdge> edges_through(SpatialTriangulation& triangulation, con
 }
 
 CellFace find_face(SpatialTriangulation& triangulation, const Triangle& triangle) {
-    for (const std::int32_t cell : triangulation.cells_around_vertex(triangle[0]))
+    for (const CellId cell : triangulation.cells_around_vertex(triangle[0]))
         for (int i = 0; i < 4; ++i)
             if (is_face(triangulation, cell_face(cell, i), triangle)) return cell_face(cell, i);
     return SpatialTriangulation::none;

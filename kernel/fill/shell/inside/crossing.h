@@ -12,7 +12,7 @@ namespace kerf {
 /// The face or edge through which the line from one vertex to another leaves the cells around the first.
 struct Crossing {
     /// Cell through which the line goes; the one with the end if there is one.
-    std::int32_t cell = SpatialTriangulation::none;
+    CellId cell = CellId::none();
     CellFace face = SpatialTriangulation::none;  ///< face of the cell through which the line leaves
     /// Ends of the edge through which the line leaves, if it leaves through one.
     std::array<std::int32_t, 2> edge = {SpatialTriangulation::none, SpatialTriangulation::none};
@@ -31,7 +31,7 @@ std::vector<Crossing> crossings_of(SpatialTriangulation& triangulation, std::int
 
 /// An edge that goes through the inside of a triangle.
 struct PiercingEdge {
-    std::int32_t cell;  ///< cell with this edge and the triangle's first corner
+    CellId cell;  ///< cell with this edge and the triangle's first corner
     std::array<std::int32_t, 2> edge;
 };
 

@@ -38,7 +38,7 @@ bool FlipRecovery::recover_edge(std::int32_t a, std::int32_t b, const FlipLimits
 // Removes a face or an edge that is crossed. True if there is none.
 bool FlipRecovery::clear(const Crossing& crossing) {
     if (crossing.has_end) return true;
-    if (crossing.cell == SpatialTriangulation::none) return false;
+    if (!crossing.cell.is_valid()) return false;
     if (crossing.is_through_edge()) return removal_.remove(crossing.cell, crossing.edge[0], crossing.edge[1]);
     const std::int32_t d = t_.opposite_vertex(crossing.face), e = t_.opposite_vertex(t_.mirror(crossing.face));
     if (e < 0) return false;

@@ -35,22 +35,22 @@ Spoke spoke(const EdgeRing& ring, std::size_t k) {
 
 }  // namespace
 
-bool NestedEdgeRemoval::remove(std::int32_t cell, std::int32_t a, std::int32_t b) {
+bool NestedEdgeRemoval::remove(CellId cell, std::int32_t a, std::int32_t b) {
     has_changed_ = false;
     above_.clear();
     return remove(cell, undirected(a, b), {});
 }
 
 // Removes an edge. `kept`: two vertices of the ring whose edge must be there afterwards, or none.
-bool NestedEdgeRemoval::remove(std::int32_t cell, const UndirectedEdge& edge, std::span<const std::int32_t> kept) {
+bool NestedEdgeRemoval::remove(CellId cell, const UndirectedEdge& edge, std::span<const std::int32_t> kept) {
     if (is_kept_(edge[0], edge[1])) return false;
     EdgeRing ring = ring_around(t_, cell, edge[0], edge[1]);
     if (overlaps_rings_above(ring)) return false;
     while (--limits_.rings >= 0) {
         if (remove_at_once(ring, kept)) return true;
         if (ring.size() == 3 || !(flip_face(ring) || remove_reflex_edge(ring))) return false;
-        const std::int32_t next = cell_with(edge, ring);
-        if (next == SpatialTriangulation::none) return true;
+        const CellId next = cell_with(edge, ring);
+        if (!next.is_valid()) return true;
         ring = ring_around(t_, next, edge[0], edge[1]);
     }
     return false;
@@ -84,7 +84,7 @@ bool NestedEdgeRemoval::is_at_ring_above(const EdgeRing& ring, std::size_t k) co
 // removed.
 bool NestedEdgeRemoval::overlaps_rings_above(const EdgeRing& ring) const {
     int common = 0;
-    for (const std::int32_t cell : ring.cells)
+    for (const CellId cell : ring.cells)
         for (const UndirectedEdge& edge : above_) common += has_edge(t_.vertices(cell), edge);
     return common > 2;
 }
@@ -97,7 +97,7 @@ bool NestedEdgeRemoval::flip_face(const EdgeRing& ring) {
         if (at.has_ghost() || orientation(p[ring.a], p[ring.b], p[at.before], p[at.after]) <= 0 ||
             is_at_ring_above(ring, k))
             continue;
-        const std::int32_t cell = ring.cells[k];
+        const CellId cell = ring.cells[k];
         if (replace_face_by_edge(t_, cell_face(cell, index_of(t_.vertices(cell), at.after)), limits_.goal))
             return has_changed_ = true;
     }
@@ -119,8 +119,8 @@ bool NestedEdgeRemoval::remove_reflex_edge(EdgeRing& ring) {
         const bool is_removed = remove(ring.cells[k], undirected(end, vertex), std::array{at.before, at.after});
         above_.pop_back();
         if (is_removed) return true;
-        const std::int32_t cell = cell_with(edge, ring);
-        if (cell == SpatialTriangulation::none) return true;
+        const CellId cell = cell_with(edge, ring);
+        if (!cell.is_valid()) return true;
         ring = ring_around(t_, cell, edge[0], edge[1]);
     }
     return false;
@@ -138,13 +138,13 @@ std::int32_t NestedEdgeRemoval::reflex_end(const EdgeRing& ring, std::size_t k) 
 }
 
 // Returns one of the cells around an edge, most often one of those that it had; none if the edge is gone.
-std::int32_t NestedEdgeRemoval::cell_with(const UndirectedEdge& edge, const EdgeRing& before) {
-    for (const std::int32_t cell : before.cells)
-        if (cell < t_.cell_count() && has_edge(t_.vertices(cell), edge)) return cell;
+CellId NestedEdgeRemoval::cell_with(const UndirectedEdge& edge, const EdgeRing& before) {
+    for (const CellId cell : before.cells)
+        if (cell.value() < t_.cell_count() && has_edge(t_.vertices(cell), edge)) return cell;
     t_.find_star(t_.cell_at(edge[0]), edge[0], star_);
     const auto found =
-        std::find_if(star_.begin(), star_.end(), [&](std::int32_t cell) { return has_edge(t_.vertices(cell), edge); });
-    return found == star_.end() ? SpatialTriangulation::none : *found;
+        std::find_if(star_.begin(), star_.end(), [&](CellId cell) { return has_edge(t_.vertices(cell), edge); });
+    return found == star_.end() ? CellId::none() : *found;
 }
 
 }  // namespace kerf

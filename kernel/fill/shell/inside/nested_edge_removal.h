@@ -37,25 +37,25 @@ class NestedEdgeRemoval {
     /// an end of the edge, by the same means (Si 2015, si2015). Such removals leave the cells of the edges for which
     /// they are done as they are. Returns false if the edge is still there. Even then its ring may be smaller than
     /// before, see has_changed().
-    bool remove(std::int32_t cell, std::int32_t a, std::int32_t b);
+    bool remove(CellId cell, std::int32_t a, std::int32_t b);
     /// Returns whether the last removal has changed any cell.
     bool has_changed() const { return has_changed_; }
 
  private:
-    bool remove(std::int32_t cell, const UndirectedEdge& edge, std::span<const std::int32_t> kept);
+    bool remove(CellId cell, const UndirectedEdge& edge, std::span<const std::int32_t> kept);
     bool remove_at_once(const EdgeRing& ring, std::span<const std::int32_t> kept);
     bool flip_face(const EdgeRing& ring);
     bool remove_reflex_edge(EdgeRing& ring);
     std::int32_t reflex_end(const EdgeRing& ring, std::size_t k) const;
     bool is_at_ring_above(const EdgeRing& ring, std::size_t k) const;
     bool overlaps_rings_above(const EdgeRing& ring) const;
-    std::int32_t cell_with(const UndirectedEdge& edge, const EdgeRing& before);
+    CellId cell_with(const UndirectedEdge& edge, const EdgeRing& before);
 
     SpatialTriangulation& t_;
     IsKept is_kept_;
     Limits limits_;
     std::vector<UndirectedEdge> above_;  // edges for which others are removed, the outermost first
-    std::vector<std::int32_t> star_;
+    std::vector<CellId> star_;
     bool has_changed_ = false;
 };
 

@@ -30,7 +30,7 @@ constexpr double least_edge_share = 0.65, least_edge_share_of_bound = 0.4;
 constexpr double least_radius_share = 0.5;
 
 struct BadCell {
-    std::int32_t cell;
+    CellId cell;
     Tetrahedron vertices;  // vertices of the cell when it was found
 };
 
@@ -77,7 +77,7 @@ class Refinement {
           most_(square_from_degrees(least_angle_deg)) {}
 
     std::int64_t run() {
-        for (std::int32_t cell = 0; cell < t_.cell_count(); ++cell) push(cell);
+        for (const CellId cell : t_.cells()) push(cell);
         std::int64_t points = 0;
         while (const std::optional<BadCell> bad = bad_.pop_largest())
             if (has_cell(*bad)) points += insert_for(bad->cell);
@@ -89,16 +89,16 @@ class Refinement {
 
     const Vec3& point(std::int32_t vertex) const { return t_.points()[vertex]; }
     bool has_cell(const BadCell& bad) const {
-        return bad.cell < t_.cell_count() && t_.vertices(bad.cell) == bad.vertices;
+        return bad.cell.value() < t_.cell_count() && t_.vertices(bad.cell) == bad.vertices;
     }
-    void push(std::int32_t cell) {
+    void push(CellId cell) {
         const auto [a, b, c, d] = corners_of(cell);
         const double radius_sq = radius_sq_to_divide(CellGeometry(a, b, c, d), a, b, c, d);
         if (radius_sq > 0) bad_.add(radius_sq, {cell, t_.vertices(cell)});
     }
 
     using Corners = std::array<Vec3, 4>;
-    Corners corners_of(std::int32_t cell) const {
+    Corners corners_of(CellId cell) const {
         const Tetrahedron& v = t_.vertices(cell);
         return {point(v[0]), point(v[1]), point(v[2]), point(v[3])};
     }
@@ -132,7 +132,7 @@ class Refinement {
     // Inserts a point for a cell. A large cell gets no edge that is much shorter than wanted, a slender one none that
     // is shorter than its own: so this ends. Neither gets one that is much shorter than its radius: where cells are
     // Delaunay there is none, but where flips have left others, a few short edges would fill the body with their like.
-    bool insert_for(std::int32_t cell) {
+    bool insert_for(CellId cell) {
         const Corners corners = corners_of(cell);
         const Vec3 from_first = circumcentre_from_first(corners), circumcentre = corners[0] + from_first;
         if (!circumcentre.allFinite()) return false;
@@ -158,25 +158,25 @@ class Refinement {
 
     // Whether the point is too near to a vertex of the cell in which it lies. is_good() would say so, too; but where
     // cells are not Delaunay, most points are too near, and very many cells may be in their way.
-    bool is_too_near(const Vec3& p, double least_edge_sq, std::int32_t cell) const {
+    bool is_too_near(const Vec3& p, double least_edge_sq, CellId cell) const {
         const Corners corners = corners_of(cell);
         return std::any_of(corners.begin(), corners.end(),
                            [&](const Vec3& corner) { return (corner - p).squaredNorm() < least_edge_sq; });
     }
 
-    bool insert(const Vec3& p, double least_edge_sq, std::int32_t cell, bool keeps_off_faces) {
-        const std::int32_t at = t_.locate_in_sight(p, cell);
-        if (at == SpatialTriangulation::none || is_too_near(p, least_edge_sq, at)) return false;
+    bool insert(const Vec3& p, double least_edge_sq, CellId cell, bool keeps_off_faces) {
+        const CellId at = t_.locate_in_sight(p, cell);
+        if (!at.is_valid() || is_too_near(p, least_edge_sq, at)) return false;
         const auto before = count_of(t_.points());
         InsertionConditions conditions = {.accepts = [&](const Star& star) { return is_good(p, least_edge_sq, star); }};
         if (keeps_off_faces) conditions.is_kept_off_by = [&](const Triangle& face) { return is_near_face(p, face); };
         const std::int32_t vertex = t_.insert_if(p, at, conditions);
         if (vertex < before) return false;  // refused, or there was a vertex already
         for (std::size_t k = made_radius_sq_.size(); k-- > 0;) {
-            const std::int32_t made = t_.made_cells()[k];
+            const CellId made = t_.made_cells()[k];
             if (made_radius_sq_[k] > 0) bad_.add(made_radius_sq_[k], {made, t_.vertices(made)});
         }
-        if (t_.has_left_cells()) flip_to_delaunay(t_, t_.made_cells(), [&](std::int32_t made) { push(made); });
+        if (t_.has_left_cells()) flip_to_delaunay(t_, t_.made_cells(), [&](CellId made) { push(made); });
         return true;
     }
 
@@ -199,9 +199,9 @@ class Refinement {
         });
     }
 
-    double worst_of(std::span<const std::int32_t> cells) const {
+    double worst_of(std::span<const CellId> cells) const {
         double worst = 0;
-        for (const std::int32_t cell : cells) {
+        for (const CellId cell : cells) {
             const Tetrahedron& v = t_.vertices(cell);
             worst = std::max(worst, cell_shape(point(v[0]), point(v[1]), point(v[2]), point(v[3])).badness());
         }

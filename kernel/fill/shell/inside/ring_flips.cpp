@@ -156,7 +156,7 @@ bool span_ring_between(SpatialTriangulation& t, const EdgeRing& ring, std::size_
     const std::vector<std::int32_t> polygon = polygon_between(ring, from, to);
     const Tetrahedron middle = {ring.a, ring.b, polygon.front(), polygon.back()};
     if (std::min(middle[2], middle[3]) < 0 || polygon.size() < 3 || orientation_of(t, middle) <= 0) return false;
-    std::vector<std::int32_t> cells;
+    std::vector<CellId> cells;
     for (std::size_t k = from; k != to; k = (k + 1) % ring.size()) {
         if (k != from && is_spoke_constrained(t, ring, k)) return false;
         cells.push_back(ring.cells[k]);
@@ -169,7 +169,7 @@ bool span_ring_between(SpatialTriangulation& t, const EdgeRing& ring, std::size_
 
 }  // namespace
 
-EdgeRing ring_around(const SpatialTriangulation& triangulation, std::int32_t cell, std::int32_t a, std::int32_t b) {
+EdgeRing ring_around(const SpatialTriangulation& triangulation, CellId cell, std::int32_t a, std::int32_t b) {
     EdgeRing ring;
     const Tetrahedron& vertices = triangulation.vertices(cell);
     find_ring(triangulation, cell, index_of(vertices, a), index_of(vertices, b), ring);
@@ -224,7 +224,7 @@ bool replace_face_by_edge(SpatialTriangulation& triangulation, CellFace face, co
             return false;
     }
     if (!goal.allows_edge(triangulation, a, b)) return false;
-    const std::array<std::int32_t, 2> cells = {cell_of(face), cell_of(behind)};
+    const std::array<CellId, 2> cells = {cell_of(face), cell_of(behind)};
     triangulation.replace(cells, made);
     return true;
 }

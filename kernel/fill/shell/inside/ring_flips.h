@@ -11,7 +11,7 @@
 namespace kerf {
 
 /// Returns the ring of the edge between vertices c and d, both of the cell.
-EdgeRing ring_around(const SpatialTriangulation& triangulation, std::int32_t cell, std::int32_t c, std::int32_t d);
+EdgeRing ring_around(const SpatialTriangulation& triangulation, CellId cell, std::int32_t c, std::int32_t d);
 
 /// Whether a flip may add a vertex on each side of the kept ones, where there are no positive cells without it.
 enum class NewVertices { none, allowed };

@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 VertexStar::VertexStar(EditableTets& tets, std::int32_t vertex)
     : tets_(tets), vertex_(vertex), cells_(tets.cells_around_vertex(vertex)) {
-    for (const std::int32_t cell : cells_)
+    for (const CellId cell : cells_)
         for (const std::int32_t u : tets.vertices(cell))
             if (u != vertex) neighbours_.push_back(u);
     std::sort(neighbours_.begin(), neighbours_.end());
@@ -36,7 +36,7 @@ double VertexStar::badness_of(const std::array<Vec3, 4>& corners) const {
 
 double VertexStar::badness_at(const Vec3& p) const {
     double worst = -infinity;
-    for (const std::int32_t cell : cells_) {
+    for (const CellId cell : cells_) {
         std::array<Vec3, 4> corners;
         for (int i = 0; i < 4; ++i) {
             const std::int32_t v = tets_.vertices(cell)[i];
@@ -52,7 +52,7 @@ VertexStar::Merged VertexStar::best_merged(double limit,
     Merged best{limit, {}}, merged;
     for (const std::int32_t u : neighbours_) {
         merged = {-infinity, {}};
-        for (const std::int32_t cell : cells_) {
+        for (const CellId cell : cells_) {
             Tetrahedron vertices = tets_.vertices(cell);
             if (index_of(vertices, u) < 4) continue;
             vertices[index_of(vertices, vertex_)] = u;

@@ -39,7 +39,8 @@ class VertexStar {
 
     EditableTets& tets_;
     std::int32_t vertex_;
-    std::vector<std::int32_t> cells_, neighbours_;
+    std::vector<CellId> cells_;
+    std::vector<std::int32_t> neighbours_;
 };
 
 }  // namespace kerf
