@@ -156,7 +156,7 @@ std::vector<std::string> ClosedSurface::region_names() const {
 std::vector<std::array<std::int32_t, 2>> ClosedSurface::sides() const {
     std::vector<std::array<std::int32_t, 2>> sides;
     for (std::int32_t f = 0; f < input_->complex.facet_count(); ++f)
-        sides.push_back({input_->complex.sides(f).back, input_->complex.sides(f).front});
+        sides.push_back({input_->complex.sides(f).back.value(), input_->complex.sides(f).front.value()});
     return sides;
 }
 

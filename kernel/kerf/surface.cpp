@@ -118,7 +118,7 @@ Soup to_soup(std::span<const std::array<double, 3>> vertices, std::span<const st
     Soup soup{
         to_points(vertices), {facets.begin(), facets.end()}, {patches.begin(), patches.end()}, std::move(patch_names)};
     soup.sides.reserve(sides.size());
-    for (const auto& [behind, in_front] : sides) soup.sides.push_back({.front = in_front, .back = behind});
+    for (const auto& [behind, in_front] : sides) soup.sides.push_back({RegionIndex(in_front), RegionIndex(behind)});
     soup.region_names = std::move(region_names);
     return soup;
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
@@ -138,10 +139,10 @@ struct WallGroups {
 
 WallGroups group_walls(const Complex& complex, const std::vector<std::string>& patch_names) {
     WallGroups walls;
-    std::map<std::array<std::int32_t, 3>, std::int32_t> known;  // patch and regions
+    std::map<std::tuple<std::int32_t, RegionIndex, RegionIndex>, std::int32_t> known;  // patch and regions
     std::set<std::string> taken;
-    const auto side = [&](std::int32_t region) {
-        return region < 0 ? Json(nullptr) : Json(complex.region_names()[region]);
+    const auto side = [&](RegionIndex region) {
+        return region.is_valid() ? Json(complex.region_names()[region.value()]) : Json(nullptr);
     };
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
         const auto [low, high] = std::minmax({complex.sides(f).back, complex.sides(f).front});

@@ -81,7 +81,7 @@ Soup facets_of(const Complex& complex, const Take& take) {
 }
 
 // One in every piece of the region: in the voids of a box that is full around the region.
-std::vector<Vec3> points_in_region(const Complex& complex, std::int32_t region) {
+std::vector<Vec3> points_in_region(const Complex& complex, RegionIndex region) {
     const Soup turned = facets_of(complex, [&](FacetSides sides) {
         return sides.back == region ? -1 : sides.front == region ? 1 : 0;
     });
@@ -92,7 +92,7 @@ std::vector<Vec3> points_in_region(const Complex& complex, std::int32_t region) 
 
 std::vector<Vec3> points_in_voids(const Complex& complex) {
     return hole_points(test::to_arrays(facets_of(complex, [](FacetSides sides) {
-        return sides.is_wall() ? 0 : sides.back >= 0 ? 1 : -1;
+        return sides.is_wall() ? 0 : sides.back.is_valid() ? 1 : -1;
     })));
 }
 
@@ -110,9 +110,9 @@ void write_smesh(const std::string& path, const Complex& complex) {
     file << fmt::format("{}\n", voids.size());
     for (std::size_t i = 0; i < voids.size(); ++i) file << fmt::format("{} {}\n", i, row(voids[i]));
     std::vector<std::string> rows;
-    for (std::int32_t region = 0; region < complex.region_count(); ++region)
+    for (const RegionIndex region : ids<RegionIndex>(complex.region_count()))
         for (const Vec3& p : points_in_region(complex, region))
-            rows.push_back(fmt::format("{} {} {} 0\n", rows.size(), row(p), region + 1));
+            rows.push_back(fmt::format("{} {} {} 0\n", rows.size(), row(p), region.value() + 1));
     file << fmt::format("{}\n{}", rows.size(), fmt::join(rows, ""));
 }
 
@@ -123,14 +123,14 @@ std::vector<std::string> write_msh(const std::string& path, const Complex& compl
     for (std::int32_t v = 0; v < complex.vertex_count(); ++v)
         file << fmt::format("{} {}\n", v + 1, row(complex.point(v)));
     file << fmt::format("$EndNodes\n$Elements\n{}\n", complex.facet_count());
-    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> number;
-    std::vector<std::string> surfaces(static_cast<std::size_t>(complex.region_count()));
+    std::map<std::pair<RegionIndex, RegionIndex>, std::size_t> number;
+    Array<RegionIndex, std::string> surfaces(static_cast<std::size_t>(complex.region_count()));
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
         const FacetSides sides = complex.sides(f);
         const auto [pair, is_new] = number.try_emplace({sides.front, sides.back}, number.size() + 1);
-        for (const std::int32_t region : {sides.front, sides.back})
-            if (is_new && region >= 0) {
-                std::string& list = surfaces[static_cast<std::size_t>(region)];
+        for (const RegionIndex region : {sides.front, sides.back})
+            if (is_new && region.is_valid()) {
+                std::string& list = surfaces[region];
                 list += fmt::format("{}{}", list.empty() ? "" : ", ", pair->second);
             }
         const auto [a, b, c] = complex.vertices(f);

@@ -49,7 +49,7 @@ std::map<std::pair<int, int>, Sheet> sheets_of(const Complex& complex) {
     std::map<std::pair<int, int>, Sheet> sheets;
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
         const FacetSides sides = complex.sides(f);
-        Sheet& sheet = sheets[{sides.back + 1, sides.front + 1}];
+        Sheet& sheet = sheets[{sides.back.value() + 1, sides.front.value() + 1}];
         std::vector<std::size_t>& facet = sheet.facets.emplace_back();
         for (const std::int32_t v : complex.vertices(f)) {
             const auto [found, is_new] = sheet.number.try_emplace(v, sheet.points.size());

@@ -11,6 +11,7 @@
 #include "files/cad/cad_import.h"
 #include "files/io/file_bytes.h"
 #include "run/prepare/input.h"
+#include "support/facet_sides.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -97,7 +98,7 @@ TEST_F(CadAssembly, BoxesOfOneFaceShareIt) {
         EXPECT_EQ(std::count(names.begin(), names.end(), "solid_1_to_solid_2"), 1);
         for (std::size_t f = 0; f < body.soup.sides.size(); ++f)
             if (body.soup.sides[f].is_wall()) {
-                EXPECT_EQ(body.soup.sides[f], (FacetSides{1, 0}));
+                EXPECT_EQ(body.soup.sides[f], test::facet_sides(1, 0));
                 EXPECT_EQ(names[body.soup.patch[f]], "solid_1_to_solid_2");
             }
         const auto& notes = body.soup.notes;

@@ -59,8 +59,8 @@ std::vector<int> euler_numbers_of(const Complex& complex) {
 }
 
 // Of what two regions, or one and the outside, have in common.
-std::map<std::array<std::int32_t, 2>, double> areas_of(const Complex& complex) {
-    std::map<std::array<std::int32_t, 2>, double> areas;
+std::map<std::array<RegionIndex, 2>, double> areas_of(const Complex& complex) {
+    std::map<std::array<RegionIndex, 2>, double> areas;
     const SurfaceArrays facets = complex.arrays();
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
         const auto [front, back] = complex.sides(f);

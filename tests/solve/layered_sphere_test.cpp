@@ -9,6 +9,7 @@
 
 #include "files/part/run_parts.h"
 #include "solve/case/material.h"
+#include "support/facet_sides.h"
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/run_in_process.h"
@@ -66,7 +67,7 @@ Input sphere_input(int subdivisions) {
         vertices.insert(vertices.end(), sphere.vertices.begin(), sphere.vertices.end());
         for (const auto& [a, b, c] : sphere.facets) {
             facets.push_back({a + first, b + first, c + first});
-            sides.push_back({s < 2 ? s : -1, s - 1});
+            sides.push_back(test::facet_sides(s < 2 ? s : -1, s - 1));
             patch.push_back(s);
         }
     }

@@ -1,4 +1,5 @@
 #include "support/region_bodies.h"
+#include "support/facet_sides.h"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +16,10 @@ namespace {
 // Closed surfaces that do not touch: region 0 is between the first one and the others, each of which has one inside.
 Soup nested(const Soup& outer, const std::vector<Soup>& inner, std::vector<std::string> names) {
     Soup all = outer;
-    all.sides.assign(all.facets.size(), {-1, 0});
+    all.sides.assign(all.facets.size(), facet_sides(-1, 0));
     for (std::size_t i = 0; i < inner.size(); ++i) {
         all = join(std::move(all), inner[i]);
-        all.sides.resize(all.facets.size(), {0, static_cast<std::int32_t>(i) + 1});
+        all.sides.resize(all.facets.size(), facet_sides(0, static_cast<std::int32_t>(i) + 1));
     }
     all.region_names = std::move(names);
     return all;
@@ -106,14 +107,14 @@ class FibresInBlock {
     void add_tower(int tower) {
         const std::int32_t fibre = tower + 1;
         const int floor = tower % 2 == 0 ? 0 : layers_ / 3;
-        add_disc(tower, layers_, {-1, fibre});
-        add_surroundings(tower, layers_, {-1, 0});
-        add_tube(tower, 0, floor, 0, 4 * steps_, {0, fibre});
-        if (floor > 0) add_disc(tower, floor, {fibre, 0});
-        add_disc(tower, 0, {floor > 0 ? 0 : fibre, -1});
-        add_surroundings(tower, 0, {0, -1});
+        add_disc(tower, layers_, facet_sides(-1, fibre));
+        add_surroundings(tower, layers_, facet_sides(-1, 0));
+        add_tube(tower, 0, floor, 0, 4 * steps_, facet_sides(0, fibre));
+        if (floor > 0) add_disc(tower, floor, facet_sides(fibre, 0));
+        add_disc(tower, 0, facet_sides(floor > 0 ? 0 : fibre, -1));
+        add_surroundings(tower, 0, facet_sides(0, -1));
         const int side_x = tower % 2 == 0 ? 2 : 0, side_y = tower / 2 == 0 ? 3 : 1;
-        for (const int side : {side_x, side_y}) add_tube(tower, 1, 0, side * steps_, steps_, {-1, 0});
+        for (const int side : {side_x, side_y}) add_tube(tower, 1, 0, side * steps_, steps_, facet_sides(-1, 0));
     }
 
     int steps_, layers_;  // of a side, and of the height

@@ -174,7 +174,7 @@ void RunLaws::check_facets() {
             const bool is_wall = facet < sides_.size() && sides_[facet].is_wall();
             if (part.neighbour[f] >= 0 && !is_wall) continue;
             const Triangle& t = part.facets[f];
-            const std::int32_t region = part.region_of(0).value();
+            const RegionIndex region = part.region_of(0);
             if (facet >= input_.facets.size() || part.patch[f] != input_.patch[facet] ||
                 (region_at(2 * facet) != region && region_at(2 * facet + 1) != region))
                 ++foreign;
@@ -185,7 +185,7 @@ void RunLaws::check_facets() {
     for (std::size_t f = 0; f < pieces.size(); ++f) {
         Triangle t = input_.facets[f / 2];
         if (f % 2 == 1) std::swap(t[1], t[2]);
-        if (region_at(f) < 0) {
+        if (!region_at(f).is_valid()) {
             changed += !pieces[f].empty();
             continue;
         }

@@ -21,17 +21,17 @@ bool is_inside(const Cube& cube, std::int32_t low, std::int32_t high) {
 class VoxelBodyMaker {
  public:
     VoxelBodyMaker(Cube cubes, const RegionOfCube& region) : cubes_(cubes) {
-        for_each_cube([&](const Cube& cube) { numbers_.emplace(region(cube), 0); });
+        for_each_cube([&](const Cube& cube) { numbers_.try_emplace(region(cube)); });
         numbers_.erase(-1);
         for (auto& [region_of_caller, number] : numbers_) {
-            number = static_cast<std::int32_t>(body_.names.size());
-            body_.names.push_back(fmt::format("region_{}", number));
+            number = RegionIndex(body_.names.size());
+            body_.names.push_back(fmt::format("region_{}", number.value()));
         }
         body_.volumes.assign(body_.names.size(), 0);
         for_each_cube([&](const Cube& cube) {
             const std::int32_t wanted = region(cube);
-            regions_.push_back(wanted < 0 ? -1 : numbers_.at(wanted));
-            if (wanted >= 0) ++body_.volumes[static_cast<std::size_t>(regions_.back())];
+            regions_.push_back(wanted < 0 ? RegionIndex::none() : numbers_.at(wanted));
+            if (wanted >= 0) ++body_.volumes[regions_.back()];
         });
     }
 
@@ -52,9 +52,9 @@ class VoxelBodyMaker {
             for (std::int32_t y = 0; y < cubes_[1]; ++y)
                 for (std::int32_t z = 0; z < cubes_[2]; ++z) visit(Cube{x, y, z});
     }
-    std::int32_t region_at(const Cube& cube) const {
+    RegionIndex region_at(const Cube& cube) const {
         for (std::size_t i = 0; i < 3; ++i)
-            if (cube[i] < 0 || cube[i] >= cubes_[i]) return -1;
+            if (cube[i] < 0 || cube[i] >= cubes_[i]) return RegionIndex::none();
         return regions_[static_cast<std::size_t>((cube[0] * cubes_[1] + cube[1]) * cubes_[2] + cube[2])];
     }
     std::int32_t vertex(const Cube& place) {
@@ -74,7 +74,7 @@ class VoxelBodyMaker {
                         add_square(above, axis, region_at(below), region_at(above));
                 }
     }
-    void add_square(const Cube& corner, std::int32_t axis, std::int32_t below, std::int32_t above) {
+    void add_square(const Cube& corner, std::int32_t axis, RegionIndex below, RegionIndex above) {
         const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
         Cube b = corner, c = corner, d = corner;
         ++b[u];
@@ -86,18 +86,19 @@ class VoxelBodyMaker {
         add_triangle({square[0], square[2], square[3]}, below, above);
     }
     // The normal points along the axis; the smaller number of two regions lies behind.
-    void add_triangle(Triangle t, std::int32_t below, std::int32_t above) {
-        const bool is_turned = below < 0 || (above >= 0 && above < below);
+    void add_triangle(Triangle t, RegionIndex below, RegionIndex above) {
+        const FacetSides sides = {above, below};
+        const bool is_turned = !below.is_valid() || (above.is_valid() && above < below);
         if (is_turned) std::swap(t[1], t[2]);
         body_.facets.facets.push_back(t);
-        body_.facets.patch.push_back(below >= 0 && above >= 0 ? 1 : 0);
-        body_.sides.push_back(is_turned ? FacetSides{below, above} : FacetSides{above, below});
+        body_.facets.patch.push_back(sides.is_wall() ? 1 : 0);
+        body_.sides.push_back(is_turned ? sides.turned() : sides);
     }
 
     Cube cubes_;
     VoxelBody body_;
-    std::map<std::int32_t, std::int32_t> numbers_;
-    std::vector<std::int32_t> regions_;
+    std::map<std::int32_t, RegionIndex> numbers_;
+    std::vector<RegionIndex> regions_;
     std::map<Cube, std::int32_t> vertices_;
 };
 

@@ -21,7 +21,7 @@ struct VoxelBody {
     SurfaceArrays facets;
     std::vector<FacetSides> sides;
     std::vector<std::string> names;
-    std::vector<double> volumes;  ///< of the regions
+    Array<RegionIndex, double> volumes;  ///< of the regions
 };
 VoxelBody voxel_body(std::array<std::int32_t, 3> cubes, const RegionOfCube& region);
 

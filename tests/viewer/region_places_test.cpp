@@ -29,20 +29,20 @@ Box random_box(test::SeededNumbers& random, const Box& within) {
 TEST(RegionPlaces, BodiesSideBySideStaySo) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         test::SeededNumbers random(seed);
-        std::vector<RegionPlace> places;
+        Array<RegionIndex, RegionPlace> places;
         while (places.size() < 12) {
             const Box box = random_box(random, Box(Vec3(-5, 3, 0), Vec3(5, 20, 2)));
             bool is_free = true;
             for (const RegionPlace& other : places) is_free &= !overlap(box, other.box);
-            if (is_free) places.push_back({box, -1});
+            if (is_free) places.push_back({box});
         }
-        const std::vector<Vec3> moves = moves_apart(places);
+        const Array<RegionIndex, Vec3> moves = moves_apart(places);
         for (const double explode : {0.1, 0.5, 1.})
-            for (std::size_t a = 0; a < places.size(); ++a)
-                for (std::size_t b = 0; b < a; ++b)
+            for (const RegionIndex a : places.ids())
+                for (const RegionIndex b : ids<RegionIndex>(a.value()))
                     EXPECT_FALSE(
                         overlap(moved(places[a].box, explode * moves[a]), moved(places[b].box, explode * moves[b])))
-                        << "seed " << seed << ": " << a << " and " << b;
+                        << "seed " << seed << ": " << a.value() << " and " << b.value();
     }
 }
 
@@ -50,12 +50,13 @@ TEST(RegionPlaces, BodiesSideBySideStaySo) {
 TEST(RegionPlaces, WhatIsHeldComesOut) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         test::SeededNumbers random(seed);
-        std::vector<RegionPlace> places = {{Box(Vec3(0, 0, 0), Vec3(9, 7, 8)), -1}};
-        for (std::int32_t i = 1; i < 5; ++i) places.push_back({random_box(random, places.back().box), i - 1});
+        Array<RegionIndex, RegionPlace> places = {{Box(Vec3(0, 0, 0), Vec3(9, 7, 8))}};
+        for (std::int32_t i = 1; i < 5; ++i)
+            places.push_back({random_box(random, places.back().box), RegionIndex(i - 1)});
         std::reverse(places.begin(), places.end());
         for (RegionPlace& place : places)
-            if (place.holder >= 0) place.holder = 4 - place.holder;
-        const std::vector<Vec3> moves = moves_apart(places);
+            if (place.holder.is_valid()) place.holder = RegionIndex(4 - place.holder.value());
+        const Array<RegionIndex, Vec3> moves = moves_apart(places);
         EXPECT_EQ(moves.back(), Vec3::Zero()) << "the outermost one is where all are";
         for (std::size_t inner = 0; inner + 1 < places.size(); ++inner)
             EXPECT_FALSE(
@@ -67,7 +68,7 @@ TEST(RegionPlaces, WhatIsHeldComesOut) {
 TEST(RegionPlaces, ThroughTheSideThatIsOpen) {
     const Box bone(Vec3(0, 0, 0), Vec3(4, 4, 6));
     const auto move_of = [&](const Vec3& low, const Vec3& high) {
-        return moves_apart({{bone, -1}, {Box(low, high), 0}})[1];
+        return moves_apart({{bone}, {Box(low, high), RegionIndex(0)}})[1];
     };
     EXPECT_EQ(move_of({1, 1, 2}, {3, 3, 6}), Vec3(0, 0, 6));
     EXPECT_EQ(move_of({0, 1, 2}, {3, 3, 5}), Vec3(-4, 0, 0));

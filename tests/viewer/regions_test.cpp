@@ -71,13 +71,13 @@ TEST_F(RegionsShown, TheRunIsOpenedWithItsTrace) {
     EXPECT_EQ(document().region_names, (std::vector<std::string>{"bone", "cement"}));
     EXPECT_TRUE(document().trace);
     ASSERT_EQ(document().region_places.size(), 2u);
-    EXPECT_EQ(document().region_places[0].holder, -1);
-    EXPECT_EQ(document().region_places[1].holder, 0);
+    EXPECT_EQ(document().region_places[0].holder, RegionIndex::none());
+    EXPECT_EQ(document().region_places[1].holder, RegionIndex(0));
     EXPECT_TRUE(document().region_places[0].box.isApprox(document().box));
     const TreeRow& root = document().tree.rows.front();
     EXPECT_EQ(root.regions, 2);
     EXPECT_FALSE(root.centroid) << "several regions have none";
-    for (const TreeRow& row : document().tree.rows) EXPECT_EQ(row.region >= 0, row.id > 1) << "node " << row.id;
+    for (const TreeRow& row : document().tree.rows) EXPECT_EQ(row.region.is_valid(), row.id > 1) << "node " << row.id;
 }
 
 TEST_F(RegionsShown, AreHiddenIsolatedAndShownByTheirButtons) {

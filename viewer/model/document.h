@@ -129,8 +129,8 @@ struct Document {
     std::optional<Solution> solution;            ///< the solution that was opened and stands on these parts
     RunRequest options;                          ///< options of the run, or of the next one
     bool remeshed = false;  ///< the surface that was cut is not that of the file, which is there to compare with
-    std::vector<std::string> region_names;   ///< names of the regions, where there are several
-    std::vector<RegionPlace> region_places;  ///< places of these regions; empty: not known (yet)
+    std::vector<std::string> region_names;          ///< names of the regions, where there are several
+    Array<RegionIndex, RegionPlace> region_places;  ///< places of these regions; empty: not known (yet)
     std::vector<std::string> patch_names;
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< RGBA, as Soup has them; empty: none
     Eigen::AlignedBox3d box;                                 ///< bounding box of the body

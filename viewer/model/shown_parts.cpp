@@ -20,8 +20,8 @@ bool Visibility::is_hidden(NodeId wanted) const {
 
 const std::string* region_of(const Document& document, NodeId node) {
     const TreeRow* row = document.tree.find(node);
-    if (!row || row->region < 0 || row->region >= std::ssize(document.region_names)) return nullptr;
-    return &document.region_names[row->region];
+    if (!row || !row->region.is_valid() || row->region >= RegionIndex(document.region_names.size())) return nullptr;
+    return &document.region_names[row->region.value()];
 }
 
 bool is_hidden(const ViewState& state, const std::string& region) {

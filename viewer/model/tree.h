@@ -25,13 +25,13 @@ struct TreeRow {
     std::int32_t leaves = 1;
     std::int64_t vertices = -1, facets = -1, tets = -1;
     double volume = -1, load = -1;
-    double seconds = -1;         ///< seconds of meshing a part, or of cutting an inner node
-    std::int32_t rank = -1;      ///< the rank that meshed it
-    std::int32_t region = -1;    ///< the region in which all of it lies, where there are several
-    std::int32_t regions = 1;    ///< number of regions in it: a node of several is divided without a cut
-    std::string filled_by;       ///< for a part: see name_of_filler()
-    std::int64_t core_tets = 0;  ///< for a part: Filling::core_tets
-    std::string message;         ///< reason why it failed
+    double seconds = -1;                       ///< seconds of meshing a part, or of cutting an inner node
+    std::int32_t rank = -1;                    ///< the rank that meshed it
+    RegionIndex region = RegionIndex::none();  ///< the region in which all of it lies, where there are several
+    std::int32_t regions = 1;                  ///< number of regions in it: a node of several is divided without a cut
+    std::string filled_by;                     ///< for a part: see name_of_filler()
+    std::int64_t core_tets = 0;                ///< for a part: Filling::core_tets
+    std::string message;                       ///< reason why it failed
     std::optional<Vec3> centroid;
     Vec3 eigenvalues = Vec3::Zero();
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns, in the order of the eigenvalues

@@ -25,7 +25,7 @@ class RegionList {
           colors_(palette(context.state.theme)),
           tets_(document_.region_names.size(), 0) {
         for (const TreeRow& row : document_.tree.rows)
-            if (row.leaf() && row.tets > 0 && row.region >= 0 && row.region < std::ssize(tets_))
+            if (row.leaf() && row.tets > 0 && row.region.is_valid() && row.region < RegionIndex(tets_.size()))
                 tets_[row.region] += row.tets;
     }
 
@@ -103,7 +103,7 @@ class RegionList {
     const Document& document_;
     ViewState& state_;
     const Palette& colors_;
-    std::vector<std::int64_t> tets_;
+    Array<RegionIndex, std::int64_t> tets_;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 // The regions of a complex, and the tree above their roots.
 struct Regions {
     const Complex& complex;
-    std::vector<RegionMeasures> measures;
+    Array<RegionIndex, RegionMeasures> measures;
     RegionTree tree;
 };
 
@@ -167,7 +167,7 @@ Decomposition Decomposer::descend(const Regions& regions, const RegionTree::Node
 Decomposition cut_regions(const Complex& complex, const DecomposeOptions& options, LeafRange range, OtherRanges* others,
                           CutListener* listener) {
     KERF_CHECK(options.parts >= complex.region_count() && options.threads >= 1);
-    std::vector<RegionMeasures> measures = measure_regions(complex, options);
+    Array<RegionIndex, RegionMeasures> measures = measure_regions(complex, options);
     const RegionTree tree(complex, measures, options.parts);
     const Regions regions{complex, std::move(measures), tree};
     Decomposition result = Decomposer(options, range, others, listener).descend(regions, tree.root());

@@ -193,7 +193,7 @@ Bodies to_bodies(const Assembly& assembly, cad::MeshedAssembly meshed, Model& mo
     append(all.soup, meshed.facets);
     all.soup.sides = std::move(meshed.facets.sides);
     all.soup.region_names = assembly.region_names;
-    for (std::size_t r = 0; r < assembly.volumes.size(); ++r) {
+    for (const RegionIndex r : assembly.volumes.ids()) {
         all.volume += meshed.volumes[r];
         all.exact_volume += assembly.volumes[r];
     }

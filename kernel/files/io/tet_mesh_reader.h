@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "files/io/soup_builder.h"
 #include "fill/mesh/tet_mesh.h"
 
@@ -12,14 +13,14 @@ namespace kerf {
 
 /// The volume mesh of a file.
 struct TetFile {
-    TetMesh mesh;                                  ///< without neighbours; no vertex counts as one of the boundary
-    std::vector<Triangle> facets;                  ///< triangles of the file; none where it lists tetrahedra alone
-    std::vector<char> is_interface;                ///< #F; in a part of Kerf: another part is on the other side
-    std::int64_t turned_tets = 0;                  ///< number of tetrahedra of negative orientation in the file
-    std::vector<NodeScalar> node_scalars = {};     ///< filled by read_tets_with_scalars() only
-    std::vector<std::string> notes = {};           ///< things passed over: "12 hexahedra were ignored."
-    std::vector<std::string> region_names = {};    ///< names as of read_surface(); none if there is one region
-    std::vector<std::int32_t> region_of_tet = {};  ///< #T, of several regions; not of read_tets_with_scalars()
+    TetMesh mesh;                                 ///< without neighbours; no vertex counts as one of the boundary
+    std::vector<Triangle> facets;                 ///< triangles of the file; none where it lists tetrahedra alone
+    std::vector<char> is_interface;               ///< #F; in a part of Kerf: another part is on the other side
+    std::int64_t turned_tets = 0;                 ///< number of tetrahedra of negative orientation in the file
+    std::vector<NodeScalar> node_scalars = {};    ///< filled by read_tets_with_scalars() only
+    std::vector<std::string> notes = {};          ///< things passed over: "12 hexahedra were ignored."
+    std::vector<std::string> region_names = {};   ///< names as of read_surface(); none if there is one region
+    std::vector<RegionIndex> region_of_tet = {};  ///< #T, of several regions; not of read_tets_with_scalars()
 };
 
 /// Reads Gmsh MSH 2 or 4.1 (text, binary of both orders of bytes), MEDIT .mesh (text) and VTK's VTU (see scan_vtu()),

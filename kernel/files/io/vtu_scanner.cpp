@@ -180,7 +180,7 @@ void set_sides(const FileSides& file_sides, const RegionNames& names, SoupBuilde
     const VolumeRegions found =
         regions_of(regions, [&](const VolumeKey& key) { return region_name(names, key.second); });
     const auto region = [&](std::int64_t number) {
-        return number < 0 ? -1 : found.region_of_volume[regions.at({0, number})];
+        return number < 0 ? RegionIndex::none() : found.region_of_volume[regions.at({0, number})];
     };
     std::vector<FacetSides> sides;
     for (const auto& [front, back] : file_sides) sides.push_back({region(front), region(back)});

@@ -83,9 +83,9 @@ void optimise(Soup& soup, std::int32_t sweeps, Input& input) {
 
 // Returns the bounds of cells by region. Among points with one name the smallest bound counts, for a body without
 // regions that of all points.
-std::vector<double> largest_cells_of(const Soup& soup) {
+Array<RegionIndex, double> largest_cells_of(const Soup& soup) {
     const bool is_single = soup.region_names.empty();
-    std::vector<double> largest(is_single ? 1 : soup.region_names.size(), 0);
+    Array<RegionIndex, double> largest(is_single ? 1 : soup.region_names.size(), 0);
     bool is_any = false;
     for (const RegionSeed& seed : soup.seeds) {
         const auto found = std::find(soup.region_names.begin(), soup.region_names.end(), seed.name);
@@ -94,7 +94,7 @@ std::vector<double> largest_cells_of(const Soup& soup) {
         own = own > 0 ? std::min(own, seed.largest_cell) : seed.largest_cell;
         is_any = true;
     }
-    return is_any ? largest : std::vector<double>();
+    return is_any ? largest : Array<RegionIndex, double>();
 }
 
 // Makes the input of a surface that was read or given. `advice`: a sentence for one that cannot be meshed.
@@ -200,11 +200,11 @@ void check_rows(const Soup& soup) {
     const auto region_count = count_of(soup.region_names);
     for (std::size_t f = 0; f < soup.sides.size(); ++f)
         if (const auto [front, back] = soup.sides[f];
-            std::min(front, back) < -1 || std::max(front, back) >= region_count)
+            std::min(front, back) < RegionIndex::none() || std::max(front, back) >= RegionIndex(region_count))
             nowhere.add(f);
     nowhere.throw_if_any([&](std::size_t f) {
         return fmt::format("is ({}, {}), but the {} regions are numbered from 0, and -1 is outside",
-                           soup.sides[f].front, soup.sides[f].back, region_count);
+                           soup.sides[f].front.value(), soup.sides[f].back.value(), region_count);
     });
     infinite.throw_if_any(
         [&](std::size_t v) { return fmt::format("is ({}), which is not finite", fmt::join(soup.vertices[v], ", ")); });
@@ -227,7 +227,7 @@ std::string hash_of(const Soup& soup) {
     hasher.add(std::span<const std::int32_t>(soup.patch));
     for (const std::string& name : soup.patch_names) hasher.add(std::span<const char>(name));
     for (const FacetSides& sides : soup.sides)
-        hasher.add(std::span<const std::int32_t>(std::array{sides.front, sides.back}));
+        hasher.add(std::span<const RegionIndex>(std::array{sides.front, sides.back}));
     for (const std::string& name : soup.region_names) hasher.add(std::span<const char>(name));
     return hash_text(hasher.digest());
 }
@@ -316,11 +316,11 @@ OrientationReport apply_repairs(CheckedSoup& checked) {
     return diagnosis.orientation->report;
 }
 
-std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input) {
-    std::vector<double> volumes = sizes.max_volumes_of_regions(input.complex.region_names());
+Array<RegionIndex, double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input) {
+    Array<RegionIndex, double> volumes = sizes.max_volumes_of_regions(input.complex.region_names());
     if (input.largest_cells.empty()) return volumes;
     volumes.resize(input.largest_cells.size(), 0);
-    for (std::size_t r = 0; r < volumes.size(); ++r)
+    for (const RegionIndex r : volumes.ids())
         if (volumes[r] == 0) volumes[r] = input.largest_cells[r];
     return volumes;
 }
@@ -355,8 +355,8 @@ Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::
     return input_of_arrays(std::move(soup), choices, check_cancelled);
 }
 
-std::vector<double> region_volumes(const Input& input) {
-    std::vector<double> volumes;
+Array<RegionIndex, double> region_volumes(const Input& input) {
+    Array<RegionIndex, double> volumes;
     for (const InputRegion& region : input.regions) volumes.push_back(region.volume);
     if (volumes.empty()) volumes.push_back(input.volume);
     return volumes;
@@ -370,10 +370,10 @@ double volume_before_remeshing(const Input& input) {
 
 std::int64_t count_changed_volumes(const Input& input) {
     if (!input.remeshed || input.remeshed->may_change_volume) return 0;
-    const std::vector<double> now = region_volumes(input);
-    const std::vector<double>& before = input.remeshed->volumes_before;
+    const Array<RegionIndex, double> now = region_volumes(input);
+    const Array<RegionIndex, double>& before = input.remeshed->volumes_before;
     std::int64_t changed = 0;
-    for (std::size_t r = 0; r < now.size(); ++r)
+    for (const RegionIndex r : now.ids())
         changed += !(std::abs(now[r] - before[r]) <= largest_volume_change * before[r]);
     return changed;
 }

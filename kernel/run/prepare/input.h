@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "run/prepare/input_files.h"
 #include "run/request/input_options.h"
 #include "surface/complex/complex.h"
@@ -71,7 +72,7 @@ struct InputRemeshing {
            distance_from_input = 0;  ///< largest distances that were found, from the new surface and from the old
     std::int64_t feature_edges = 0;  ///< feature edges of the new surface
     FinerShares finer = {};          ///< shares of edges that the shape wants smaller than sizes do, if any
-    std::vector<double> volumes_before = {};  ///< volumes of the regions
+    Array<RegionIndex, double> volumes_before = {};  ///< volumes of the regions
     /// Whether the volume may change: where a deviation was asked for, where the surface is a wrap, and before vertices
     /// are put on the curved faces of a CAD model.
     bool may_change_volume = false;
@@ -93,13 +94,13 @@ struct InputRegion {
 struct InputMeasures {
     std::int64_t vertices = 0;
     std::int64_t facets = 0;
-    std::int64_t components = 0;       ///< shells of all regions
-    std::int64_t genus = 0;            ///< sum over the components
-    double volume = 0;                 ///< sum over all regions
-    double volume_error = 0;           ///< see BoundedVolume
-    double area = 0;                   ///< area of all facets, each once
-    std::vector<InputRegion> regions;  ///< one for each of Complex::region_names(); empty if there is only one
-    double largest_coordinate = 0;     ///< the largest absolute value of a coordinate
+    std::int64_t components = 0;              ///< shells of all regions
+    std::int64_t genus = 0;                   ///< sum over the components
+    double volume = 0;                        ///< sum over all regions
+    double volume_error = 0;                  ///< see BoundedVolume
+    double area = 0;                          ///< area of all facets, each once
+    Array<RegionIndex, InputRegion> regions;  ///< one for each of Complex::region_names(); empty if there is only one
+    double largest_coordinate = 0;            ///< the largest absolute value of a coordinate
 };
 
 /// Surfaces ready to be cut, and the facts about them that reports tell.
@@ -120,7 +121,7 @@ struct Input : InputMeasures {
     std::vector<UndirectedEdge> creases;
     Complex complex;
     /// The largest volume of cells for each region, where the file says one, else 0. Empty: it says none.
-    std::vector<double> largest_cells = {};
+    Array<RegionIndex, double> largest_cells = {};
     RepairReport ladder = {};  ///< the steps of InputOptions::repairs
     std::optional<WrapReport> wrapped = {};
 };
@@ -154,7 +155,7 @@ void measure_input(Input& input);
 double volume_before_remeshing(const Input& input);
 
 /// Returns the volumes of the regions; for one region that of the whole.
-std::vector<double> region_volumes(const Input& input);
+Array<RegionIndex, double> region_volumes(const Input& input);
 
 /// Returns the number of regions whose volume differs from that before the surface was remeshed by more than
 /// largest_volume_change, although it should not.
@@ -162,7 +163,7 @@ std::int64_t count_changed_volumes(const Input& input);
 
 /// Returns bounds of volumes of cells for each region of the input: that of SizeOptions::in_region, else that of the
 /// file, else 0. Empty if there are none at all. Throws as SizeOptions::max_volumes_of_regions().
-std::vector<double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input);
+Array<RegionIndex, double> max_volumes_of_regions(const SizeOptions& sizes, const Input& input);
 
 /// The name of a surface that no file has, in the place of a path.
 inline constexpr const char* name_of_arrays = "surface in memory";

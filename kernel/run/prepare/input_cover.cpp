@@ -46,17 +46,17 @@ class SidesOfFacets {
 
     bool has_region(std::int64_t side) const {
         const FacetSides& facet = sides_.empty() ? FacetSides{} : sides_[side / 2];
-        return (side % 2 == 0 ? facet.back : facet.front) >= 0;
+        return (side % 2 == 0 ? facet.back : facet.front).is_valid();
     }
     // Returns the side of a facet of a leaf in this region; the region may be another than that of the side.
     std::int64_t side_of(std::int32_t facet, RegionIndex region) const {
-        const bool is_in_front = !sides_.empty() && sides_[facet].back != region.value();
+        const bool is_in_front = !sides_.empty() && sides_[facet].back != region;
         return 2 * std::int64_t{facet} + (is_in_front ? 1 : 0);
     }
     bool is_of(std::int32_t facet, RegionIndex region) const {
         if (sides_.empty()) return true;
         const auto [front, back] = sides_[facet];
-        return front == region.value() || back == region.value();
+        return front == region || back == region;
     }
     bool is_divided(std::int64_t facet) const {
         const auto found = std::partition_point(divided_.begin(), divided_.end(),

@@ -77,23 +77,24 @@ SizeField wanted_lengths(const RunRequest& options, const Input& input) {
 // The same on facets, of which those of a region may have a size of its own; of a wall the smaller one counts.
 FacetSizes wanted_on_facets(const RunRequest& options, const Input& input) {
     const SizeField all = wanted_lengths(options, input);
-    const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
+    const Array<RegionIndex, double> volumes = max_volumes_of_regions(options.sizes, input);
     if (volumes.empty()) return all;
     const RegionSizes sizes(volumes);
-    const auto regions = count_of(volumes);
-    std::vector<std::int32_t> order(volumes.size()), place(volumes.size());  // the finest first
-    std::iota(order.begin(), order.end(), 0);
-    const auto volume_of = [&](std::int32_t r) { return sizes.of(RegionIndex(r), all).constant_volume(); };
+    std::vector<RegionIndex> order;  // the finest first
+    for (const RegionIndex region : volumes.ids()) order.push_back(region);
+    const auto volume_of = [&](RegionIndex region) { return sizes.of(region, all).constant_volume(); };
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t a, std::int32_t b) { return volume_of(a) < volume_of(b); });
+                     [&](RegionIndex a, RegionIndex b) { return volume_of(a) < volume_of(b); });
+    Array<RegionIndex, std::int32_t> place(volumes.size());
     std::vector<SizeField> fields;
-    for (std::int32_t i = 0; i < regions; ++i) {
-        place[order[i]] = i;
-        fields.push_back(sizes.of(RegionIndex(order[i]), all));
+    for (const RegionIndex region : order) {
+        place[region] = count_of(fields);
+        fields.push_back(sizes.of(region, all));
     }
+    const std::int32_t coarsest = count_of(fields) - 1;
     std::vector<std::int32_t> field;
     for (const FacetSides& sides : input.complex.all_sides()) {
-        const auto place_of = [&](std::int32_t region) { return region < 0 ? regions - 1 : place[region]; };
+        const auto place_of = [&](RegionIndex region) { return region.is_valid() ? place[region] : coarsest; };
         field.push_back(std::min(place_of(sides.back), place_of(sides.front)));
     }
     return {std::move(fields), std::move(field)};
@@ -138,21 +139,21 @@ struct RemeshTask {
 // Sets the length that is wanted at a point of a label, and the longest one, by the sizes of regions. `all`: the sizes
 // of the other regions.
 void want_lengths_of_regions(const RunRequest& options, const SizeField& all, const Input& input, RemeshTask& task) {
-    const std::vector<double> volumes = max_volumes_of_regions(options.sizes, input);
+    const Array<RegionIndex, double> volumes = max_volumes_of_regions(options.sizes, input);
     if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0; })) return;
     const RegionSizes sizes(volumes);
     double longest = 0;
-    std::vector<SizeField> fields;
-    for (std::size_t r = 0; r < volumes.size(); ++r) {
+    Array<RegionIndex, SizeField> fields;
+    for (const RegionIndex r : volumes.ids()) {
         longest = std::max(longest, volumes[r] > 0 ? regular_tet_edge(volumes[r]) : task.options.longest);
-        fields.push_back(sizes.of(RegionIndex(r), all));
+        fields.push_back(sizes.of(r, all));
     }
     task.options.wanted = [fields = std::move(fields), labels = task.facets.labels, usual = task.options.longest](
                               const Vec3& p, std::int32_t label) {
         double least = std::numeric_limits<double>::infinity();
         const auto& [front, back] = labels[label].sides;
-        for (const std::int32_t region : {front, back}) {
-            if (region < 0) continue;
+        for (const RegionIndex region : {front, back}) {
+            if (!region.is_valid()) continue;
             const SizeField& field = fields[region];
             least = std::min(least, field.is_empty() ? usual : field.at(p));
         }
@@ -271,13 +272,13 @@ std::vector<std::string> region_names(const Complex& complex) {
 
 void refuse_changed_volumes(const Input& input) {
     if (count_changed_volumes(input) == 0) return;
-    const std::vector<double> now = region_volumes(input);
-    const std::vector<double>& before = input.remeshed->volumes_before;
-    const auto change = [&](std::size_t r) { return std::abs(now[r] - before[r]) / before[r]; };
-    std::size_t worst = 0;
-    for (std::size_t r = 1; r < now.size(); ++r)
+    const Array<RegionIndex, double> now = region_volumes(input);
+    const Array<RegionIndex, double>& before = input.remeshed->volumes_before;
+    const auto change = [&](RegionIndex r) { return std::abs(now[r] - before[r]) / before[r]; };
+    RegionIndex worst;
+    for (const RegionIndex r : now.ids())
         if (!(change(r) <= change(worst))) worst = r;
-    const std::string where = now.size() == 1 ? "" : fmt::format(" of {}", input.complex.region_names()[worst]);
+    const std::string where = now.size() == 1 ? "" : fmt::format(" of {}", input.complex.region_names()[worst.value()]);
     throw Error(ErrorCode::verification,
                 fmt::format("The remeshed surface holds another volume{} than the file: {:.6g} for {:.6g}, {:+.2f} %. "
                             "Keep the surface as it is by --surface split, or bound its changes by a --deviation of "

@@ -19,13 +19,13 @@ void write_regions(const std::string& path, const Complex& complex) {
     const SurfaceArrays all = complex.arrays();
     std::vector<Triangle> facets;
     std::vector<std::int32_t> region_of_facet;
-    for (std::int32_t r = 0; r < complex.region_count(); ++r)
+    for (const RegionIndex r : ids<RegionIndex>(complex.region_count()))
         for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
             const auto [front, back] = complex.sides(f);
             const auto& [a, b, c] = all.facets[f];
             if (front != r && back != r) continue;
             facets.push_back(back == r ? Triangle{a, b, c} : Triangle{a, c, b});
-            region_of_facet.push_back(r);
+            region_of_facet.push_back(r.value());
         }
     write_obj(path, all.vertices, facets, region_of_facet,
               {complex.region_names().begin(), complex.region_names().end()});

@@ -47,8 +47,8 @@ Json defect_json(const Defect& defect, const Soup& soup) {
 
 // Returns the regions of a soup that has been repaired, in the order of Soup::region_names; none if it has no sides.
 // O(#F log #F).
-std::vector<RegionSummary> summarize_regions(const Soup& soup) {
-    std::vector<RegionSummary> regions;
+Array<RegionIndex, RegionSummary> summarize_regions(const Soup& soup) {
+    Array<RegionIndex, RegionSummary> regions;
     if (soup.sides.empty()) return regions;
     const Complex complex = make_complex(soup);
     for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
@@ -56,7 +56,7 @@ std::vector<RegionSummary> summarize_regions(const Soup& soup) {
         regions.push_back(
             {soup.region_names[region.value()], enclosed_volume(surface), find_shells(surface).count, 0, {}});
     }
-    std::map<std::pair<std::int32_t, std::int32_t>, double> walls;
+    std::map<std::pair<RegionIndex, RegionIndex>, double> walls;
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         const auto [front, back] = soup.sides[f];
         const auto [a, b, c] = soup.facets[f];
@@ -69,13 +69,13 @@ std::vector<RegionSummary> summarize_regions(const Soup& soup) {
         }
     }
     for (const auto& [sides, area] : walls)
-        regions[sides.first].walls.push_back({soup.region_names[sides.second], area, sides.second});
+        regions[sides.first].walls.push_back({soup.region_names[sides.second.value()], area, sides.second});
     return regions;
 }
 
 // The regions of a surface that can be meshed. Copies of facets that its repairs leave out have sides, too, so they go
 // first.
-std::vector<RegionSummary> regions_of(const CheckedSoup& checked) {
+Array<RegionIndex, RegionSummary> regions_of(const CheckedSoup& checked) {
     const std::vector<char>& dropped = checked.diagnosis.dropped;
     if (dropped.empty() || checked.soup.sides.empty()) return summarize_regions(checked.soup);
     Soup soup = checked.soup;
@@ -83,7 +83,7 @@ std::vector<RegionSummary> regions_of(const CheckedSoup& checked) {
     return summarize_regions(soup);
 }
 
-Json regions_json(const std::vector<RegionSummary>& regions) {
+Json regions_json(const Array<RegionIndex, RegionSummary>& regions) {
     Json json = Json::array();
     for (const RegionSummary& region : regions) {
         Json walls = Json::array();
@@ -97,11 +97,11 @@ Json regions_json(const std::vector<RegionSummary>& regions) {
     return json;
 }
 
-std::string region_tables(const std::vector<RegionSummary>& regions) {
+std::string region_tables(const Array<RegionIndex, RegionSummary>& regions) {
     if (regions.empty()) return "The surface bounds one region, which has no name.\n";
     std::string text = fmt::format("{:>12} {:>6} {:>12}  {}\n", "volume", "shells", "outside", "name");
     std::string walls;
-    for (std::int32_t r = 0; r < count_of(regions); ++r) {
+    for (const RegionIndex r : regions.ids()) {
         const RegionSummary& region = regions[r];
         text += fmt::format("{:>12.6g} {:>6} {:>12.6g}  {}\n", region.volume, region.shells, region.outer_area,
                             region.name);
@@ -112,7 +112,7 @@ std::string region_tables(const std::vector<RegionSummary>& regions) {
 }
 
 // Returns a line a region, with its volume, shells and walls; at most 50 lines.
-std::string lines_of_regions(const std::vector<RegionSummary>& regions) {
+std::string lines_of_regions(const Array<RegionIndex, RegionSummary>& regions) {
     constexpr std::size_t most = 50;
     std::string text;
     for (std::size_t r = 0; r < std::min(most, regions.size()); ++r) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/core/error.h"
+#include "base/core/ids.h"
 #include "run/prepare/input.h"
 #include "run/prepare/remedy.h"
 #include "run/report/patch_summary.h"
@@ -20,7 +21,7 @@ inline constexpr NumberRange needle_angle_range = {"0 (no needles) to 60 degrees
 struct CommonWall {
     std::string region;  ///< name of the other region
     double area = 0;
-    std::int32_t number = 0;  ///< number of the other region
+    RegionIndex number;  ///< number of the other region
 };
 
 /// The measures of one region of a surface.
@@ -41,9 +42,9 @@ struct RefusedFile {
 struct FileDiagnosis {
     std::string path;
     CheckedSoup checked;
-    std::vector<RegionSummary> regions;  ///< regions of a surface that can be meshed; empty if it has none
-    std::optional<RefusedFile> refused;  ///< reason of a refusal; `checked` is empty then
-    std::optional<Remedy> remedy = {};   ///< remedy, if one was looked for
+    Array<RegionIndex, RegionSummary> regions;  ///< regions of a surface that can be meshed; empty if it has none
+    std::optional<RefusedFile> refused;         ///< reason of a refusal; `checked` is empty then
+    std::optional<Remedy> remedy = {};          ///< remedy, if one was looked for
 
     bool can_be_meshed() const { return !refused && checked.diagnosis.clean(); }
     /// Returns a value of ErrorCode; 0: the file can be meshed.

@@ -237,15 +237,15 @@ std::string regions_text(const RunReport& report) {
     constexpr std::size_t most = 6;
     Array<RegionIndex, std::int64_t> tets(input.regions.size(), 0);
     for (const PartReport& part : report.parts) tets[part.region] += part.result.tets;
-    std::vector<std::size_t> order(tets.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::vector<RegionIndex> order;
+    for (const RegionIndex r : tets.ids()) order.push_back(r);
+    std::stable_sort(order.begin(), order.end(), [&](RegionIndex a, RegionIndex b) {
         return std::pair(tets[a], input.regions[a].volume) > std::pair(tets[b], input.regions[b].volume);
     });
     std::string text = fmt::format("{}:", order.size());
     for (std::size_t i = 0; i < std::min(most, order.size()); ++i) {
-        const std::size_t r = order[i];
-        text += fmt::format("{} {} ", i > 0 ? "," : "", input.complex.region_names()[r]);
+        const RegionIndex r = order[i];
+        text += fmt::format("{} {} ", i > 0 ? "," : "", input.complex.region_names()[r.value()]);
         text += tets[r] > 0 ? grouped(tets[r]) : fmt::format("(volume {:.4g})", input.regions[r].volume);
     }
     return order.size() > most ? text + fmt::format(" and {} more", order.size() - most) : text;

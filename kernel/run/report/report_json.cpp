@@ -52,10 +52,10 @@ Json input_json(const Input& input) {
     json["repairs"]["facets_flipped"] = input.orientation.facets_flipped;
     json["repairs"]["shells_flipped"] = input.orientation.shells_flipped;
     for (const std::string& name : input.patch_names) json["patches"].push_back(path_text(name));
-    for (std::size_t r = 0; r < input.regions.size(); ++r) {
+    for (const RegionIndex r : input.regions.ids()) {
         const InputRegion& region = input.regions[r];
         json["regions"].push_back(
-            {{"name", path_text(input.complex.region_names()[r])},
+            {{"name", path_text(input.complex.region_names()[r.value()])},
              {"faces", region.facets},
              {"components", region.components},
              {"volume", region.volume},

@@ -65,9 +65,8 @@ std::int32_t part_count(const Input& input, const RunPlan& plan, double volume, 
 double sized_volume_of(const Input& input, const SizeField& size, const RegionSizes& region_sizes) {
     if (!region_sizes.empty() && !size.is_empty()) {
         double sum = 0;
-        for (std::size_t r = 0; r < input.regions.size(); ++r)
-            sum += input.regions[r].volume * size.reference_volume() /
-                   region_sizes.of(RegionIndex(r), size).reference_volume();
+        for (const RegionIndex r : input.regions.ids())
+            sum += input.regions[r].volume * size.reference_volume() / region_sizes.of(r, size).reference_volume();
         return sum;
     }
     const SurfaceArrays surface = size.is_constant() ? SurfaceArrays() : input.complex.arrays();
@@ -180,7 +179,7 @@ class PlanArchive {
  public:
     explicit PlanArchive(Archive& archive) : archive_(archive) {}
 
-    void plan(RunPlan& plan, std::vector<double>& largest_of_regions) {
+    void plan(RunPlan& plan, Array<RegionIndex, double>& largest_of_regions) {
         RunRequest& request = plan.choices.request;
         archive_(request.input, request.parts, request.mesher.radius_edge, plan.size, largest_of_regions);
         length(request.input_options.repairs.weld_tolerance);
@@ -234,7 +233,7 @@ Bytes bytes_of_plan(const PlannedRun& run) {
     ByteWriter writer(bytes);
     PlanArchive<ByteWriter> archive(writer);
     // An archive that writes bytes does not change its fields.
-    std::vector<double> largest_of_regions = plan.region_sizes.max_volumes();
+    Array<RegionIndex, double> largest_of_regions = plan.region_sizes.max_volumes();
     archive.plan(const_cast<RunPlan&>(plan), largest_of_regions);
     archive.input(const_cast<Input&>(input));
     const std::span<const std::string> names = input.complex.region_names();
@@ -251,7 +250,7 @@ PlannedRun plan_of_bytes(const Bytes& told, RunPlan own) {
     auto& [plan, input] = run;
     ByteReader reader(told);
     PlanArchive<ByteReader> archive(reader);
-    std::vector<double> largest_of_regions;
+    Array<RegionIndex, double> largest_of_regions;
     archive.plan(plan, largest_of_regions);
     plan.region_sizes = RegionSizes(std::move(largest_of_regions));
     archive.input(input);

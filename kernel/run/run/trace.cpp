@@ -90,7 +90,9 @@ bool Trace::holds_regions(NodeId node) const {
 }
 
 SurfaceArrays Trace::outside_of_regions(NodeId node) const {
-    const auto is_inside = [&](std::int32_t region) { return region >= 0 && lies_below(region_roots[region], node); };
+    const auto is_inside = [&](RegionIndex region) {
+        return region.is_valid() && lies_below(region_roots[region.value()], node);
+    };
     SurfaceArrays outside = surface;  // all of its vertices stay
     std::size_t kept = 0;
     for (std::size_t f = 0; f < sides.size(); ++f) {

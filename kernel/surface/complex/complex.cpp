@@ -30,30 +30,30 @@ Triangle turned_over(const Triangle& t) { return {t[0], t[2], t[1]}; }
 void check_sides(const SurfaceArrays& facets, const std::vector<FacetSides>& sides,
                  const std::vector<std::string>& names) {
     KERF_CHECK(is_well_formed(facets) && sides.size() == facets.facets.size() && names.size() >= 1);
-    const auto count = count_of(names);
     for (std::size_t f = 0; f < sides.size(); ++f) {
         const auto [front, back] = sides[f];
-        KERF_CHECK(std::max(front, back) < count && std::min(front, back) >= -1);
+        KERF_CHECK(std::max(front, back) < RegionIndex(names.size()) && std::min(front, back) >= RegionIndex::none());
         if (front == back)
             throw Error(ErrorCode::input,
                         fmt::format("Facet {} at {} has {} on both sides. Leave it out.", f,
                                     place_text(facets.vertices[facets.facets[f][0]]),
-                                    front < 0 ? std::string("nothing") : fmt::format("the region '{}'", names[front])));
+                                    front.is_valid() ? fmt::format("the region '{}'", names[front.value()])
+                                                     : std::string("nothing")));
     }
 }
 
 // A region and how often its facets have an edge in the one direction more than in the other.
 struct EdgeBalance {
-    std::int32_t region;
+    RegionIndex region;
     int excess;
 };
 
-// A region without another side at this edge, or -1.
-std::int32_t region_open_at(const std::vector<Triangle>& facets, const std::vector<FacetSides>& sides, std::int32_t low,
-                            std::span<const EdgeCorners::Corner> corners, std::vector<EdgeBalance>& balances) {
+// A region without another side at this edge, or none.
+RegionIndex region_open_at(const std::vector<Triangle>& facets, const std::vector<FacetSides>& sides, std::int32_t low,
+                           std::span<const EdgeCorners::Corner> corners, std::vector<EdgeBalance>& balances) {
     balances.clear();
-    const auto add = [&](std::int32_t region, int excess) {
-        if (region < 0) return;
+    const auto add = [&](RegionIndex region, int excess) {
+        if (!region.is_valid()) return;
         const auto found = std::find_if(balances.begin(), balances.end(),
                                         [&](const EdgeBalance& other) { return other.region == region; });
         if (found == balances.end())
@@ -68,19 +68,19 @@ std::int32_t region_open_at(const std::vector<Triangle>& facets, const std::vect
     }
     for (const EdgeBalance& balance : balances)
         if (balance.excess != 0) return balance.region;
-    return -1;
+    return RegionIndex::none();
 }
 
 void check_closed(const SurfaceArrays& facets, const std::vector<FacetSides>& sides,
                   const std::vector<std::string>& names) {
     std::vector<EdgeBalance> balances;
     EdgeCorners(facets.facets).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
-        const std::int32_t open = region_open_at(facets.facets, sides, low, corners, balances);
-        if (open < 0) return;
+        const RegionIndex open = region_open_at(facets.facets, sides, low, corners, balances);
+        if (!open.is_valid()) return;
         const Vec3 middle = (facets.vertices[low] + facets.vertices[corners.front().high]) / 2;
         throw Error(ErrorCode::input, fmt::format("The region '{}' is open at {}: its facets do not close there. Add "
                                                   "the wall that is missing, or turn the facets that lie wrongly.",
-                                                  names[open], place_text(middle)));
+                                                  names[open.value()], place_text(middle)));
     });
 }
 
@@ -153,8 +153,8 @@ void Complex::find_facets_of_regions() {
     first_.assign(names_.size() + 1, 0);
     const auto each_side = [&](auto visit) {
         for (std::int32_t f = 0; f < count_of(sides_); ++f)
-            for (const std::int32_t region : {sides_[f].back, sides_[f].front})
-                if (region >= 0) visit(region, f);
+            for (const RegionIndex region : {sides_[f].back, sides_[f].front})
+                if (region.is_valid()) visit(region.value(), f);
     };
     each_side([&](std::int32_t region, std::int32_t) { ++first_[region + 1]; });
     for (std::size_t r = 1; r < first_.size(); ++r) first_[r] += first_[r - 1];
@@ -197,7 +197,7 @@ Contacts Complex::find_contacts() const {
 }
 
 SurfaceArrays Complex::arrays_of(RegionIndex region) const {
-    KERF_CHECK(region.value() >= 0 && region.value() < region_count());
+    KERF_CHECK(region.is_valid() && region.value() < region_count());
     if (names_.empty()) return only_.arrays();
     SurfaceArrays own;
     std::vector<std::int32_t> used;
@@ -205,7 +205,7 @@ SurfaceArrays Complex::arrays_of(RegionIndex region) const {
                end = facet_of_region_.begin() + first_[region.value() + 1];
     for (auto it = begin; it != end; ++it) {
         const Triangle& t = facets_.facets[*it];
-        own.facets.push_back(sides_[*it].back == region.value() ? t : turned_over(t));
+        own.facets.push_back(sides_[*it].back == region ? t : turned_over(t));
         own.facet_key.push_back(facets_.facet_key[*it]);
         own.patch.push_back(facets_.patch[*it]);
         used.insert(used.end(), t.begin(), t.end());

@@ -18,7 +18,7 @@ SolidProperties solid_properties(const Complex& complex) {
         const auto [i, j, k] = complex.vertices(f);
         const Vec3 a = complex.point(i) - origin, b = complex.point(j) - origin, c = complex.point(k) - origin;
         const Vec3 s = a + b + c;
-        const double d = (sides.back >= 0 ? 1 : -1) * a.dot(b.cross(c));
+        const double d = (sides.back.is_valid() ? 1 : -1) * a.dot(b.cross(c));
         solid.volume += d / 6;
         first += d / 24 * s;
         second += d / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());

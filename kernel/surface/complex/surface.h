@@ -60,7 +60,7 @@ struct ManifoldDefect {
 /// Vertices without facets are allowed. O(#V + #F).
 std::vector<ManifoldDefect> find_manifold_defects(std::size_t vertex_count, const std::vector<Triangle>& facets);
 
-/// What a Surface consists of.
+/// The numbers of the parts of a Surface, each of a kind of its own.
 using Vertex = Id<struct VertexTag>;
 using Facet = Id<struct FacetTag>;
 using Edge = Id<struct EdgeTag>;

@@ -73,7 +73,7 @@ class MoveOfFaces {
 class RegionVolumes {
  public:
     RegionVolumes(const std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const std::vector<Vec3>& moves,
-                  const std::vector<double>& volumes)
+                  const Array<RegionIndex, double>& volumes)
         : regions_(volumes.size()), weight_(moves.size()) {
         std::vector<Entry> entries;
         for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
@@ -82,8 +82,8 @@ class RegionVolumes {
                 const double gain = lifted.dot(moves[v]);
                 if (gain == 0) continue;
                 const FacetSides sides = mesh.sides_of(f);
-                if (sides.back >= 0) entries.push_back({v, sides.back, gain});
-                if (sides.front >= 0) entries.push_back({v, sides.front, -gain});
+                if (sides.back.is_valid()) entries.push_back({v, sides.back, gain});
+                if (sides.front.is_valid()) entries.push_back({v, sides.front, -gain});
             }
         }
         std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
@@ -120,18 +120,19 @@ class RegionVolumes {
 
  private:
     struct Entry {
-        std::int32_t vertex, region;
+        std::int32_t vertex;
+        RegionIndex region;
         double gain;  // of volume by the whole move
     };
     Eigen::VectorXd scales_of(const Eigen::VectorXd& of_regions) const {
         Eigen::VectorXd scales = Eigen::VectorXd::Zero(weight_.size());
         for (const Entry& e : entries_)
-            if (weight_[e.vertex] > 0) scales[e.vertex] += e.gain / weight_[e.vertex] * of_regions[e.region];
+            if (weight_[e.vertex] > 0) scales[e.vertex] += e.gain / weight_[e.vertex] * of_regions[e.region.value()];
         return scales;
     }
     Eigen::VectorXd gains_of(const Eigen::VectorXd& scales) const {
         Eigen::VectorXd gains = Eigen::VectorXd::Zero(regions_);
-        for (const Entry& e : entries_) gains[e.region] += e.gain * scales[e.vertex];
+        for (const Entry& e : entries_) gains[e.region.value()] += e.gain * scales[e.vertex];
         return gains;
     }
 
@@ -143,16 +144,17 @@ class RegionVolumes {
 // Moves the vertices from `start` by multiples of `moves` such that the regions have their volumes. False if they do
 // not.
 bool move_to_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const std::vector<Vec3>& start,
-                     const std::vector<Vec3>& moves, const std::vector<double>& volumes, const ScaleRange& range) {
+                     const std::vector<Vec3>& moves, const Array<RegionIndex, double>& volumes,
+                     const ScaleRange& range) {
     Eigen::VectorXd scales = Eigen::VectorXd::Ones(moves.size());
     for (int step = 0; step <= balance_limits::secant_steps; ++step) {
         for (std::size_t v = 0; v < moves.size(); ++v) vertices[v] = start[v] + scales[v] * moves[v];
-        const std::vector<double> now = region_volumes(vertices, mesh, volumes.size());
+        const Array<RegionIndex, double> now = region_volumes(vertices, mesh, volumes.size());
         Eigen::VectorXd missing(volumes.size());
         bool is_right = true;
-        for (std::size_t r = 0; r < volumes.size(); ++r) {
+        for (const RegionIndex r : volumes.ids()) {
             const bool is_off = std::abs(volumes[r] - now[r]) > balance_limits::precision * volumes[r];
-            missing[r] = is_off ? volumes[r] - now[r] : 0;
+            missing[r.value()] = is_off ? volumes[r] - now[r] : 0;
             is_right = is_right && !is_off;
         }
         if (is_right) return scales.minCoeff() >= range.least && scales.maxCoeff() <= range.most;
@@ -210,21 +212,22 @@ bool keep_turned(const std::vector<Vec3>& vertices, std::span<const Triangle> fa
     return any;
 }
 
-std::vector<double> region_volumes(const std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, std::size_t regions) {
-    std::vector<double> volumes(regions);
+Array<RegionIndex, double> region_volumes(const std::vector<Vec3>& vertices, const FacetsOfFaces& mesh,
+                                          std::size_t regions) {
+    Array<RegionIndex, double> volumes(regions);
     if (vertices.empty()) return volumes;
     const Vec3& apex = vertices.front();
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         const auto& [a, b, c] = mesh.facets[f];
         const double volume = (vertices[a] - apex).dot((vertices[b] - apex).cross(vertices[c] - apex)) / 6;
         const FacetSides sides = mesh.sides_of(f);
-        if (sides.back >= 0) volumes[sides.back] += volume;
-        if (sides.front >= 0) volumes[sides.front] -= volume;
+        if (sides.back.is_valid()) volumes[sides.back] += volume;
+        if (sides.front.is_valid()) volumes[sides.front] -= volume;
     }
     return volumes;
 }
 
-bool balance_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const std::vector<double>& volumes,
+bool balance_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& mesh, const Array<RegionIndex, double>& volumes,
                      const std::vector<char>& is_fixed, const ScaleRange& range) {
     std::vector<Vec3> moves = moves_to_faces(vertices, mesh);
     for (std::size_t v = 0; v < moves.size(); ++v)

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/types.h"
 #include "surface/soup/facet_sides.h"
 
@@ -46,7 +47,8 @@ bool keep_turned(const std::vector<Vec3>& vertices, std::span<const Triangle> fa
                  std::vector<Vec3>& moves);
 
 /// Returns the volumes of the regions, numbered from 0 to `regions` - 1.
-std::vector<double> region_volumes(const std::vector<Vec3>& vertices, const FacetsOfFaces& faces, std::size_t regions);
+Array<RegionIndex, double> region_volumes(const std::vector<Vec3>& vertices, const FacetsOfFaces& faces,
+                                          std::size_t regions);
 
 /// Moves vertices off their faces until the regions have the `volumes`. Chords on a curve leave out the space between
 /// them and the curve; vertices that stand out by its mean height give it back, and then are no farther from the curve
@@ -55,7 +57,7 @@ std::vector<double> region_volumes(const std::vector<Vec3>& vertices, const Face
 ///
 /// Returns false, and moves nothing, if that takes factors out of `range`, or turns too many facets. The result may
 /// intersect itself. O(#F (log #F + regions)), deterministic.
-bool balance_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& faces, const std::vector<double>& volumes,
+bool balance_volumes(std::vector<Vec3>& vertices, const FacetsOfFaces& faces, const Array<RegionIndex, double>& volumes,
                      const std::vector<char>& is_fixed, const ScaleRange& range);
 
 }  // namespace kerf

@@ -176,11 +176,12 @@ void add_gaps(Diagnosis& diagnosis, const Soup& soup, const GivenBodies& bodies,
     std::vector<std::int32_t> body, number;
     for (std::int32_t f = 0; f < count_of(soup.facets); ++f) {
         const Triangle& t = soup.facets[f];
-        const FacetSides sides = soup.sides.empty() ? FacetSides{-1, bodies.of_facet[f]} : soup.sides[f];
+        const FacetSides sides =
+            soup.sides.empty() ? FacetSides{.back = RegionIndex(bodies.of_facet[f])} : soup.sides[f];
         if (sides.is_wall() || (!diagnosis.dropped.empty() && facet_number.empty() && diagnosis.dropped[f] != 0))
             continue;
-        facets.push_back(sides.front < 0 ? t : Triangle{t[0], t[2], t[1]});
-        body.push_back(std::max(sides.front, sides.back));
+        facets.push_back(sides.front.is_valid() ? Triangle{t[0], t[2], t[1]} : t);
+        body.push_back(std::max(sides.front, sides.back).value());
         number.push_back(facet_number.empty() ? f : facet_number[f]);
     }
     const std::vector<std::string>& names = soup.sides.empty() ? bodies.names : soup.region_names;

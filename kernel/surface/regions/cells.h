@@ -5,14 +5,21 @@
 #include <optional>
 #include <vector>
 
-#include "surface/soup/facet_sides.h"
 #include "surface/soup/ray_parity.h"
 
 namespace kerf {
 
+/// The cells in front of a facet and behind it; -1: the unbounded cell.
+struct CellSides {
+    std::int32_t front = -1, back = -1;
+
+    bool is_wall() const { return front >= 0 && back >= 0; }
+    bool operator==(const CellSides&) const = default;
+};
+
 struct Cells {
-    std::vector<FacetSides> sides;  ///< #F; the cells in front of each facet and behind it, -1 for the unbounded cell
-    std::int32_t count = 0;         ///< number of bounded cells
+    std::vector<CellSides> sides;  ///< #F
+    std::int32_t count = 0;        ///< number of bounded cells
 };
 
 /// Finds the cells into which conforming facets divide space. Facets conform if each is there once and they meet in

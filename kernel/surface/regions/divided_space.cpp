@@ -1,7 +1,7 @@
 // From facets to cells to walls. Copies of a facet, whichever way they are turned, are found by sorting facets by their
 // sorted corners; the first stands for all of them, because find_cells() takes no copies. Once the cells have regions,
-// a facet is a wall if these differ on its sides; it is turned so that the smaller number, and never the outside, -1,
-// is behind it. All other facets and all copies are dropped and counted in notes.
+// a facet is a wall if these differ on its sides; it is turned so that the smaller number, and never the outside, is
+// behind it. All other facets and all copies are dropped and counted in notes.
 #include "surface/regions/divided_space.h"
 
 #include <algorithm>
@@ -25,18 +25,18 @@ bool have_one_direction(Triangle a, Triangle b) {
 
 // Regions with a cell keep their order.
 void drop_empty_regions(DividedSpace& space) {
-    std::vector<std::int32_t> number(space.names.size(), -1);
-    for (const std::int32_t region : space.region_of_cell)
-        if (region >= 0) number[region] = 0;
+    Array<RegionIndex, RegionIndex> number(space.names.size(), RegionIndex::none());
+    for (const RegionIndex region : space.region_of_cell)
+        if (region.is_valid()) number[region] = RegionIndex(0);
     std::vector<std::string> names;
-    for (std::size_t r = 0; r < number.size(); ++r) {
-        if (number[r] < 0) continue;
-        number[r] = count_of(names);
-        names.push_back(space.names[r]);
+    for (const RegionIndex r : number.ids()) {
+        if (!number[r].is_valid()) continue;
+        number[r] = RegionIndex(names.size());
+        names.push_back(space.names[r.value()]);
     }
     space.names = std::move(names);
-    for (std::int32_t& region : space.region_of_cell)
-        if (region >= 0) region = number[region];
+    for (RegionIndex& region : space.region_of_cell)
+        if (region.is_valid()) region = number[region];
 }
 
 void note_count(Soup& soup, std::int64_t count, const char* one, const char* many) {
@@ -85,7 +85,7 @@ std::optional<DividedSpace> divide_space(const Soup& soup) {
     auto cells = find_cells(soup.vertices, space.single.facets);
     if (!cells || cells->count == 0) return {};
     space.cells = std::move(*cells);
-    space.region_of_cell.assign(space.cells.count, -1);
+    space.region_of_cell.assign(space.cells.count, RegionIndex::none());
     return space;
 }
 
@@ -100,7 +100,7 @@ void give_sides(Soup& soup, DividedSpace space) {
         FacetSides sides = {space.region_of(front), space.region_of(back)};
         internal += sides.front == sides.back;
         if (sides.front == sides.back) continue;
-        if (sides.back < 0 || (sides.front >= 0 && sides.front < sides.back)) {
+        if (!sides.back.is_valid() || (sides.front.is_valid() && sides.front < sides.back)) {
             sides = sides.turned();
             std::swap(soup.facets[f][1], soup.facets[f][2]);
         }

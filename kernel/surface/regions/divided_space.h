@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "surface/regions/cells.h"
 #include "surface/soup/soup.h"
 
@@ -24,11 +25,11 @@ SingleFacets single_facets(const std::vector<Triangle>& facets);
 
 struct DividedSpace {
     SingleFacets single;
-    Cells cells;                               ///< of the single facets
-    std::vector<std::int32_t> region_of_cell;  ///< index into `names`; -1: no region
+    Cells cells;                              ///< of the single facets
+    std::vector<RegionIndex> region_of_cell;  ///< index into `names`; none: no region
     std::vector<std::string> names;
 
-    std::int32_t region_of(std::int32_t cell) const { return cell < 0 ? -1 : region_of_cell[cell]; }
+    RegionIndex region_of(std::int32_t cell) const { return cell < 0 ? RegionIndex::none() : region_of_cell[cell]; }
 };
 
 /// Divides space into the cells of the soup's facets, no cell being a region yet. Returns nothing without facets, for

@@ -71,9 +71,9 @@ bool has_open_wall(const Soup& soup, const DividedSpace& space) {
 }
 
 bool has_wall(const DividedSpace& space) {
-    return std::any_of(space.cells.sides.begin(), space.cells.sides.end(), [&](const FacetSides& sides) {
-        const std::int32_t front = space.region_of(sides.front), back = space.region_of(sides.back);
-        return front >= 0 && back >= 0 && front != back;
+    return std::any_of(space.cells.sides.begin(), space.cells.sides.end(), [&](const CellSides& cells) {
+        const FacetSides sides = {space.region_of(cells.front), space.region_of(cells.back)};
+        return sides.is_wall() && sides.front != sides.back;
     });
 }
 
@@ -101,7 +101,7 @@ bool are_turned_alike(const Soup& soup) {
 // Whether each body is there, closed, and everywhere the right way round or everywhere inside out; two or more.
 bool name_by_bodies(const Soup& soup, const std::vector<std::int32_t>& body_of_patch,
                     const std::vector<std::string>& names, DividedSpace& space) {
-    std::vector<std::vector<Triangle>> facets(names.size());
+    Array<RegionIndex, std::vector<Triangle>> facets(names.size());
     std::vector<std::int32_t> body;
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         body.push_back(body_of_patch[soup.patch[f]]);
@@ -110,23 +110,24 @@ bool name_by_bodies(const Soup& soup, const std::vector<std::int32_t>& body_of_p
     if (std::count_if(facets.begin(), facets.end(), [](const auto& own) { return !own.empty(); }) < 2) return false;
     const auto windings = find_windings(space, body);
     if (!windings) return false;
-    std::vector<double> volume;
+    Array<RegionIndex, double> volume;
     for (const auto& own : facets) volume.push_back(own.empty() ? 0 : enclosed_volume(soup.vertices, own));
-    space.region_of_cell.assign(space.cells.count, -1);
+    space.region_of_cell.assign(space.cells.count, RegionIndex::none());
     for (std::int32_t c = 0; c < space.cells.count; ++c)
         for (const auto& [b, times] : (*windings)[c]) {
-            if (times != (volume[b] < 0 ? -1 : 1)) return false;
-            std::int32_t& region = space.region_of_cell[c];
-            if (region < 0 || std::abs(volume[b]) < std::abs(volume[region])) region = b;
+            const RegionIndex own(b);
+            if (times != (volume[own] < 0 ? -1 : 1)) return false;
+            RegionIndex& region = space.region_of_cell[c];
+            if (!region.is_valid() || std::abs(volume[own]) < std::abs(volume[region])) region = own;
         }
-    std::vector<char> is_seen(facets.size(), 0);
-    for (const std::int32_t region : space.region_of_cell)
-        if (region >= 0) is_seen[region] = 1;
-    for (std::size_t b = 0; b < facets.size(); ++b)  // one that others hide is a mistake
+    Array<RegionIndex, char> is_seen(facets.size(), 0);
+    for (const RegionIndex region : space.region_of_cell)
+        if (region.is_valid()) is_seen[region] = 1;
+    for (const RegionIndex b : facets.ids())  // one that others hide is a mistake
         if (!facets[b].empty() && is_seen[b] == 0) return false;
     space.names = names;
     const auto& sides = space.cells.sides;
-    return std::none_of(sides.begin(), sides.end(), [&](const FacetSides& s) {
+    return std::none_of(sides.begin(), sides.end(), [&](const CellSides& s) {
         return space.region_of(s.front) == space.region_of(s.back);  // what was one body may be several
     });
 }
@@ -140,7 +141,7 @@ bool name_by_patches(const Soup& soup, DividedSpace& space) {
 void name_in_order(DividedSpace& space, const std::vector<char>& is_region, const char* prefix) {
     space.names.clear();
     for (std::int32_t c = 0; c < space.cells.count; ++c) {
-        space.region_of_cell[c] = is_region[c] ? count_of(space.names) : -1;
+        space.region_of_cell[c] = is_region[c] ? RegionIndex(space.names.size()) : RegionIndex::none();
         if (is_region[c]) space.names.push_back(fmt::format("{}_{}", prefix, space.names.size() + 1));
     }
 }
@@ -174,7 +175,7 @@ bool name_by_directions(DividedSpace& space) {
 bool name_between_walls(Soup& soup, DividedSpace& space) {
     if (space.single.facets.size() != soup.facets.size() || has_open_wall(soup, space)) return false;
     const auto& sides = space.cells.sides;
-    const auto is_outside = [](const FacetSides& s) { return s.front < 0 && s.back < 0; };
+    const auto is_outside = [](const CellSides& s) { return s.front < 0 && s.back < 0; };
     if (std::any_of(sides.begin(), sides.end(), is_outside)) return false;
     name_in_order(space, std::vector<char>(space.cells.count, 1), "region");
     if (!has_wall(space) || !has_edge_of_many(soup.facets)) return false;
@@ -193,14 +194,14 @@ bool name_between_walls(Soup& soup, DividedSpace& space) {
 // The regions in the order of their first points.
 void place_seeds(const Soup& soup, const CellLocator& locator, DividedSpace& space) {
     std::vector<std::int32_t> seed_of(space.cells.count, -1);
-    std::map<std::string, std::int32_t> number;
+    std::map<std::string, RegionIndex> number;
     for (std::int32_t s = 0; s < count_of(soup.seeds); ++s) {
         const RegionSeed& seed = soup.seeds[s];
         const std::optional<std::int32_t> cell = locator.find(seed.point);
         if (!cell) refuse_point(seed, "lies on a facet. Move it into the region.");
         if (*cell < 0)
             refuse_point(seed, "lies outside: no facets close around it. Move it into the region, or close its walls.");
-        const auto [found, is_new] = number.try_emplace(seed.name, count_of(space.names));
+        const auto [found, is_new] = number.try_emplace(seed.name, RegionIndex(space.names.size()));
         if (is_new) space.names.push_back(seed.name);
         if (seed_of[*cell] >= 0 && soup.seeds[seed_of[*cell]].name != seed.name)
             refuse_point(seed,
@@ -219,21 +220,21 @@ void name_other_cells(Soup& soup, const CellLocator& locator, DividedSpace& spac
         const std::int32_t cell = locator.find(hole).value_or(-1);
         if (cell < 0) continue;
         is_hole[cell] = 1;
-        if (const std::int32_t region = space.region_of_cell[cell]; region >= 0)
+        if (const RegionIndex region = space.region_of_cell[cell]; region.is_valid())
             throw Error(ErrorCode::input,
                         fmt::format("The point {} of a hole lies in the region '{}': no facets are between it and the "
                                     "point of the region. Leave one of them out, or close the wall.",
-                                    place_text(hole), space.names[region]));
+                                    place_text(hole), space.names[region.value()]));
     }
     const std::set<std::string> taken(space.names.begin(), space.names.end());
     std::vector<std::string> added;
     int number = 0;
     for (std::int32_t c = 0; c < space.cells.count; ++c) {
-        if (is_hole[c] || space.region_of_cell[c] >= 0) continue;
+        if (is_hole[c] || space.region_of_cell[c].is_valid()) continue;
         do ++number;
         while (taken.contains(fmt::format("cell_{}", number)));
         added.push_back(fmt::format("cell_{}", number));
-        space.region_of_cell[c] = count_of(space.names);
+        space.region_of_cell[c] = RegionIndex(space.names.size());
         space.names.push_back(added.back());
     }
     if (added.empty()) return;
@@ -242,16 +243,16 @@ void name_other_cells(Soup& soup, const CellLocator& locator, DividedSpace& spac
                                      added.size() == 1 ? added[0] : added.front() + " to " + added.back()));
 }
 
-// The regions of walls in the order in which they are named; each wall by their numbers, -1 for the outside.
-std::vector<std::array<std::int32_t, 2>> number_walls(const std::vector<NamedWall>& walls,
-                                                      std::vector<std::string>& names) {
-    std::vector<std::array<std::int32_t, 2>> numbers;
+// The regions of walls in the order in which they are named; none is the outside.
+std::vector<std::array<RegionIndex, 2>> number_walls(const std::vector<NamedWall>& walls,
+                                                     std::vector<std::string>& names) {
+    std::vector<std::array<RegionIndex, 2>> numbers;
     for (const NamedWall& wall : walls) {
-        std::array<std::int32_t, 2>& own = numbers.emplace_back(std::array<std::int32_t, 2>{-1, -1});
+        std::array<RegionIndex, 2>& own = numbers.emplace_back(std::array{RegionIndex::none(), RegionIndex::none()});
         for (std::size_t side = 0; side < 2; ++side) {
             if (wall.regions[side].empty()) continue;
             const auto found = std::find(names.begin(), names.end(), wall.regions[side]);
-            own[side] = found - names.begin();
+            own[side] = RegionIndex(found - names.begin());
             if (found == names.end()) names.push_back(wall.regions[side]);
         }
     }
@@ -269,16 +270,16 @@ std::string quoted_region(const std::string& name) { return name.empty() ? "the 
 // Gives each cell its region: a facet leads from one of its patch's two regions into the other. Throws where that
 // fails.
 void place_walls(const Soup& soup, const std::vector<NamedWall>& walls, DividedSpace& space) {
-    const std::vector<std::array<std::int32_t, 2>> numbers = number_walls(walls, space.names);
+    const std::vector<std::array<RegionIndex, 2>> numbers = number_walls(walls, space.names);
     const auto place_of = [&](std::int32_t facet) {
         const auto& [a, b, c] = space.single.facets[facet];
         return Vec3((soup.vertices[a] + soup.vertices[b] + soup.vertices[c]) / 3);
     };
     const auto patch_of = [&](std::int32_t facet) { return soup.patch[space.single.first[facet]]; };
-    const auto refuse_side = [&](std::int32_t facet, std::int32_t region) {
+    const auto refuse_side = [&](std::int32_t facet, RegionIndex region) {
         refuse_wall(walls[patch_of(facet)], place_of(facet),
                     fmt::format("{} lies on one of its sides. Correct the regions of the patch, or of those around it.",
-                                quoted_region(region < 0 ? std::string() : space.names[region])));
+                                quoted_region(region.is_valid() ? space.names[region.value()] : std::string())));
     };
     const auto count = count_of(space.single.facets);
     for (std::int32_t f = 0; f < count; ++f)
@@ -287,23 +288,23 @@ void place_walls(const Soup& soup, const std::vector<NamedWall>& walls, DividedS
                         "no facets part them: the same cell is on both sides. Close the walls around it.");
     CellWalk(space.cells).run([&](std::int32_t from, std::int32_t facet, std::int32_t to) {
         const auto& [one, other] = numbers[patch_of(facet)];
-        const std::int32_t region = space.region_of(from);
+        const RegionIndex region = space.region_of(from);
         if (region != one && region != other) refuse_side(facet, region);
         space.region_of_cell[to] = region == one ? other : one;
     });
     for (std::int32_t f = 0; f < count; ++f) {
         const auto& [one, other] = numbers[patch_of(f)];
-        const std::int32_t front = space.region_of(space.cells.sides[f].front),
-                           back = space.region_of(space.cells.sides[f].back);
-        for (const std::int32_t side : {front, back})
+        const RegionIndex front = space.region_of(space.cells.sides[f].front),
+                          back = space.region_of(space.cells.sides[f].back);
+        for (const RegionIndex side : {front, back})
             if (side != one && side != other) refuse_side(f, side);
         if (front == back) refuse_side(f, front);
     }
-    for (std::int32_t r = 0; r < count_of(space.names); ++r)
+    for (const RegionIndex r : ids<RegionIndex>(space.names.size()))
         if (std::find(space.region_of_cell.begin(), space.region_of_cell.end(), r) == space.region_of_cell.end())
             throw Error(ErrorCode::input, fmt::format("The region '{}' is nowhere: no facets of its patches close "
                                                       "around it. Correct the regions of patches.",
-                                                      space.names[r]));
+                                                      space.names[r.value()]));
 }
 
 // One region needs no sides.
@@ -341,10 +342,9 @@ bool find_touching_bodies(Soup& soup) {
     if (!soup.sides.empty()) return false;
     std::optional<DividedSpace> space = divide_space(soup);
     if (!space || space->cells.count < 2) return false;
-    const std::vector<std::int32_t> none(space->cells.count, -1);
     bool is_found = patches_have_wall(soup, space->single) && name_by_patches(soup, *space);
     if (!is_found) {
-        space->region_of_cell = none;
+        space->region_of_cell.assign(space->cells.count, RegionIndex::none());
         is_found = name_by_directions(*space) || name_between_walls(soup, *space);
     }
     if (is_found) give_sides(soup, std::move(*space));
@@ -387,7 +387,7 @@ std::vector<Vec3> holes_outside(const Soup& soup) {
 bool fill_voids(Soup& soup) {
     std::optional<DividedSpace> space = divide_space(soup);
     if (!space) return false;
-    std::vector<std::int32_t>& region = space->region_of_cell;
+    std::vector<RegionIndex>& region = space->region_of_cell;
     if (soup.sides.empty()) {
         std::vector<char> is_inside(space->cells.count, 0);
         CellWalk(space->cells).run([&](std::int32_t from, std::int32_t, std::int32_t to) {
@@ -398,16 +398,16 @@ bool fill_voids(Soup& soup) {
     } else {
         space->names = soup.region_names;
         for (std::size_t u = 0; u < space->single.facets.size(); ++u) {
-            const FacetSides& cells = space->cells.sides[u];
+            const CellSides& cells = space->cells.sides[u];
             const FacetSides& sides = soup.sides[space->single.first[u]];
             if (cells.front >= 0) region[cells.front] = sides.front;
             if (cells.back >= 0) region[cells.back] = sides.back;
         }
     }
     std::int32_t voids = 0;
-    for (std::int32_t& own : region) {
-        if (own >= 0) continue;
-        own = count_of(space->names);
+    for (RegionIndex& own : region) {
+        if (own.is_valid()) continue;
+        own = RegionIndex(space->names.size());
         space->names.push_back(fmt::format("void_{}", ++voids));
     }
     if (voids == 0) return false;

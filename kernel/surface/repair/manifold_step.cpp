@@ -76,7 +76,7 @@ class SheetSearch {
         if (!has_edge_of_many(compact.facets)) return;
         const auto cells = find_cells(compact.vertices, compact.facets);
         if (!cells) return;
-        std::vector<FacetSides> sides = cells->sides;
+        std::vector<CellSides> sides = cells->sides;
         const std::vector<char> dropped =
             leave_out(piece, found_.membranes, [&](std::size_t i) { return sides[i].front == sides[i].back; });
         drop_items(sides, dropped);
@@ -86,7 +86,7 @@ class SheetSearch {
     }
     // Returns the facets between bounded cells, as far as those that hang together have an edge of an odd number of
     // facets. A void that touches the surface around it has edges of even numbers alone: it is no cell of material.
-    std::vector<char> find_walls(const std::vector<std::int32_t>& piece, const std::vector<FacetSides>& sides) const {
+    std::vector<char> find_walls(const std::vector<std::int32_t>& piece, const std::vector<CellSides>& sides) const {
         UnionFind sets(piece.size());
         std::vector<char> has_odd(piece.size(), 0), is_wall(piece.size(), 0);
         const auto is_candidate = [&](const EdgeCorners::Corner& c) { return sides[c.corner / 3].is_wall(); };

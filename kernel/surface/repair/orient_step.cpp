@@ -126,7 +126,7 @@ void Orienting::turn_piece_by_cells(const std::vector<std::int32_t>& piece) {
     if (!cells) return;
     double outward = 0;
     for (std::size_t i = 0; i < piece.size(); ++i) {
-        const FacetSides& sides = cells->sides[i];
+        const CellSides& sides = cells->sides[i];
         is_hull_[piece[i]] = (sides.front < 0) != (sides.back < 0);
         if (!is_hull_[piece[i]]) continue;
         const double area =

@@ -15,18 +15,18 @@ class RegionSizes {
  public:
     RegionSizes() = default;
     /// `max_volumes` has the largest volume of a tetrahedron in each region, as for SizeField; 0: as everywhere.
-    explicit RegionSizes(std::vector<double> max_volumes) : max_volumes_(std::move(max_volumes)) {}
+    explicit RegionSizes(Array<RegionIndex, double> max_volumes) : max_volumes_(std::move(max_volumes)) {}
 
     bool empty() const { return max_volumes_.empty(); }
-    const std::vector<double>& max_volumes() const { return max_volumes_; }
+    const Array<RegionIndex, double>& max_volumes() const { return max_volumes_; }
     /// Returns the field of a region; `all` is that of regions without a size of their own.
     SizeField of(RegionIndex region, const SizeField& all) const {
-        const auto r = static_cast<std::size_t>(region.value());
-        return r < max_volumes_.size() && max_volumes_[r] > 0 ? all.with_constant(max_volumes_[r]) : all;
+        const bool has_own = region < RegionIndex(max_volumes_.size()) && max_volumes_[region] > 0;
+        return has_own ? all.with_constant(max_volumes_[region]) : all;
     }
 
  private:
-    std::vector<double> max_volumes_;
+    Array<RegionIndex, double> max_volumes_;
 };
 
 }  // namespace kerf

@@ -235,8 +235,8 @@ double SizeOptions::constant_max_volume() const {
     return max_volume == 0 && size > 0 ? regular_tet_volume(size) : max_volume;
 }
 
-std::vector<double> SizeOptions::max_volumes_of_regions(std::span<const std::string> regions) const {
-    std::vector<double> volumes(in_region.empty() ? 0 : regions.size(), 0);
+Array<RegionIndex, double> SizeOptions::max_volumes_of_regions(std::span<const std::string> regions) const {
+    Array<RegionIndex, double> volumes(in_region.empty() ? 0 : regions.size(), 0);
     for (const std::string& text : in_region) {
         const auto [name, wanted, reach] = parse_in_region(text);
         const auto found = std::find(regions.begin(), regions.end(), name);

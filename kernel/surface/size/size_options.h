@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/user_number.h"
 #include "surface/complex/surface.h"
 #include "surface/size/size_field.h"
@@ -64,7 +65,7 @@ struct SizeOptions {
     /// Returns the largest volume of a tetrahedron in each of these regions, from `in_region` with resolved lengths, 0
     /// for regions that it does not name; empty if `in_region` is. Throws Error(usage) for a name that is none of the
     /// regions', or that comes twice.
-    std::vector<double> max_volumes_of_regions(std::span<const std::string> regions) const;
+    Array<RegionIndex, double> max_volumes_of_regions(std::span<const std::string> regions) const;
     /// Whether any option but a constant is given, so that the field follows from the surface and files.
     bool depends_on_place() const {
         return !inside.empty() || !on.empty() || !near.empty() || growth > 0 || !field_file.empty() || background ||

@@ -1,18 +1,20 @@
 // The regions on the two sides of a facet.
 #pragma once
 
-#include <cstdint>
+#include <compare>
+
+#include "base/core/ids.h"
 
 namespace kerf {
 
-/// The numbers of the two regions that a facet separates; -1: outside of all regions.
+/// The two regions that a facet separates; none: the outside of all regions.
 struct FacetSides {
-    std::int32_t front = -1;  ///< where its normal points to
-    std::int32_t back = 0;
+    RegionIndex front = RegionIndex::none();  ///< where its normal points to
+    RegionIndex back;
 
-    bool is_wall() const { return front >= 0 && back >= 0; }
+    bool is_wall() const { return front.is_valid() && back.is_valid(); }
     FacetSides turned() const { return {back, front}; }
-    bool operator==(const FacetSides&) const = default;
+    auto operator<=>(const FacetSides&) const = default;
 
     template <class Archive>
     void archive(Archive& a) {

@@ -47,7 +47,7 @@ class PatchesOfFile {
 
 std::string wall_name(const std::vector<std::string>& region_names, FacetSides sides) {
     const auto [first, second] = std::minmax(sides.front, sides.back);
-    return region_names[first] + "_to_" + region_names[second];
+    return region_names[first.value()] + "_to_" + region_names[second.value()];
 }
 
 void name_walls(Soup& soup) {
@@ -57,7 +57,7 @@ void name_walls(Soup& soup) {
     for (std::size_t f = 0; f < soup.facets.size(); ++f)
         if (!of_file.keeps(f)) others.push_back(f);
     std::set<std::string> taken = of_file.taken_names();
-    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> patch_between;
+    std::map<std::pair<RegionIndex, RegionIndex>, std::int32_t> patch_between;
     std::vector<std::int32_t> patch = soup.patch;
     for (const std::size_t f : others) {
         const FacetSides sides = soup.sides[f];
@@ -65,9 +65,10 @@ void name_walls(Soup& soup) {
         const auto [found, is_new] = patch_between.try_emplace(std::minmax(sides.front, sides.back), next);
         patch[f] = found->second;
         if (!is_new) continue;
-        const std::int32_t region = std::max(sides.front, sides.back);
+        const RegionIndex region = std::max(sides.front, sides.back);
         soup.patch_names.push_back(unique_name(
-            sides.is_wall() ? wall_name(soup.region_names, sides) : soup.region_names[region] + "_outer", taken));
+            sides.is_wall() ? wall_name(soup.region_names, sides) : soup.region_names[region.value()] + "_outer",
+            taken));
         if (!soup.patch_colours.empty()) soup.patch_colours.push_back(soup.patch_colours[soup.patch[f]]);
     }
     soup.patch = std::move(patch);

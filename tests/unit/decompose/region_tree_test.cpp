@@ -34,9 +34,8 @@ void visit(const RegionTree& tree, const RegionTree::Node& node, std::vector<std
 TEST(RegionTree, SharesLeavesOutByLoad) {
     const Complex complex = test::to_complex(bars(6));
     const DecomposeOptions options;
-    const std::vector<RegionMeasures> measures = measure_regions(complex, options);
-    for (std::size_t r = 0; r < measures.size(); ++r)
-        EXPECT_NEAR(measures[r].volume, 1.0 + static_cast<double>(r), 1e-12);
+    const Array<RegionIndex, RegionMeasures> measures = measure_regions(complex, options);
+    for (const RegionIndex r : measures.ids()) EXPECT_NEAR(measures[r].volume, 1.0 + r.value(), 1e-12);
     std::vector<std::int32_t> before;
     for (const std::int32_t parts : {6, 7, 12, 21, 60}) {
         const RegionTree tree(complex, measures, parts);

@@ -14,6 +14,7 @@
 #include "files/io/inside/tet_skin.h"
 #include "files/io/surface_reader.h"
 #include "region_files.h"
+#include "support/facet_sides.h"
 #include "support/seeded_numbers.h"
 
 namespace kerf {
@@ -40,8 +41,8 @@ void expect_regions(const Soup& soup, const std::vector<double>& volumes) {
     ASSERT_EQ(soup.sides.size(), soup.facets.size());
     ASSERT_EQ(soup.patch.size(), soup.facets.size());
     ASSERT_EQ(soup.region_names.size(), volumes.size());
-    std::vector<double> enclosed(volumes.size(), 0);
-    std::map<std::pair<std::int32_t, UndirectedEdge>, int> balance;
+    Array<RegionIndex, double> enclosed(volumes.size(), 0);
+    std::map<std::pair<RegionIndex, UndirectedEdge>, int> balance;
     std::vector<Triangle> sorted = soup.facets;
     for (Triangle& t : sorted) std::sort(t.begin(), t.end());
     std::sort(sorted.begin(), sorted.end());
@@ -49,18 +50,18 @@ void expect_regions(const Soup& soup, const std::vector<double>& volumes) {
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         const Triangle& t = soup.facets[f];
         const auto& [front, back] = soup.sides[f];
-        ASSERT_TRUE(back >= 0 && (front == -1 || front > back));
+        ASSERT_TRUE(back.is_valid() && (!front.is_valid() || front > back));
         for (const auto& [region, sign] : {std::pair(back, 1), {front, -1}}) {
-            if (region < 0) continue;
+            if (!region.is_valid()) continue;
             const auto& p = soup.vertices;
-            enclosed[static_cast<std::size_t>(region)] += sign * p[t[0]].cross(p[t[1]]).dot(p[t[2]]) / 6;
+            enclosed[region] += sign * p[t[0]].cross(p[t[1]]).dot(p[t[2]]) / 6;
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::int32_t from = t[i], to = t[(i + 1) % 3];
                 balance[{region, undirected(from, to)}] += from < to ? sign : -sign;
             }
         }
     }
-    for (const auto& [edge, sum] : balance) EXPECT_EQ(sum, 0) << "region " << edge.first;
+    for (const auto& [edge, sum] : balance) EXPECT_EQ(sum, 0) << "region " << edge.first.value();
     for (std::size_t r = 0; r < volumes.size(); ++r) EXPECT_NEAR(enclosed[r], volumes[r], 1e-12) << "region " << r;
 }
 
@@ -222,9 +223,9 @@ TEST(RegionReader, TakesTheSidesOfTrianglesOfVtu) {
     const Soup soup = read_surface_bytes(vtu(front, back, ""), "surface.vtu");
     EXPECT_EQ(soup.region_names, (std::vector<std::string>{"region_1", "region_3"}));
     ASSERT_EQ(soup.sides.size(), 7U);
-    EXPECT_EQ(soup.sides[0], (FacetSides{1, 0}));  // the smaller one is behind it
-    EXPECT_EQ(soup.sides[1], (FacetSides{-1, 0}));
-    EXPECT_EQ(soup.sides[4], (FacetSides{-1, 1}));
+    EXPECT_EQ(soup.sides[0], test::facet_sides(1, 0));  // the smaller one is behind it
+    EXPECT_EQ(soup.sides[1], test::facet_sides(-1, 0));
+    EXPECT_EQ(soup.sides[4], test::facet_sides(-1, 1));
     const std::string names = array("Int8", "RegionNames", "0 97 0 0 98 0");
     EXPECT_EQ(read_surface_bytes(vtu(front, back, names), "surface.vtu").region_names,
               (std::vector<std::string>{"a", "b"}));
@@ -260,11 +261,12 @@ TEST(RegionFaces, KnowTheSidesOfFlatTetrahedra) {
         if (side == 0) continue;
         p.emplace_back(p[0] - side * (p[1] - p[0]).cross(p[2] - p[0]));  // on the other side
         misleading += side * six_volumes_of(p[0], p[1], p[2], p[3]) < 0;
-        const RegionFaces found = region_faces(p, {{0, 1, 2, 3}, {0, 1, 2, 4}}, {0, 1});
+        const RegionFaces found = region_faces(p, {{0, 1, 2, 3}, {0, 1, 2, 4}}, {RegionIndex(0), RegionIndex(1)});
         ASSERT_FALSE(found.overlap.has_value());
         for (const RegionFace& face : found.faces) {
             const auto& [a, b, c] = face.corners;
-            const std::int32_t apex = face.sides.back == 1 ? 4 : 3;  // of the cell behind it, or its other corner
+            const std::int32_t apex =
+                face.sides.back == RegionIndex(1) ? 4 : 3;  // of the cell behind it, or its other corner
             for (const std::int32_t inside : {0, 1, 2, apex}) EXPECT_LE(orientation(p[a], p[b], p[c], p[inside]), 0);
         }
     }
@@ -359,9 +361,9 @@ TEST(RegionReader, IsNotSurprisedByDamage) {
             try {
                 const Soup soup = read_volumes(damaged);
                 ASSERT_TRUE(soup.sides.empty() || soup.sides.size() == soup.facets.size());
-                const auto count = static_cast<std::int32_t>(soup.region_names.size());
+                const RegionIndex count(soup.region_names.size());
                 for (const FacetSides& s : soup.sides)
-                    ASSERT_TRUE(s.back >= 0 && s.back < count && s.front < count && s.front != s.back);
+                    ASSERT_TRUE(s.back.is_valid() && s.back < count && s.front < count && s.front != s.back);
                 for (const std::int32_t p : soup.patch) ASSERT_LT(static_cast<std::size_t>(p), soup.patch_names.size());
             } catch (const Error& error) {
                 ASSERT_EQ(error.code(), ErrorCode::input) << error.what();

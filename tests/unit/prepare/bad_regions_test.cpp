@@ -7,6 +7,7 @@
 
 #include "base/core/error.h"
 #include "run/prepare/input.h"
+#include "support/facet_sides.h"
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/voxel_regions.h"
@@ -120,7 +121,7 @@ Soup rooms() {
     const test::VoxelBody body = test::voxel_body({2, 1, 1}, [](std::array<std::int32_t, 3> c) { return c[0]; });
     Soup soup{body.facets.vertices, body.facets.facets, {}, {"left", "right", "wall"}};
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-        soup.patch.push_back(body.sides[f].is_wall() ? 2 : body.sides[f].back);
+        soup.patch.push_back(body.sides[f].is_wall() ? 2 : body.sides[f].back.value());
         if (f % 3 == 0) std::swap(soup.facets[f][1], soup.facets[f][2]);
     }
     return soup;
@@ -247,7 +248,7 @@ TEST(BadRegions, WithoutVolume) {
     };
     std::vector<FacetSides> sides = body.sides;
     for (FacetSides& facet : sides)
-        if (facet.is_wall()) facet = {-1, 0};  // cement is open
+        if (facet.is_wall()) facet = test::facet_sides(-1, 0);  // cement is open
     refuse(sides, {"'cement'", "("});
     expect_refused(
         [&] {
@@ -255,7 +256,7 @@ TEST(BadRegions, WithoutVolume) {
         },
         {"'metal'", "no facets"});
     sides = body.sides;
-    sides.front() = {0, 0};
+    sides.front() = test::facet_sides(0, 0);
     refuse(sides, {"'bone'", "("});
 }
 
@@ -274,7 +275,7 @@ TEST(RegionInput, LargestCellsOfAFileAreItsRegionsSizes) {
     EXPECT_EQ(max_volumes_of_regions({}, input), (std::vector<double>{0.01, 0}));
     SizeOptions sizes;
     sizes.in_region = {"region_4=1"};
-    const std::vector<double> both = max_volumes_of_regions(sizes, input);
+    const Array<RegionIndex, double> both = max_volumes_of_regions(sizes, input);
     ASSERT_EQ(both.size(), 2U);
     EXPECT_GT(both[0], 0.1);
     EXPECT_EQ(both[1], 0);

@@ -367,7 +367,8 @@ TEST(InputCover, CountsSidesOfRegions) {
     EXPECT_EQ(missing_after([](auto&, auto&) {}), 0);
     EXPECT_GT(missing_after([](Decomposition& d, auto&) { d.leaves[0].region = RegionIndex(1); }), 9);
     EXPECT_EQ(missing_after([](auto&, auto& sides) {
-                  std::find_if(sides.begin(), sides.end(), [](const FacetSides& s) { return s.is_wall(); })->front = -1;
+                  std::find_if(sides.begin(), sides.end(), [](const FacetSides& s) { return s.is_wall(); })->front =
+                      RegionIndex::none();
               }),
               1);
 }

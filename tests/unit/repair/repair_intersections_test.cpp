@@ -149,7 +149,7 @@ TEST(Intersections, GiveRegionsTheSmallerBodyFirst) {
         ASSERT_EQ(soup.region_names, (std::vector<std::string>{"large", "small"}));
         EXPECT_TRUE(find_self_intersections(soup.vertices, soup.facets).empty());
         const Vec3 common = (low + Vec3::Constant(0.8)).cwiseMin(1) - low.cwiseMax(0);
-        for (std::int32_t r = 0; r < 2; ++r) {
+        for (const RegionIndex r : ids<RegionIndex>(2)) {
             std::vector<Triangle> own;
             for (std::size_t f = 0; f < soup.facets.size(); ++f) {
                 const auto [a, b, c] = soup.facets[f];
@@ -157,7 +157,8 @@ TEST(Intersections, GiveRegionsTheSmallerBodyFirst) {
                 if (soup.sides[f].front == r) own.push_back({a, c, b});
             }
             EXPECT_TRUE(closes(own));
-            EXPECT_NEAR(enclosed_volume(soup.vertices, own), r == 1 ? 0.512 : 1 - common.cwiseMax(0).prod(), 1e-12);
+            EXPECT_NEAR(enclosed_volume(soup.vertices, own),
+                        r == RegionIndex(1) ? 0.512 : 1 - common.cwiseMax(0).prod(), 1e-12);
         }
     }
 }
@@ -190,8 +191,8 @@ TEST(Intersections, OfWholeBoxesGiveRegionsTheSmallerBodyFirst) {
             std::vector<Triangle> own;
             for (std::size_t f = 0; f < soup.facets.size(); ++f) {
                 const auto [a, b, c] = soup.facets[f];
-                if (soup.sides[f].back == static_cast<std::int32_t>(r)) own.push_back({a, b, c});
-                if (soup.sides[f].front == static_cast<std::int32_t>(r)) own.push_back({a, c, b});
+                if (soup.sides[f].back == RegionIndex(r)) own.push_back({a, b, c});
+                if (soup.sides[f].front == RegionIndex(r)) own.push_back({a, c, b});
             }
             EXPECT_TRUE(closes(own));
             EXPECT_NEAR(enclosed_volume(soup.vertices, own), expected[r], 1e-9);

@@ -35,7 +35,7 @@ void make_snap_regions(Soup& soup) {
     test::apply(RepairKind::intersections, soup, request);
 }
 
-double volume_of_region(const Soup& soup, std::int32_t region) {
+double volume_of_region(const Soup& soup, RegionIndex region) {
     std::vector<Triangle> facets;
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         const Triangle& t = soup.facets[f];
@@ -54,8 +54,8 @@ double wall_area(const Soup& soup) {
 
 void expect_regions_with_wall(const Soup& soup, double one, double two, double wall, double within) {
     ASSERT_EQ(soup.region_names.size(), 2U);
-    EXPECT_NEAR(volume_of_region(soup, 0), one, within);
-    EXPECT_NEAR(volume_of_region(soup, 1), two, within);
+    EXPECT_NEAR(volume_of_region(soup, RegionIndex(0)), one, within);
+    EXPECT_NEAR(volume_of_region(soup, RegionIndex(1)), two, within);
     EXPECT_NEAR(wall_area(soup), wall, within);
     EXPECT_TRUE(find_self_intersections(soup.vertices, soup.facets).empty());
 }

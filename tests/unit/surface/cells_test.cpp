@@ -210,12 +210,12 @@ TEST(Cells, DanglingFacetsHaveOneCellOnBothSides) {
     soup.facets.push_back({0, v - 2, v - 1});  // hangs on both
     const Cells cells = find_cells(soup.vertices, soup.facets).value();
     EXPECT_EQ(cells.count, 1);
-    for (std::int32_t f = 0; f < first; ++f) EXPECT_EQ(cells.sides[f], FacetSides({-1, 0}));
-    for (std::int32_t f = first; f < first + 2; ++f) EXPECT_EQ(cells.sides[f], FacetSides({0, 0}));
+    for (std::int32_t f = 0; f < first; ++f) EXPECT_EQ(cells.sides[f], CellSides({-1, 0}));
+    for (std::int32_t f = first; f < first + 2; ++f) EXPECT_EQ(cells.sides[f], CellSides({0, 0}));
     const std::vector<Triangle> open(soup.facets.begin() + 1, soup.facets.end());
     const Cells none = find_cells(soup.vertices, open).value();
     EXPECT_EQ(none.count, 0);
-    for (const FacetSides& sides : none.sides) EXPECT_EQ(sides, FacetSides({-1, -1}));
+    for (const CellSides& sides : none.sides) EXPECT_EQ(sides, CellSides({-1, -1}));
 }
 
 TEST(Cells, AreNotFoundWhereFacetsLieOnOneAnother) {

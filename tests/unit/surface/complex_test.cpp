@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/core/error.h"
+#include "support/facet_sides.h"
 #include "support/voxel_regions.h"
 #include "surface/complex/mass_properties.h"
 
@@ -49,7 +50,7 @@ TEST(Complex, OfOneRegionIsItsSurface) {
     Complex complex(cube);
     EXPECT_EQ(complex.region_count(), 1);
     EXPECT_TRUE(complex.region_names().empty() && complex.all_sides().empty());
-    EXPECT_EQ(complex.sides(3), (FacetSides{-1, 0}));
+    EXPECT_EQ(complex.sides(3), test::facet_sides(-1, 0));
     EXPECT_EQ(complex.facet_count(), cube.facet_count());
     EXPECT_EQ(&complex.surface_of(RegionIndex(0)).point(Vertex(0)), &cube.point(Vertex(0))) << "half-edges are copied";
     EXPECT_EQ(complex.take_only_region().facet_count(), cube.facet_count());
@@ -69,7 +70,7 @@ TEST(Complex, RefusesRegionsThatDoNotClose) {
     test::VoxelBody open = two_cubes();
     const auto wall =
         std::find_if(open.sides.begin(), open.sides.end(), [](const FacetSides& s) { return s.is_wall(); });
-    wall->front = -1;  // the second cube loses a facet
+    wall->front = RegionIndex::none();  // the second cube loses a facet
     EXPECT_NE(refusal_of(open).find("The region 'region_1' is open at (1, "), std::string::npos) << refusal_of(open);
 
     test::VoxelBody turned = two_cubes();
@@ -77,7 +78,7 @@ TEST(Complex, RefusesRegionsThatDoNotClose) {
     EXPECT_NE(refusal_of(turned).find("is open at"), std::string::npos);
 
     test::VoxelBody doubled = two_cubes();
-    doubled.sides.front() = {0, 0};
+    doubled.sides.front() = test::facet_sides(0, 0);
     EXPECT_NE(refusal_of(doubled).find("has the region 'region_0' on both sides"), std::string::npos);
 
     const test::VoxelBody touching = test::voxel_body({2, 2, 1}, [](Cube c) { return c[0] == c[1] ? 0 : -1; });

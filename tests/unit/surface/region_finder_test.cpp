@@ -49,7 +49,7 @@ Soup doubled(const test::VoxelBody& body, bool has_patches, unsigned seed) {
     std::mt19937 random(seed);
     Soup soup;
     soup.vertices = body.facets.vertices;
-    std::vector<std::pair<Triangle, std::int32_t>> facets;
+    std::vector<std::pair<Triangle, RegionIndex>> facets;
     for (std::size_t f = 0; f < body.sides.size(); ++f) {
         const Triangle& t = body.facets.facets[f];
         facets.emplace_back(t, body.sides[f].back);
@@ -58,7 +58,7 @@ Soup doubled(const test::VoxelBody& body, bool has_patches, unsigned seed) {
     std::shuffle(facets.begin(), facets.end(), random);
     for (const auto& [t, region] : facets) {
         soup.facets.push_back(t);
-        soup.patch.push_back(has_patches ? region : 0);
+        soup.patch.push_back(has_patches ? region.value() : 0);
     }
     soup.patch_names = has_patches ? body.names : std::vector<std::string>{"all"};
     return soup;

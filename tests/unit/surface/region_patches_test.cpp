@@ -1,6 +1,7 @@
 // What patches of several regions are called.
 #include <gtest/gtest.h>
 
+#include "support/facet_sides.h"
 #include "support/shapes.h"
 #include "surface/regions/region_finder.h"
 #include "surface/soup/region_patches.h"
@@ -30,7 +31,8 @@ Names patches_of_facets(const Soup& soup) {
     return names;
 }
 
-constexpr FacetSides outer_a = {-1, 0}, outer_b = {-1, 1}, wall = {1, 0}, other_wall = {2, 0};
+constexpr FacetSides outer_a = test::facet_sides(-1, 0), outer_b = test::facet_sides(-1, 1),
+                     wall = test::facet_sides(1, 0), other_wall = test::facet_sides(2, 0);
 
 TEST(WallNames, OfPatchesThatHaveOuterFacetsToo) {
     Soup soup = soup_with({"a", "b"}, {{outer_a, "all"}, {wall, "all"}, {outer_b, "all"}});
@@ -59,7 +61,8 @@ TEST(WallNames, AreToldFromThoseOfTheFile) {
     name_walls(soup);
     EXPECT_EQ(patches_of_facets(soup), (Names{"a_to_b", "all", "a_to_b_2", "a_outer_2"}));
     // Two pairs whose names are put together alike.
-    soup = soup_with({"x", "x_to_y", "y_to_z", "z"}, {{outer_a, "p"}, {{2, 0}, "p"}, {{3, 1}, "p"}});
+    soup =
+        soup_with({"x", "x_to_y", "y_to_z", "z"}, {{outer_a, "p"}, {other_wall, "p"}, {test::facet_sides(3, 1), "p"}});
     name_walls(soup);
     EXPECT_EQ(patches_of_facets(soup), (Names{"p", "x_to_y_to_z", "x_to_y_to_z_2"}));
 }
@@ -90,9 +93,9 @@ TEST(WallNames, OfBodiesThatTouch) {
     weld_exactly(soup);
     ASSERT_TRUE(find_touching_bodies(soup));
     for (std::size_t f = 0; f < soup.facets.size(); ++f)
-        EXPECT_EQ(patches_of_facets(soup)[f], soup.sides[f].is_wall()   ? "bone_to_cement"
-                                              : soup.sides[f].back == 0 ? "bone_outer"
-                                                                        : "cement_outer");
+        EXPECT_EQ(patches_of_facets(soup)[f], soup.sides[f].is_wall()                ? "bone_to_cement"
+                                              : soup.sides[f].back == RegionIndex(0) ? "bone_outer"
+                                                                                     : "cement_outer");
     EXPECT_EQ(soup.patch_names.size(), 3U);
     Soup one = test::box();
     name_walls(one);

@@ -22,8 +22,8 @@ OrientedSurface orient_copy(CheckedSoup checked) {
         oriented.volume = oriented.mass->volume;
         return oriented;
     }
-    for (std::int32_t r = 0; r < complex.region_count(); ++r)
-        oriented.volume += enclosed_volume(complex.surface_of(RegionIndex(r)));
+    for (const RegionIndex r : ids<RegionIndex>(complex.region_count()))
+        oriented.volume += enclosed_volume(complex.surface_of(r));
     oriented.region_names.assign(complex.region_names().begin(), complex.region_names().end());
     return oriented;
 }

@@ -19,7 +19,7 @@ struct OpenedRun {
     std::string folder, trace;         ///< trace: the path of its trace, or empty
     std::vector<std::string> patch_names;
     Eigen::AlignedBox3d box;
-    std::vector<RegionPlace> region_places;
+    Array<RegionIndex, RegionPlace> region_places;
 };
 
 /// The state of the folder DIR.kerf-partial.

@@ -21,20 +21,20 @@ class RegionSurvey {
  public:
     explicit RegionSurvey(std::size_t count) : boxes_(count), facets_(count) {}
 
-    // A facet of a region, and the region beyond it or -1.
-    void add(std::int32_t region, std::int32_t beyond, const std::vector<Vec3>& vertices, const Triangle& facet) {
-        if (region < 0 || region >= std::ssize(boxes_)) return;
+    // A facet of a region, and the region beyond it or none.
+    void add(RegionIndex region, RegionIndex beyond, const std::vector<Vec3>& vertices, const Triangle& facet) {
+        if (!region.is_valid() || region >= RegionIndex(boxes_.size())) return;
         for (const std::int32_t v : facet) boxes_[region].extend(vertices[v]);
         ++facets_[region];
-        if (beyond >= 0) ++walls_[{region, beyond}];
+        if (beyond.is_valid()) ++walls_[{region, beyond}];
     }
 
-    std::vector<RegionPlace> places() const {
-        std::vector<RegionPlace> places(boxes_.size());
-        for (std::size_t r = 0; r < places.size(); ++r) places[r].box = boxes_[r];
+    Array<RegionIndex, RegionPlace> places() const {
+        Array<RegionIndex, RegionPlace> places(boxes_.size());
+        for (const RegionIndex r : places.ids()) places[r].box = boxes_[r];
         for (const auto& [pair, walls] : walls_) {
             const auto [region, beyond] = pair;
-            if (beyond >= std::ssize(boxes_) || 2 * walls <= facets_[region]) continue;
+            if (beyond >= RegionIndex(boxes_.size()) || 2 * walls <= facets_[region]) continue;
             const bool is_smaller = boxes_[region].volume() < boxes_[beyond].volume();
             if (is_smaller && boxes_[beyond].contains(boxes_[region])) places[region].holder = beyond;
         }
@@ -42,9 +42,9 @@ class RegionSurvey {
     }
 
  private:
-    std::vector<Eigen::AlignedBox3d> boxes_;
-    std::vector<std::int64_t> facets_;
-    std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> walls_;
+    Array<RegionIndex, Eigen::AlignedBox3d> boxes_;
+    Array<RegionIndex, std::int64_t> facets_;
+    std::map<std::pair<RegionIndex, RegionIndex>, std::int64_t> walls_;
 };
 
 // The move through the side of the holder that is nearest to the same side of the region inside; of equally near sides
@@ -65,7 +65,7 @@ Vec3 way_out(const Eigen::AlignedBox3d& inside, const Eigen::AlignedBox3d& holde
 
 }  // namespace
 
-std::vector<RegionPlace> region_places(const Trace& trace) {
+Array<RegionIndex, RegionPlace> region_places(const Trace& trace) {
     RegionSurvey survey(trace.region_names.size());
     for (std::size_t f = 0; f < trace.sides.size(); ++f) {
         const FacetSides& sides = trace.sides[f];
@@ -75,28 +75,29 @@ std::vector<RegionPlace> region_places(const Trace& trace) {
     return survey.places();
 }
 
-std::vector<RegionPlace> region_places(const std::string& folder, const Tree& tree, std::size_t count) {
+Array<RegionIndex, RegionPlace> region_places(const std::string& folder, const Tree& tree, std::size_t count) {
     RegionSurvey survey(count);
     for (const NodeId part : tree.parts_below(1)) {
         const NodeSurface surface = read_part_surface(folder, part);
-        const std::int32_t region = tree.find(part)->region;
+        const RegionIndex region = tree.find(part)->region;
         for (std::size_t f = 0; f < surface.facets.size(); ++f) {
             const TreeRow* neighbour = surface.neighbour[f] >= 0 ? tree.find(surface.neighbour[f]) : nullptr;
             if (neighbour && neighbour->region == region) continue;  // a cut has made it
-            survey.add(region, neighbour ? neighbour->region : -1, surface.vertices, surface.facets[f]);
+            survey.add(region, neighbour ? neighbour->region : RegionIndex::none(), surface.vertices,
+                       surface.facets[f]);
         }
     }
     return survey.places();
 }
 
-std::vector<Vec3> moves_apart(const std::vector<RegionPlace>& places) {
+Array<RegionIndex, Vec3> moves_apart(const Array<RegionIndex, RegionPlace>& places) {
     Eigen::AlignedBox3d all;
     for (const RegionPlace& place : places) all.extend(place.box);
-    std::vector<Vec3> moves(places.size(), Vec3::Zero());
-    for (std::size_t r = 0; r < places.size(); ++r) {
+    Array<RegionIndex, Vec3> moves(places.size(), Vec3::Zero());
+    for (const RegionIndex r : places.ids()) {
         if (places[r].box.isEmpty()) continue;
-        std::size_t outermost = r;  // holders are larger than the regions inside of them
-        for (; places[outermost].holder >= 0; outermost = places[outermost].holder)
+        RegionIndex outermost = r;  // holders are larger than the regions inside of them
+        for (; places[outermost].holder.is_valid(); outermost = places[outermost].holder)
             moves[r] += way_out(places[outermost].box, places[places[outermost].holder].box);
         moves[r] += places[outermost].box.center() - all.center();
     }

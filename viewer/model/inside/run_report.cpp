@@ -63,7 +63,7 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
     row.volume = number(part, "surface_volume");
     row.load = number(part, "load");
     row.rank = part.at("rank").get<std::int32_t>();
-    row.region = part.value("region", -1);
+    row.region = RegionIndex(part.value("region", -1));
     if (!meshed) return;
     row.tets = part.at("tets").get<std::int64_t>();
     row.seconds = number(part, "seconds");

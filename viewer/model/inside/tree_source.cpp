@@ -53,9 +53,9 @@ Tree tree_of(const Trace& trace) {
         tree.at(2 * cut.node);
         tree.at(2 * cut.node + 1);
     }
-    for (std::int32_t r = 0; r < count_of(trace.region_roots); ++r)
+    for (const RegionIndex r : ids<RegionIndex>(trace.region_roots.size()))
         for (TreeRow& row : tree.rows)
-            if (lies_below(row.id, trace.region_roots[r])) row.region = r;
+            if (lies_below(row.id, trace.region_roots[r.value()])) row.region = r;
     count_leaves(tree);
     return tree;
 }

@@ -105,13 +105,13 @@ void LegendMaker::explain_patches() {
 }
 
 void LegendMaker::explain_regions() {
-    std::map<std::int32_t, NodeId> part_of_region;
+    std::map<RegionIndex, NodeId> part_of_region;
     for (const NodeId part : drawn_parts_)
-        if (const std::int32_t region = context_.document.tree.find(part)->region; region >= 0)
+        if (const RegionIndex region = context_.document.tree.find(part)->region; region.is_valid())
             part_of_region.emplace(region, part);
     for (const auto& [region, part] : part_of_region) {
         const std::string* name = region_of(context_.document, part);
-        const std::string text = name ? *name : fmt::format("region {}", region + 1);
+        const std::string text = name ? *name : fmt::format("region {}", region.value() + 1);
         explain(context_.state.visibility.walls ? "walls of " + text : text, drawn_color_of(part));
     }
 }

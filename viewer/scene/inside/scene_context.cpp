@@ -60,13 +60,13 @@ bool SceneContext::needs_solution() const {
 Vec3 SceneContext::offset_of(NodeId part) const {
     const auto region_number = [&](NodeId node) {
         const TreeRow* row = document.tree.find(node);
-        return row ? row->region : -1;
+        return row ? row->region : RegionIndex::none();
     };
     const Vec3 of_cuts =
         explosion_offset(document.tree, part, state.node, state.explosion.amount, document.box.diagonal().norm());
-    const std::int32_t region = region_number(part);
-    const bool has_several = region_number(state.node) < 0;
-    if (region < 0 || !has_several || region >= std::ssize(moves_of_regions_)) return of_cuts;
+    const RegionIndex region = region_number(part);
+    const bool has_several = !region_number(state.node).is_valid();
+    if (!region.is_valid() || !has_several || region >= RegionIndex(moves_of_regions_.size())) return of_cuts;
     const Vec3 of_region = state.explosion.amount * moves_of_regions_[region];
     return state.explosion.regions ? of_region : Vec3(of_region + of_cuts);
 }
@@ -77,7 +77,7 @@ Color SceneContext::color_of(NodeId part) const {
         case ColorBy::rank:
             return row && row->rank >= 0 ? category_color(row->rank) : colors.none;
         case ColorBy::region:
-            return row && row->region >= 0 ? category_color(row->region) : colors.none;
+            return row && row->region.is_valid() ? category_color(row->region.value()) : colors.none;
         case ColorBy::level:
             return category_color(level_of(part));
         case ColorBy::part: {

@@ -65,7 +65,7 @@ class SceneContext {
     bool has_patch_colors() const;
 
     std::map<NodeId, std::int32_t> part_order_;
-    std::vector<Vec3> moves_of_regions_;  // moves of regions, where these are pulled apart
+    Array<RegionIndex, Vec3> moves_of_regions_;  // moves of regions, where these are pulled apart
 };
 
 }  // namespace kerf::view

@@ -50,19 +50,19 @@ std::uint64_t place_on_curve(const Vec3& point, const Box& box) {
 }
 
 std::vector<RegionIndex> spatial_order_of(const Complex& complex) {
-    std::vector<Box> boxes(complex.region_count());
+    Array<RegionIndex, Box> boxes(complex.region_count());
     Box whole;
     for (std::int32_t f = 0; f < complex.facet_count(); ++f) {
         const FacetSides sides = complex.sides(f);
         for (const std::int32_t v : complex.vertices(f)) {
-            for (const std::int32_t region : {sides.back, sides.front})
-                if (region >= 0) boxes[region].extend(complex.point(v));
+            for (const RegionIndex region : {sides.back, sides.front})
+                if (region.is_valid()) boxes[region].extend(complex.point(v));
             whole.extend(complex.point(v));
         }
     }
     std::vector<std::pair<std::uint64_t, RegionIndex>> places;
-    for (const RegionIndex region : ids<RegionIndex>(boxes.size()))
-        places.emplace_back(place_on_curve(boxes[region.value()].center(), whole), region);
+    for (const RegionIndex region : boxes.ids())
+        places.emplace_back(place_on_curve(boxes[region].center(), whole), region);
     std::sort(places.begin(), places.end());
     std::vector<RegionIndex> order;
     for (const auto& [place, region] : places) order.push_back(region);
@@ -70,19 +70,19 @@ std::vector<RegionIndex> spatial_order_of(const Complex& complex) {
 }
 
 // Returns the number of leaves of each region.
-std::vector<std::int32_t> share_out(std::span<const RegionMeasures> measures, std::int32_t parts) {
-    std::vector<std::int32_t> leaves(measures.size(), 1);
+Array<RegionIndex, std::int32_t> share_out(const Array<RegionIndex, RegionMeasures>& measures, std::int32_t parts) {
+    Array<RegionIndex, std::int32_t> leaves(measures.size(), 1);
     struct Share {
         double load;  // per leaf
-        std::int32_t region;
+        RegionIndex region;
         bool operator<(const Share& other) const {
             return load != other.load ? load < other.load : region > other.region;
         }
     };
     std::priority_queue<Share> queue;
-    for (std::int32_t r = 0; r < count_of(measures); ++r) queue.push({measures[r].load, r});
+    for (const RegionIndex r : measures.ids()) queue.push({measures[r].load, r});
     for (auto left = parts - count_of(measures); left > 0; --left) {
-        const std::int32_t region = queue.top().region;
+        const RegionIndex region = queue.top().region;
         queue.pop();
         ++leaves[region];
         queue.push({measures[region].load / leaves[region], region});
@@ -92,8 +92,8 @@ std::vector<std::int32_t> share_out(std::span<const RegionMeasures> measures, st
 
 }  // namespace
 
-std::vector<RegionMeasures> measure_regions(const Complex& complex, const DecomposeOptions& options) {
-    std::vector<RegionMeasures> all;
+Array<RegionIndex, RegionMeasures> measure_regions(const Complex& complex, const DecomposeOptions& options) {
+    Array<RegionIndex, RegionMeasures> all;
     for (const RegionIndex region : ids<RegionIndex>(complex.region_count())) {
         all.push_back(measure(complex.arrays_of(region), options.cut_in(region).bisected_load()));
         if (all.back().volume > all.back().volume_error) continue;
@@ -105,11 +105,11 @@ std::vector<RegionMeasures> measure_regions(const Complex& complex, const Decomp
     return all;
 }
 
-RegionTree::RegionTree(const Complex& complex, std::span<const RegionMeasures> measures, std::int32_t parts)
+RegionTree::RegionTree(const Complex& complex, const Array<RegionIndex, RegionMeasures>& measures, std::int32_t parts)
     : order_(spatial_order_of(complex)), first_leaf_(1, 0) {
     KERF_CHECK(measures.size() == order_.size() && parts >= complex.region_count());
-    const std::vector<std::int32_t> leaves = share_out(measures, parts);
-    for (const RegionIndex region : order_) first_leaf_.push_back(first_leaf_.back() + leaves[region.value()]);
+    const Array<RegionIndex, std::int32_t> leaves = share_out(measures, parts);
+    for (const RegionIndex region : order_) first_leaf_.push_back(first_leaf_.back() + leaves[region]);
 }
 
 std::array<RegionTree::Node, 2> RegionTree::halves(const Node& node) const {
@@ -119,14 +119,14 @@ std::array<RegionTree::Node, 2> RegionTree::halves(const Node& node) const {
     return {Node{lower, node.first, below}, Node{upper, node.first + below, node.regions - below}};
 }
 
-TreeNode RegionTree::describe(const Node& node, std::span<const RegionMeasures> measures) const {
+TreeNode RegionTree::describe(const Node& node, const Array<RegionIndex, RegionMeasures>& measures) const {
     TreeNode told;
     told.id = node.id;
     told.first_leaf = first_leaf(node);
     told.leaves = leaves(node);
     told.regions = node.regions;
     for (std::int32_t place = node.first; place < node.first + node.regions; ++place) {
-        const RegionMeasures& region = measures[order_[place].value()];
+        const RegionMeasures& region = measures[order_[place]];
         told.vertices += region.vertices;
         told.facets += region.facets;
         told.mass.volume += region.volume;

@@ -17,7 +17,7 @@ struct RegionMeasures {
 
 /// Returns the measures of all regions, in their order. Throws Error(input) for a region whose facets enclose no
 /// volume, or are turned inwards. O(n log n) for n facets of the complex.
-std::vector<RegionMeasures> measure_regions(const Complex& complex, const DecomposeOptions& options);
+Array<RegionIndex, RegionMeasures> measure_regions(const Complex& complex, const DecomposeOptions& options);
 
 /// The distribution of a tree's leaves to regions, and the nodes above the regions' roots.
 ///
@@ -29,7 +29,7 @@ class RegionTree {
     /// Shares out `parts` leaves, at least as many as there are regions. Each region gets one, and each further leaf
     /// goes to the region that then has the largest load per leaf, to the first of these if there are several. O(parts
     /// log #regions).
-    RegionTree(const Complex& complex, std::span<const RegionMeasures> measures, std::int32_t parts);
+    RegionTree(const Complex& complex, const Array<RegionIndex, RegionMeasures>& measures, std::int32_t parts);
 
     /// A node of the tree: the regions numbered [first, first + regions) in the order of the tree.
     struct Node {
@@ -42,7 +42,7 @@ class RegionTree {
     std::int32_t first_leaf(const Node& node) const { return first_leaf_[node.first]; }
     std::int32_t leaves(const Node& node) const { return first_leaf_[node.first + node.regions] - first_leaf(node); }
     /// Returns the node in the form of the tree, with sums over its regions.
-    TreeNode describe(const Node& node, std::span<const RegionMeasures> measures) const;
+    TreeNode describe(const Node& node, const Array<RegionIndex, RegionMeasures>& measures) const;
 
  private:
     std::vector<RegionIndex> order_;

@@ -70,18 +70,18 @@ class AssemblyMesher {
     }
 
  private:
-    std::string solid_name(std::int32_t region) const { return "'" + assembly_.region_names[region] + "'"; }
+    std::string solid_name(RegionIndex region) const { return "'" + assembly_.region_names[region.value()] + "'"; }
     std::string faces_text(const std::vector<std::int32_t>& patches) const {
         return names_of(patches, assembly_.patches);
     }
 
     // Returns the solids at facets: "'a' and 'b'".
     std::string solids_at(const Tessellation& mesh, std::initializer_list<std::int32_t> facets) const {
-        std::set<std::int32_t> regions;
+        std::set<RegionIndex> regions;
         for (const std::int32_t f : facets) regions.insert({mesh.sides[f].front, mesh.sides[f].back});
         std::string text;
-        for (const std::int32_t region : regions)
-            if (region >= 0) text += (text.empty() ? "" : " and ") + solid_name(region);
+        for (const RegionIndex region : regions)
+            if (region.is_valid()) text += (text.empty() ? "" : " and ") + solid_name(region);
         return text;
     }
 
@@ -96,11 +96,11 @@ class AssemblyMesher {
                 "Let the solids touch in a face, move them apart, join them by --unite, or choose one "
                 "by --solid N.",
                 faces_text(mesh.pierced_patches));
-        std::vector<char> has_facets(assembly_.volumes.size());
+        Array<RegionIndex, char> has_facets(assembly_.volumes.size());
         for (const auto [front, back] : mesh.sides)
-            for (const std::int32_t region : {front, back})
-                if (region >= 0) has_facets[region] = 1;
-        for (std::size_t r = 0; r < has_facets.size(); ++r)
+            for (const RegionIndex region : {front, back})
+                if (region.is_valid()) has_facets[region] = 1;
+        for (const RegionIndex r : has_facets.ids())
             if (!has_facets[r])
                 return fmt::format("nothing is left of the solid {} beside those that it touches. {}", solid_name(r),
                                    way_out);
@@ -113,9 +113,9 @@ class AssemblyMesher {
         EdgeCorners(mesh.facets).for_each_edge([&](std::int32_t low, std::span<const EdgeCorners::Corner> corners) {
             if (!found.empty()) return;
             for (const EdgeCorners::Corner& of_region : corners)
-                for (const std::int32_t region :
+                for (const RegionIndex region :
                      {mesh.sides[of_region.corner / 3].front, mesh.sides[of_region.corner / 3].back}) {
-                    if (region < 0 || excess_of(mesh, region, low, corners) == 0) continue;
+                    if (!region.is_valid() || excess_of(mesh, region, low, corners) == 0) continue;
                     found = fmt::format("the solid {} is open near {} at {}, once solids share what they touch in. {}",
                                         solid_name(region), place_text(mesh.vertices[low]),
                                         faces_text({mesh.patch[of_region.corner / 3]}), way_out);
@@ -125,7 +125,7 @@ class AssemblyMesher {
         return found;
     }
 
-    static int excess_of(const Tessellation& mesh, std::int32_t region, std::int32_t low,
+    static int excess_of(const Tessellation& mesh, RegionIndex region, std::int32_t low,
                          std::span<const EdgeCorners::Corner> corners) {
         int excess = 0;
         for (const auto& [high, corner] : corners) {
@@ -153,18 +153,18 @@ class AssemblyMesher {
 
     // Returns the largest error of the volume of a region, as a share of that.
     double volume_error(const Tessellation& mesh) const {
-        const std::vector<double> volumes = region_volumes(mesh, assembly_.volumes.size());
+        const Array<RegionIndex, double> volumes = region_volumes(mesh, assembly_.volumes.size());
         double largest = 0;
-        for (std::size_t r = 0; r < volumes.size(); ++r)
+        for (const RegionIndex r : volumes.ids())
             largest = std::max(largest, std::abs(volumes[r] / assembly_.volumes[r] - 1));
         return largest;
     }
 
     // Returns the roughness of body_mesher.cpp, for the worst region.
     double roughness(const Tessellation& mesh) const {
-        const std::vector<double> between = volumes_between(mesh, assembly_.volumes.size());
+        const Array<RegionIndex, double> between = volumes_between(mesh, assembly_.volumes.size());
         double largest = 0;
-        for (std::size_t r = 0; r < between.size(); ++r) largest = std::max(largest, between[r] / assembly_.volumes[r]);
+        for (const RegionIndex r : between.ids()) largest = std::max(largest, between[r] / assembly_.volumes[r]);
         return largest / (on_faces_ ? most_missed_on_faces : most_missed);
     }
 
@@ -203,8 +203,8 @@ class AssemblyMesher {
     }
 
     MeshedAssembly checked(Tessellation mesh) const {
-        std::vector<double> volumes = region_volumes(mesh, assembly_.volumes.size());
-        for (std::size_t r = 0; r < volumes.size(); ++r)
+        Array<RegionIndex, double> volumes = region_volumes(mesh, assembly_.volumes.size());
+        for (const RegionIndex r : volumes.ids())
             if (!(std::abs(volumes[r] / assembly_.volumes[r] - 1) <= hopeless_error))
                 refuse(path_,
                        fmt::format("the facets of the solid {} hold {:.6g} mm3, but OpenCASCADE gives it {:.6g}: "

@@ -12,8 +12,8 @@ namespace kerf::cad {
 
 /// An assembly as facets that hold the volumes of its solids.
 struct MeshedAssembly {
-    Tessellation facets;          ///< with sides; every region is closed, and no two facets cross
-    std::vector<double> volumes;  ///< volumes of the regions inside of the facets; cubic millimetres
+    Tessellation facets;                 ///< with sides; every region is closed, and no two facets cross
+    Array<RegionIndex, double> volumes;  ///< volumes of the regions inside of the facets; cubic millimetres
 };
 
 /// Tessellates an assembly as mesh_body() does a body: the volume of each region is right to

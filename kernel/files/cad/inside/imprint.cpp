@@ -156,13 +156,13 @@ class GeneralFuse {
                     const int known = faces.FindIndex(face);
                     if (known == 0) {
                         faces.Add(outwards);
-                        sides.push_back({-1, b});
+                        sides.push_back({.back = RegionIndex(b)});
                         continue;
                     }
                     FacetSides& both = sides[known - 1];
-                    if (both.front >= 0 || faces(known).Orientation() == outwards.Orientation())
-                        return fail(ImprintFailure::Kind::broken, both.back, b, failure.where);
-                    both.front = b;
+                    if (both.front.is_valid() || faces(known).Orientation() == outwards.Orientation())
+                        return fail(ImprintFailure::Kind::broken, both.back.value(), b, failure.where);
+                    both.front = RegionIndex(b);
                 }
         return bind_faces(faces, sides);
     }
@@ -175,15 +175,15 @@ class GeneralFuse {
                 body, [&](const TopoDS_Shape& face) { return images_of(builder_, face); }, patch_of);
         TopoDS_Compound compound;
         BRep_Builder().MakeCompound(compound);
-        std::map<std::array<std::int32_t, 3>, std::int32_t> number_of;
+        std::map<std::pair<std::int32_t, FacetSides>, std::int32_t> number_of;
         for (int i = 1; i <= faces.Extent(); ++i) {
             const FacetSides both = sides[i - 1];
             if (both.front == both.back) continue;  // a body touches itself
             if (!patch_of.IsBound(faces(i)))
-                return fail(ImprintFailure::Kind::broken, both.back, both.back, failure.where);
+                return fail(ImprintFailure::Kind::broken, both.back.value(), both.back.value(), failure.where);
             const std::int32_t patch = patch_of.Find(faces(i));
             const auto next = count_of(assembly_.sides);
-            const auto [entry, is_new] = number_of.try_emplace({patch, both.front, both.back}, next);
+            const auto [entry, is_new] = number_of.try_emplace({patch, both}, next);
             if (is_new) {
                 assembly_.sides.push_back(both);
                 assembly_.patches.push_back(patches_[patch]);
@@ -216,7 +216,7 @@ class GeneralFuse {
 void name_wall_patches(Assembly& assembly, const std::vector<Patch>& of_file) {
     std::set<std::string> taken;
     for (const Patch& patch : of_file) taken.insert(patch.name);
-    std::map<std::pair<std::int32_t, std::int32_t>, std::string> name_of;
+    std::map<std::pair<RegionIndex, RegionIndex>, std::string> name_of;
     for (std::size_t p = 0; p < assembly.sides.size(); ++p) {
         const FacetSides sides = assembly.sides[p];
         if (!sides.is_wall()) continue;

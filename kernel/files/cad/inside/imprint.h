@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/core/ids.h"
 #include "base/core/types.h"
 #include "files/cad/inside/contact.h"
 #include "files/cad/inside/model.h"
@@ -15,10 +16,10 @@ namespace kerf::cad {
 /// Solids whose common faces, edges and vertices exist once.
 struct Assembly {
     Body faces;                     ///< faces of all solids, each once, in a compound; its patches are those of `sides`
-    std::vector<FacetSides> sides;  ///< sides of the patches of `faces`, by numbers of the bodies
+    std::vector<FacetSides> sides;  ///< sides of the patches of `faces`, the bodies being the regions
     std::vector<Patch> patches;     ///< patches of `faces`: each is of one solid, or of the walls between two
     std::vector<std::string> region_names;  ///< names of the bodies, unique
-    std::vector<double> volumes;            ///< volumes of the bodies with their curved faces; cubic millimetres
+    Array<RegionIndex, double> volumes;     ///< volumes of the bodies with their curved faces; cubic millimetres
     std::int32_t wall_faces = 0;            ///< number of faces of two bodies
     double tolerance = 0;  ///< distance within which faces were taken as one; millimetres; 0: that of the file
 };

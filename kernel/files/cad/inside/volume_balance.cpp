@@ -58,21 +58,21 @@ bool balance_volume(Tessellation& mesh, double volume) {
     return false;
 }
 
-std::vector<double> region_volumes(const Tessellation& mesh, std::size_t regions) {
+Array<RegionIndex, double> region_volumes(const Tessellation& mesh, std::size_t regions) {
     return kerf::region_volumes(mesh.vertices, faces_of(mesh), regions);
 }
 
-std::vector<double> volumes_between(const Tessellation& mesh, std::size_t regions) {
-    std::vector<double> between(regions);
+Array<RegionIndex, double> volumes_between(const Tessellation& mesh, std::size_t regions) {
+    Array<RegionIndex, double> between(regions);
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         const double volume = area_vector(mesh, f).norm() * std::abs(mesh.rise[f]);
-        for (const std::int32_t region : {mesh.sides[f].front, mesh.sides[f].back})
-            if (region >= 0) between[region] += volume;
+        for (const RegionIndex region : {mesh.sides[f].front, mesh.sides[f].back})
+            if (region.is_valid()) between[region] += volume;
     }
     return between;
 }
 
-bool balance_volumes(Tessellation& mesh, const std::vector<double>& volumes, const std::vector<char>& is_fixed) {
+bool balance_volumes(Tessellation& mesh, const Array<RegionIndex, double>& volumes, const std::vector<char>& is_fixed) {
     return kerf::balance_volumes(mesh.vertices, faces_of(mesh), volumes, is_fixed, balance_limits::chords);
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/core/ids.h"
 #include "files/cad/inside/tessellation.h"
 
 namespace kerf::cad {
@@ -21,14 +22,14 @@ double volume_between(const Tessellation& mesh);
 bool balance_volume(Tessellation& mesh, double volume);
 
 /// Returns the volumes of the regions of facets with `sides`.
-std::vector<double> region_volumes(const Tessellation& mesh, std::size_t regions);
+Array<RegionIndex, double> region_volumes(const Tessellation& mesh, std::size_t regions);
 
 /// Returns volume_between() for each region; facets of walls count for both.
-std::vector<double> volumes_between(const Tessellation& mesh, std::size_t regions);
+Array<RegionIndex, double> volumes_between(const Tessellation& mesh, std::size_t regions);
 
 /// Does the same as balance_volume() for facets with `sides`; `volumes`: of all regions. A vertex of a wall moves for
 /// both of its regions: of all moves that give every region its volume those are taken that differ the least from the
 /// moves that the faces ask for. `is_fixed`: for each vertex, whether it stays. O(#F (log #F + regions)).
-bool balance_volumes(Tessellation& mesh, const std::vector<double>& volumes, const std::vector<char>& is_fixed);
+bool balance_volumes(Tessellation& mesh, const Array<RegionIndex, double>& volumes, const std::vector<char>& is_fixed);
 
 }  // namespace kerf::cad

@@ -94,14 +94,14 @@ std::vector<char> are_inward(const std::vector<Triangle>& facets, const std::vec
 bool has_three_corners(const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
 
 // Puts the region on this side of a facet, or on the other side if another volume has taken this one already.
-void take_side(FacetSides& sides, bool is_in_front, std::int32_t region) {
-    const bool is_free = (is_in_front ? sides.front : sides.back) < 0;
+void take_side(FacetSides& sides, bool is_in_front, RegionIndex region) {
+    const bool is_free = !(is_in_front ? sides.front : sides.back).is_valid();
     (is_in_front == is_free ? sides.front : sides.back) = region;
 }
 
 // Puts a region on the sides of the facets of a volume.
 void add_sides(const std::vector<std::int64_t>& surfaces, const FacetsOfSurfaces& of_surfaces, const Soup& soup,
-               std::int32_t region, std::vector<FacetSides>& sides) {
+               RegionIndex region, std::vector<FacetSides>& sides) {
     std::vector<std::size_t> numbers;
     std::vector<Triangle> facets;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -127,7 +127,7 @@ SurfaceSides sides_of_surfaces(const Model& model, const std::vector<SurfaceRun>
     if (volumes.surfaces.size() < 2) return {};
     VolumeRegions regions =
         regions_of(volumes.numbers, [&](const VolumeKey& key) { return model.volumes.name_of(key.first, key.second); });
-    constexpr FacetSides no_sides = {-1, -1};
+    constexpr FacetSides no_sides = {RegionIndex::none(), RegionIndex::none()};
     std::vector<FacetSides> sides(soup.facets.size(), no_sides);
     for (std::size_t v = 0; v < volumes.surfaces.size(); ++v)
         add_sides(volumes.surfaces[v], of_surfaces, soup, regions.region_of_volume[v], sides);

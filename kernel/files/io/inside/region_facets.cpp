@@ -1,5 +1,5 @@
 // A soup of several regions has one facet for each face at which a region ends: between two regions, a wall, or between
-// a region and the outside. FacetSides are the regions `front` and `back` of a facet, -1 for the outside; the smaller
+// a region and the outside. FacetSides are the regions `front` and `back` of a facet, none for the outside; the smaller
 // region, or the only one, is always behind. Facets that the file has keep their place, patch and polygon number; their
 // face is found in a sorted table by vertices, whatever the order of their corners, and the orientation of the face
 // replaces theirs. Faces that no facet of the file is come behind them. A face that is in the table twice has three
@@ -177,7 +177,7 @@ void take_region_sides(Soup& soup, std::vector<FacetSides> sides, const std::vec
         FacetSides& of_facet = soup.sides[f];
         drop[f] = of_facet.front == of_facet.back;
         dropped += drop[f];
-        if (of_facet.back >= 0 && (of_facet.front < 0 || of_facet.back < of_facet.front)) continue;
+        if (of_facet.back.is_valid() && (!of_facet.front.is_valid() || of_facet.back < of_facet.front)) continue;
         of_facet = of_facet.turned();
         std::swap(soup.facets[f][1], soup.facets[f][2]);
     }
@@ -191,8 +191,8 @@ void refuse_overlap(const Soup& soup, const RegionFace& face, const std::vector<
                     const std::string& path) {
     const auto& [a, b, c] = face.corners;
     const Vec3 where = (soup.vertices[a] + soup.vertices[b] + soup.vertices[c]) / 3;
-    const auto name = [&](std::int32_t number) { return region_names[std::max(number, 0)]; };
-    const std::int32_t other = face.sides.front < 0 ? face.sides.back : face.sides.front;
+    const auto name = [&](RegionIndex region) { return region_names[std::max(region, RegionIndex(0)).value()]; };
+    const RegionIndex other = face.sides.front.is_valid() ? face.sides.front : face.sides.back;
     throw Error(ErrorCode::input, path + ": " + tell_overlap(name(face.sides.back), name(other), where));
 }
 

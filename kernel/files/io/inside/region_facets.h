@@ -18,8 +18,8 @@ using VolumeKey = std::pair<std::int64_t, std::int64_t>;
 
 /// The regions that the volumes of a file are: volumes of one name are one region.
 struct VolumeRegions {
-    std::vector<std::int32_t> region_of_volume;  ///< one per volume
-    std::vector<std::string> names;              ///< names of the regions, each once, in the order of the keys
+    std::vector<RegionIndex> region_of_volume;  ///< one per volume
+    std::vector<std::string> names;             ///< names of the regions, each once, in the order of the keys
 };
 
 /// Makes regions of volumes by their names, in the order of the keys. `number_of_volume`: from 0 on, without gaps;
@@ -27,10 +27,10 @@ struct VolumeRegions {
 template <class Name>
 VolumeRegions regions_of(const std::map<VolumeKey, std::int32_t>& number_of_volume, const Name& name) {
     constexpr std::size_t longest_name = 255;  // bytes that are kept, as of patches
-    VolumeRegions regions{std::vector<std::int32_t>(number_of_volume.size()), {}};
-    std::map<std::string, std::int32_t> region_of_name;
+    VolumeRegions regions{std::vector<RegionIndex>(number_of_volume.size()), {}};
+    std::map<std::string, RegionIndex> region_of_name;
     for (const auto& [key, volume] : number_of_volume) {
-        const auto next = count_of(regions.names);
+        const RegionIndex next(regions.names.size());
         const auto [region, is_new] = region_of_name.try_emplace(std::string(name(key)).substr(0, longest_name), next);
         if (is_new) regions.names.push_back(region->first);
         regions.region_of_volume[volume] = region->second;

@@ -65,10 +65,11 @@ class TetCollector {
     }
     const std::vector<std::string>& region_names() const { return regions_.names; }
     /// Returns the region of each tetrahedron, once the volumes are named; empty if all are of one region.
-    std::vector<std::int32_t> regions_of_tets() const {
+    std::vector<RegionIndex> regions_of_tets() const {
         if (regions_.names.size() == 1) return {};
-        std::vector<std::int32_t> regions = volume_of_tet_;
-        for (std::int32_t& region : regions) region = regions_.region_of_volume[region];
+        std::vector<RegionIndex> regions;
+        regions.reserve(volume_of_tet_.size());
+        for (const std::int32_t volume : volume_of_tet_) regions.push_back(regions_.region_of_volume[volume]);
         return regions;
     }
     /// Returns the faces at which regions end, once the volumes are named. Throws Error(input) if tetrahedra of two

@@ -24,11 +24,11 @@ namespace skin {
 class Faces {
  public:
     Faces(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets,
-          const std::vector<std::int32_t>& region_of_tet)
+          const std::vector<RegionIndex>& region_of_tet)
         : vertices_(vertices), tets_(tets), region_of_tet_(region_of_tet) {}
 
-    std::int32_t region(const FaceSide& side) const {
-        return region_of_tet_.empty() ? 0 : region_of_tet_[side.tet().value()];
+    RegionIndex region(const FaceSide& side) const {
+        return region_of_tet_.empty() ? RegionIndex(0) : region_of_tet_[side.tet().value()];
     }
     // Returns the exact sign: a rounded one of a flat tetrahedron may tell the wrong side.
     int sign(const FaceSide& side) const { return tet_sign(vertices_, tet(side)); }
@@ -51,12 +51,12 @@ class Faces {
 
     const std::vector<Vec3>& vertices_;
     const std::vector<Tetrahedron>& tets_;
-    const std::vector<std::int32_t>& region_of_tet_;
+    const std::vector<RegionIndex>& region_of_tet_;
 };
 
 struct Face {
     FaceSide back;
-    std::int32_t front;
+    RegionIndex front;
 };
 
 std::string names_text(const std::vector<std::string>& names) {
@@ -72,18 +72,20 @@ std::string names_text(const std::vector<std::string>& names) {
 }  // namespace
 
 RegionFaces region_faces(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets,
-                         const std::vector<std::int32_t>& region_of_tet) {
+                         const std::vector<RegionIndex>& region_of_tet) {
     const skin::Faces of_tets(vertices, tets, region_of_tet);
     RegionFaces found;
     std::vector<skin::Face> faces;
     const auto pair = [&](const FaceSide& a, const FaceSide& b) {
-        const std::int32_t of_a = of_tets.region(a), of_b = of_tets.region(b);
+        const RegionIndex of_a = of_tets.region(a), of_b = of_tets.region(b);
         if (of_a == of_b) return;
         faces.push_back(of_a < of_b ? skin::Face{a, of_b} : skin::Face{b, of_a});
         if (!found.overlap && of_tets.are_on_same_side(a, b))
             found.overlap = {of_tets.outward(faces.back().back), {faces.back().front, std::min(of_a, of_b)}};
     };
-    match_faces(vertices.size(), tets, pair, [&](const FaceSide& side) { faces.push_back({side, -1}); });
+    match_faces(vertices.size(), tets, pair, [&](const FaceSide& side) {
+        faces.push_back({side, RegionIndex::none()});
+    });
     std::sort(faces.begin(), faces.end(),
               [](const skin::Face& a, const skin::Face& b) { return a.back.code < b.back.code; });
     found.faces.reserve(faces.size());

@@ -27,7 +27,7 @@ struct RegionFaces {
 /// not depend on the orientation of the tetrahedra, and are in the order of the tetrahedra at their back.
 /// `region_of_tet`: #T, from 0 on; empty: all are of region 0. O(#T), deterministic.
 RegionFaces region_faces(const std::vector<Vec3>& vertices, const std::vector<Tetrahedron>& tets,
-                         const std::vector<std::int32_t>& region_of_tet = {});
+                         const std::vector<RegionIndex>& region_of_tet = {});
 
 /// Return sentences for users, which name only the first of many regions.
 std::string tell_skin(std::size_t tets);

@@ -130,24 +130,24 @@ void MeasurableMesh::measure_run(double length_scale, MeshQuality& quality) cons
     const MeshOutline& outline = run_->outline();
     quality.parts = std::ssize(outline.parts);
     quality.vertices = outline.vertices;
-    std::vector<RegionSum> sums(outline.region_names.size(), {0, QualityDistributions(length_scale)});
+    Array<RegionIndex, RegionSum> sums(outline.region_names.size(), {0, QualityDistributions(length_scale)});
     for (const PartIndex index : outline.parts.ids()) {
         const Part part = run_->load(index);
         add(part, length_scale, quality);
         if (outline.order == 2) add_curved(part, quality.curved ? *quality.curved : quality.curved.emplace());
-        if (!sums.empty()) add_cells(part.mesh.vertices, part.mesh.tets, sums[part.region_of(0).value()]);
+        if (!sums.empty()) add_cells(part.mesh.vertices, part.mesh.tets, sums[part.region_of(0)]);
     }
-    for (std::size_t r = 0; r < sums.size(); ++r)
-        quality.regions.push_back(region_quality(outline.region_names[r], sums[r]));
+    for (const RegionIndex r : sums.ids())
+        quality.regions.push_back(region_quality(outline.region_names[r.value()], sums[r]));
 }
 
 // Measures one region after the other, since a file may have as many regions as cells.
 std::vector<RegionQuality> MeasurableMesh::regions_of_file(double length_scale) const {
     std::vector<std::size_t> end(file_.region_names.size() + 1, 0);  // of the cells of each region, when sorted
-    for (const std::int32_t region : file_.region_of_tet) ++end[region + 1];
+    for (const RegionIndex region : file_.region_of_tet) ++end[region.value() + 1];
     std::partial_sum(end.begin(), end.end(), end.begin());
     std::vector<Tetrahedron> sorted(file_.region_of_tet.size());
-    for (std::size_t t = 0; t < sorted.size(); ++t) sorted[end[file_.region_of_tet[t]]++] = file_.mesh.tets[t];
+    for (std::size_t t = 0; t < sorted.size(); ++t) sorted[end[file_.region_of_tet[t].value()]++] = file_.mesh.tets[t];
     std::vector<RegionQuality> regions;
     for (std::size_t r = 0; r < file_.region_names.size(); ++r) {
         RegionSum sum{0, QualityDistributions(length_scale)};

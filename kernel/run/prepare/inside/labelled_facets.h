@@ -1,6 +1,7 @@
 // The facets of a complex as the remesher takes them.
 #pragma once
 
+#include <compare>
 #include <vector>
 
 #include "surface/complex/complex.h"
@@ -15,7 +16,7 @@ struct LabelledFacets {
         std::int32_t patch;
         FacetSides sides;
 
-        bool operator==(const Label&) const = default;
+        auto operator<=>(const Label&) const = default;
     };
 
     SurfaceArrays surface;      ///< numbers of vertices and facets are those of the complex, patches are labels

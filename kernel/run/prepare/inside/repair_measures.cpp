@@ -47,7 +47,8 @@ std::vector<Triangle> outer_facets(const Soup& soup) {
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         const auto [front, back] = soup.sides[f];
         const auto& [a, b, c] = soup.facets[f];
-        if ((front < 0) != (back < 0)) outer.push_back(back >= 0 ? Triangle{a, b, c} : Triangle{a, c, b});
+        if (front.is_valid() != back.is_valid())
+            outer.push_back(back.is_valid() ? Triangle{a, b, c} : Triangle{a, c, b});
     }
     return outer;
 }

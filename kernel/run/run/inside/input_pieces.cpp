@@ -30,8 +30,8 @@ std::int64_t count_missing_sides(const Complex& input, std::int32_t facet, std::
     const Triangle t = input.vertices(facet);
     std::int64_t missing = 0;
     auto foreign = std::ssize(pieces);
-    for (const std::int32_t region : {back, front}) {
-        if (region < 0) continue;
+    for (const RegionIndex region : {back, front}) {
+        if (!region.is_valid()) continue;
         const auto [first, last] =
             std::equal_range(pieces.begin(), pieces.end(), InputPiece{facet, region, 0, {}},
                              [](const InputPiece& a, const InputPiece& b) { return a.region < b.region; });

@@ -14,7 +14,9 @@ namespace kerf {
 /// A boundary triangle that lies on a facet of the input: the facet itself, or a piece of it, seen from outside of the
 /// region. Vertices are global numbers.
 struct InputPiece {
-    std::int32_t facet, region, patch;
+    std::int32_t facet;
+    RegionIndex region;
+    std::int32_t patch;
     NamedTriangle vertices;
     bool operator<(const InputPiece& o) const {
         return std::tie(facet, region, vertices) < std::tie(o.facet, o.region, o.vertices);

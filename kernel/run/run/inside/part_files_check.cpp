@@ -62,7 +62,7 @@ void keep_boundary(const Part& part, PartFindings& found) {
         const Triangle& t = part.facets[f];
         const NamedTriangle g = rotated_to_smallest({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]});
         if (part.is_of_input(f) || !part.is_interface(f))
-            found.pieces.push_back({part.facet[f], part.region_of(0).value(), part.patch[f], g});
+            found.pieces.push_back({part.facet[f], part.region_of(0), part.patch[f], g});
         if (part.is_interface(f))
             found.interfaces.push_back({part.id < part.neighbour[f] ? g : reversed(g), part.id, part.neighbour[f]});
     }

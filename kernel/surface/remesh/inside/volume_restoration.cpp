@@ -37,11 +37,11 @@ std::vector<FacetSides> sides_of_facets(const SurfaceArrays& surface, const std:
     return of_facets;
 }
 
-std::vector<double> volumes_of(const SurfaceArrays& surface, const std::vector<FacetSides>& sides) {
-    std::int32_t regions = 1;
-    for (const FacetSides& s : sides) regions = std::max({regions, s.front + 1, s.back + 1});
+Array<RegionIndex, double> volumes_of(const SurfaceArrays& surface, const std::vector<FacetSides>& sides) {
+    RegionIndex last;
+    for (const FacetSides& s : sides) last = std::max({last, s.front, s.back});
     const std::vector<FacetSides> of_facets = sides_of_facets(surface, sides);
-    return region_volumes(surface.vertices, {surface.facets, {}, {}, {}, of_facets}, regions);
+    return region_volumes(surface.vertices, {surface.facets, {}, {}, {}, of_facets}, last.value() + 1);
 }
 
 // The facets of a result with their faces, planes and heights as the input over them tells.
@@ -129,9 +129,9 @@ class FacesOfInput {
 
 double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result,
                          const std::vector<FacetSides>& sides) {
-    const std::vector<double> wanted = volumes_of(input, sides), now = volumes_of(result, sides);
+    const Array<RegionIndex, double> wanted = volumes_of(input, sides), now = volumes_of(result, sides);
     double largest = 0;
-    for (std::size_t r = 0; r < wanted.size(); ++r)
+    for (const RegionIndex r : wanted.ids())
         largest = std::max(largest, std::abs(now[r] - wanted[r]) / std::abs(wanted[r]));
     return largest;
 }
@@ -140,7 +140,7 @@ bool restore_volumes(const SurfaceArrays& input, const TriangleTree& tree, const
                      double deviation, const std::vector<char>& is_fixed, SurfaceArrays& result) {
     FacesOfInput faces(input, tree, deviation, result);
     const std::vector<FacetSides> of_facets = sides_of_facets(result, sides);
-    const std::vector<double> volumes = volumes_of(input, sides);
+    const Array<RegionIndex, double> volumes = volumes_of(input, sides);
     if (balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, range_of_heights)) return true;
     faces.let_rise_evenly(deviation);
     return balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, {-1, 2});

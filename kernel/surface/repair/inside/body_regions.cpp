@@ -171,7 +171,7 @@ class RegionMaker {
             const auto smallest = std::min_element(around.begin(), around.end(), [&](std::int32_t a, std::int32_t b) {
                 return std::pair(std::abs(bodies_[a].volume), a) < std::pair(std::abs(bodies_[b].volume), b);
             });
-            space_.region_of_cell[cell] = *smallest;
+            space_.region_of_cell[cell] = RegionIndex(*smallest);
             if (around.size() > 1) done_.overlaps.add(place_of(samples[cell], volumes[cell]));
         }
     }
@@ -205,9 +205,9 @@ class RegionMaker {
     }
 
     void tell_bodies() {
-        std::vector<char> has_cell(bodies_.size(), 0);
-        for (const std::int32_t body : space_.region_of_cell)
-            if (body >= 0) has_cell[body] = 1;
+        Array<RegionIndex, char> has_cell(bodies_.size(), 0);
+        for (const RegionIndex region : space_.region_of_cell)
+            if (region.is_valid()) has_cell[region] = 1;
         for (std::int32_t body = 0; body < std::ssize(bodies_); ++body) {
             if (first_[body] == first_[body + 1]) continue;
             const std::int32_t u = members_[first_[body]].facet;
