@@ -8,7 +8,7 @@ namespace kerf {
 namespace {
 
 template <class T>
-Array<RegionIndex, std::vector<T>> ascending(const std::vector<std::set<T>>& sets) {
+Array<RegionIndex, std::vector<T>> ascending(const Array<RegionIndex, std::set<T>>& sets) {
     Array<RegionIndex, std::vector<T>> lists;
     for (const std::set<T>& set : sets) lists.emplace_back(set.begin(), set.end());
     return lists;
@@ -19,8 +19,8 @@ Array<RegionIndex, std::vector<T>> ascending(const std::vector<std::set<T>>& set
 RegionWalls::RegionWalls(const PartSource& parts) {
     const std::size_t count = parts.outline().region_names.size();
     if (count == 0) return;
-    std::vector<std::set<RegionIndex>> neighbours(count);
-    std::vector<std::set<std::int32_t>> outer(count);
+    Array<RegionIndex, std::set<RegionIndex>> neighbours(count);
+    Array<RegionIndex, std::set<std::int32_t>> outer(count);
     for (const PartIndex index : parts.outline().parts.ids()) {
         const Part part = parts.load_only(index, PartContent::surface);
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
@@ -34,8 +34,8 @@ RegionWalls::RegionWalls(const PartSource& parts) {
     }
     for (const auto& [facet, sides] : sides_at_) {
         if (sides.first == sides.second) continue;  // the other part is none of these
-        neighbours[sides.first.value()].insert(sides.second);
-        neighbours[sides.second.value()].insert(sides.first);
+        neighbours[sides.first].insert(sides.second);
+        neighbours[sides.second].insert(sides.first);
     }
     neighbours_ = ascending(neighbours);
     outer_patches_ = ascending(outer);

@@ -15,7 +15,6 @@
 #include <functional>
 #include <memory>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
