@@ -47,7 +47,7 @@ Decomposition cut_surface(Communicator& ranks, Input& input, const RunPlan& plan
     CutListener* cuts = listener;
     std::optional<TraceRecorder> trace;
     // A forecast counts the triangles of fine interfaces without making them.
-    if (request.dry_run && trace_file.empty()) wanted.cut.size = SizeField();
+    if (request.dry_run && trace_file.empty()) wanted.cut.has_coarse_interfaces = true;
     if (!trace_file.empty()) cuts = &trace.emplace(request, input, cuts);
     in_agreement(ranks, [&] { tell_progress(listener, "decompose", 0, 1); });
     Decomposition own = ranks.size() > 1 ? decompose_on_ranks(ranks, input.complex, wanted, cuts)

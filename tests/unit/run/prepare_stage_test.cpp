@@ -73,6 +73,30 @@ void expect_the_same_for_any_ranks(const char* what, const std::function<Input()
     }
 }
 
+// Sizes weigh the load of a forecast as that of a run; only its interfaces stay coarse.
+TEST(CutSurface, CutsForAForecastAsForARun) {
+    RunPlan plan;
+    plan.choices = choices_of(in_parts(8));
+    SizeSources sources;
+    sources.growth = 0.2;
+    sources.spheres.push_back({Vec3::Zero(), 0.2, 0.05});
+    plan.size = SizeField(0.1, sources);
+    test::run_ranks(1, [&](Communicator& alone) {
+        Input input = read_input(test::asset_path("hollow_box")), again = read_input(test::asset_path("hollow_box"));
+        const Decomposition of_run = cut_surface(alone, input, plan, nullptr);
+        plan.choices.request.dry_run = true;
+        const Decomposition of_forecast = cut_surface(alone, again, plan, nullptr);
+        ASSERT_EQ(of_forecast.leaves.size(), of_run.leaves.size());
+        std::size_t facets = 0, fine_facets = 0;
+        for (std::size_t i = 0; i < of_run.leaves.size(); ++i) {
+            EXPECT_NEAR(of_forecast.leaves[i].volume, of_run.leaves[i].volume, 1e-9 * of_run.leaves[i].volume);
+            facets += of_forecast.leaves[i].surface.facets.size();
+            fine_facets += of_run.leaves[i].surface.facets.size();
+        }
+        EXPECT_LT(facets, fine_facets);
+    });
+}
+
 TEST(PrepareParts, TellsPartsTheSameForAnyNumberOfRanks) {
     const auto asset = [](const char* name) { return [name] { return read_input(test::asset_path(name)); }; };
     expect_the_same_for_any_ranks("hollow box", asset("hollow_box"), in_parts(13));

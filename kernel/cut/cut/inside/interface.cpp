@@ -175,7 +175,7 @@ InterfaceAttempt build_interface(const Surface& surface, const Band& band, const
     for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] -= planar_contour.points[i];
 
     PlanarRegion region;
-    if (!options.size.is_empty())
+    if (!options.size.is_empty() && !options.has_coarse_interfaces)
         region.max_edge = [&](const Vec2& p) { return options.max_interface_edge(band.plane.lift(p, 0)); };
     region.max_points = options.max_interface_points;
     region.check_cancelled = options.check_cancelled;

@@ -1,6 +1,7 @@
 // The options of cuts: the choices of a user, and what follows for one body.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -42,13 +43,17 @@ struct CutOptions : CutChoices {
     double good_dihedral_deg = 25;  ///< thresholds of InterfaceQuality below which a cut is soft
     double good_angle_deg = 20;
     double good_gap_rel = 0.2;
+    bool has_coarse_interfaces = false;           ///< interfaces have their contours alone, whatever the size
     std::int64_t max_interface_points = 1 << 29;  ///< with more, bisect() throws Error(memory)
     CancellationCheck check_cancelled;            ///< called during every cut
 
     /// The longest wanted edge of an interface at a point; infinity: any. If the size is the same everywhere, it is a
     /// little larger than the edge of the largest wanted tetrahedron; sizes that differ by place are means, which a
     /// bound a little below them gives.
-    double max_interface_edge(const Vec3& p) const { return (size.is_constant() ? 1.1 : 0.95) * size.at(p); }
+    double max_interface_edge(const Vec3& p) const {
+        if (has_coarse_interfaces) return std::numeric_limits<double>::infinity();
+        return (size.is_constant() ? 1.1 : 0.95) * size.at(p);
+    }
     /// Returns the options for this body, whose load samples are included, see LoadModel::of().
     CutOptions of(const Surface& surface) const {
         CutOptions options = *this;
