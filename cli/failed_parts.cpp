@@ -20,7 +20,7 @@ void tell_failed_parts(const RunReport& report) {
         tell(
             fmt::format("kerf: part {} around ({:.6g}, {:.6g}, {:.6g}) could not be meshed: {} How to repeat and to "
                         "look at it: {}/failed/{}.\n",
-                        part.id, place.x(), place.y(), place.z(), part.result.message, report.folder.path,
+                        part.id.value(), place.x(), place.y(), place.z(), part.result.message, report.folder.path,
                         failed_part_file_name(part.id)));
     }
     if (failed > 0 && failed < report.parts.size())

@@ -32,6 +32,13 @@ py::array_t<T> view(const std::vector<T>& values, py::handle owner) {
     return view(values.data(), {std::ssize(values)}, owner);
 }
 
+/// Returns ids as their numbers.
+template <class Tag>
+py::array_t<std::int32_t> view(const std::vector<Id<Tag>>& ids, py::handle owner) {
+    static_assert(sizeof(Id<Tag>) == sizeof(std::int32_t));
+    return view(reinterpret_cast<const std::int32_t*>(ids.data()), {std::ssize(ids)}, owner);
+}
+
 inline py::array_t<double> view(const std::vector<Vec3>& points, py::handle owner) {
     return view(points.empty() ? nullptr : points.front().data(), {std::ssize(points), 3}, owner);
 }

@@ -66,21 +66,26 @@ py::array_t<std::int32_t> regions_of(const Part& part) {
     return regions;
 }
 
-py::array_t<NodeId> owners_of(const Part& part) {
+py::array_t<std::int32_t> owners_of(const Part& part) {
     std::vector<NodeId> owners = owners_of_vertices(part);
     owners.resize(part.node_count(), part.id);
     if (part.order() == 2)
         for (const SharedEdgeGroup& group : part.shared_edges)
             for (const auto& [a, b] : group.edges)
                 owners[part.first_edge_node() + part.edge_nodes.edges.find(undirected(a, b))] = group.parts.front();
-    return py::array_t<NodeId>(std::ssize(owners), owners.data());
+    py::array_t<std::int32_t> numbers(std::ssize(owners));
+    std::transform(owners.begin(), owners.end(), numbers.mutable_data(), [](NodeId owner) { return owner.value(); });
+    return numbers;
 }
 
 py::list shared_of(const py::object& self) {
     py::list list;
     const py::object type = py::module_::import("kerf.records").attr("SharedPoints");
-    for (const SharedGroup& group : self.cast<Part&>().shared)
-        list.append(type(group.parts, view(group.vertices, self)));
+    for (const SharedGroup& group : self.cast<Part&>().shared) {
+        std::vector<std::int32_t> parts;
+        for (const NodeId part : group.parts) parts.push_back(part.value());
+        list.append(type(parts, view(group.vertices, self)));
+    }
     return list;
 }
 
@@ -136,7 +141,9 @@ void read_part(ByteReader& reader, Part& part) {
 using PartClass = py::class_<Part, std::shared_ptr<Part>>;
 
 void add_cells_of_part(PartClass& type) {
-    type.def_readonly("number", &Part::id, "In the tree of cuts: the root is 1, the children of i are 2i and 2i + 1.")
+    type.def_property_readonly(
+            "number", [](const Part& self) { return self.id.value(); },
+            "In the tree of cuts: the root is 1, the children of i are 2i and 2i + 1.")
         .def_property_readonly(
             "points", &points_of_part,
             "(n, 3) float64; those of the triangles come first, and of order 2 the nodes on edges behind all corners.")
@@ -204,7 +211,7 @@ void register_part(py::module_& module) {
     type.def(pickled_as_bytes<Part>(&write_part, &read_part))
         .def("__copy__", [](const py::object& self) { return self; })
         .def("__repr__", [](const Part& self) {
-            return fmt::format("<kerf.Part {}: {} points, {} tetrahedra>", self.id, self.node_count(),
+            return fmt::format("<kerf.Part {}: {} points, {} tetrahedra>", self.id.value(), self.node_count(),
                                self.tet_count());
         });
     add_cells_of_part(type);

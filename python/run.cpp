@@ -43,12 +43,13 @@ std::shared_ptr<RunObject> open_run(const std::string& folder) {
     return std::make_shared<RunObject>(folder);
 }
 
-template <class Count>
-py::array_t<Count> of_parts(const RunObject& run, Count PartExtent::*count) {
-    py::array_t<Count> counts(std::ssize(run.parts->outline().parts));
-    Count* to = counts.mutable_data();
-    for (const PartExtent& part : run.parts->outline().parts) *to++ = part.*count;
-    return counts;
+// Returns number(part) of all parts.
+template <class Number>
+auto of_parts(const RunObject& run, Number number) {
+    py::array_t<std::invoke_result_t<Number, const PartExtent&>> numbers(std::ssize(run.parts->outline().parts));
+    auto* to = numbers.mutable_data();
+    for (const PartExtent& part : run.parts->outline().parts) *to++ = number(part);
+    return numbers;
 }
 
 std::int64_t tetrahedra_count(const RunObject& run) {
@@ -155,8 +156,13 @@ void register_run(py::module_& module) {
             "region_names", [](const RunObject& self) { return self.parts->outline().region_names; },
             "Empty if there is one region.")
         .def_readonly("_solution", &RunObject::solution)
-        .def_property_readonly("_numbers", [](const RunObject& self) { return of_parts(self, &PartExtent::id); })
-        .def_property_readonly("_tetrahedra", [](const RunObject& self) { return of_parts(self, &PartExtent::tets); })
+        .def_property_readonly("_numbers",
+                               [](const RunObject& self) {
+                                   return of_parts(self, [](const PartExtent& part) { return part.id.value(); });
+                               })
+        .def_property_readonly(
+            "_tetrahedra",
+            [](const RunObject& self) { return of_parts(self, [](const PartExtent& part) { return part.tets; }); })
         .def("_load", &load_part_of, py::arg("index"));
     module.def("verify", &verify, py::arg("folder"), py::arg("input"), py::arg("without_input"));
     module.def("quality", &quality, py::arg("path"));

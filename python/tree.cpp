@@ -3,7 +3,6 @@
 // others, and from a part to a Surface, by the members with an underscore. What is said of a cut is None where none was
 // made: made_cut(). Matrices are copied element by element, so that row and column mean the same as in the kernel:
 // `principal_axes` has the axes as columns here, and as rows in python/surface.cpp.
-#include <bit>
 #include <optional>
 
 #include <fmt/format.h>
@@ -145,12 +144,10 @@ void register_tries(py::module_& module) {
 using NodeClass = py::class_<NodeObject>;
 
 void add_place_of_node(NodeClass& type) {
-    type.def_property_readonly("id", of_node(&TreeNode::id),
+    type.def_property_readonly("id", of_node([](const TreeNode& node) { return node.id.value(); }),
                                "1 is the whole; the halves below and above the cut of i are 2 i and 2 i + 1.")
         .def_property_readonly(
-            "level",
-            [](const NodeObject& self) { return std::bit_width(static_cast<std::uint32_t>(self.node->id)) - 1; },
-            "0 of the whole.")
+            "level", [](const NodeObject& self) { return level_of(self.node->id); }, "0 of the whole.")
         .def_property_readonly(
             "is_part", [](const NodeObject& self) { return !self.node->is_divided(); }, "Whether nothing divides it.")
         .def_property_readonly("was_cut", of_node(&TreeNode::cut_made),
@@ -255,7 +252,7 @@ void register_part_surfaces(py::module_& module) {
                                "(n,) int64: of each point among those of all parts; the same in every part that has\n"
                                "it.")
         .def_property_readonly("_facet_keys", array([](const PartJob& p) -> auto& { return p.surface.facet_key; }))
-        .def_readonly("_id", &PartJob::part)
+        .def_property_readonly("_id", [](const PartJob& self) { return self.part.value(); })
         .def_property_readonly("_region", [](const PartJob& self) { return self.region.value(); });
 }
 

@@ -47,7 +47,7 @@ bool has_option(const std::vector<OptionField>& fields, const std::string& name)
 FailedPart failed_part(const RunReport& report, const PartReport& part) {
     const auto node = std::find_if(report.cut.nodes.begin(), report.cut.nodes.end(),
                                    [&](const TreeNode& candidate) { return candidate.id == part.id; });
-    return {part.id, to_array(node->mass.centroid), part.result.message,
+    return {part.id.value(), to_array(node->mass.centroid), part.result.message,
             fmt::format("{}/failed/{}", report.folder.path, failed_part_file_name(part.id))};
 }
 

@@ -49,7 +49,7 @@ class MeasuredParts : public PartSource {
         for (std::int64_t begin = 0, end = 0; begin < std::ssize(mesh.part); begin = end) {
             while (end < std::ssize(mesh.part) && mesh.part[end] == mesh.part[begin]) ++end;
             first_.push_back(begin);
-            outline_.parts.push_back({mesh.part[begin], 0, end - begin});
+            outline_.parts.push_back({NodeId(mesh.part[begin]), 0, end - begin});
         }
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
             if (mesh.sides[t][1] < 0) outer_.push_back(sorted(mesh.triangles[t]));
@@ -100,7 +100,8 @@ class MeasuredParts : public PartSource {
                 part.facets.push_back({tet[a], tet[b], tet[c]});
                 const Corners corners =
                     sorted({part.global_id[tet[a]], part.global_id[tet[b]], part.global_id[tet[c]]});
-                part.neighbour.push_back(std::binary_search(outer_.begin(), outer_.end(), corners) ? -1 : 0);
+                part.neighbour.push_back(std::binary_search(outer_.begin(), outer_.end(), corners) ? NodeId::none()
+                                                                                                   : no_node);
             });
     }
 

@@ -139,7 +139,7 @@ void RankMeshMaker::add_shared(const Part& part) {
 void RankMeshMaker::add_tets(const Part& part) {
     for (const Tetrahedron& tet : part.mesh.tets)
         mesh_.tets.push_back({row_[tet[0]], row_[tet[1]], row_[tet[2]], row_[tet[3]]});
-    mesh_.part.insert(mesh_.part.end(), part.mesh.tets.size(), part.id);
+    mesh_.part.insert(mesh_.part.end(), part.mesh.tets.size(), part.id.value());
     mesh_.region.insert(mesh_.region.end(), part.mesh.tets.size(), part.region_of(0).value());
 }
 

@@ -93,9 +93,9 @@ CutSummary cut_between(const ViewedCounts& below, const ViewedCounts& above) {
 Json node_to_view(NodeId id, const std::map<NodeId, ViewedCounts>& nodes) {
     const ViewedCounts& below = nodes.at(id);
     const Vec3 centroid = below.centroid();
-    const bool is_part = !nodes.contains(2 * id);
+    const bool is_part = !nodes.contains(child_of(id, 0));
     Json json = {{"id", id},
-                 {"children", is_part ? Json::array() : Json({2 * id, 2 * id + 1})},
+                 {"children", is_part ? Json::array() : Json(halves_of(id))},
                  {"leaves", below.parts},
                  {"regions", below.regions.size()},
                  {"vertices", below.vertices},
@@ -104,14 +104,14 @@ Json node_to_view(NodeId id, const std::map<NodeId, ViewedCounts>& nodes) {
                  {"centroid", {centroid.x(), centroid.y(), centroid.z()}},
                  {"eigenvalues", {0, 0, 0}},
                  {"axes", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-    if (!is_part) json["cut"] = json_of_cut(cut_between(nodes.at(2 * id), nodes.at(2 * id + 1)));
+    if (!is_part) json["cut"] = json_of_cut(cut_between(nodes.at(child_of(id, 0)), nodes.at(child_of(id, 1))));
     return json;
 }
 
 Json report_to_view(const MeshArrays& mesh, const std::map<NodeId, ViewedCounts>& parts) {
     std::map<NodeId, ViewedCounts> nodes;
     for (const auto& [id, part] : parts)
-        for (NodeId node = id; node >= 1; node /= 2) nodes[node].add(part);
+        for (NodeId node = id; node >= root_node; node = parent_of(node)) nodes[node].add(part);
     Json tree = Json::array(), of_parts = Json::array(), regions = Json::array();
     for (const auto& [id, counts] : nodes) tree.push_back(node_to_view(id, nodes));
     for (const auto& [id, part] : parts) of_parts.push_back(part_to_view(id, part, !mesh.region_names.empty()));
@@ -119,7 +119,7 @@ Json report_to_view(const MeshArrays& mesh, const std::map<NodeId, ViewedCounts>
     const Json input = {{"path", name_of_arrays},
                         {"faces", mesh.triangles.size()},
                         {"vertices", vertex_count_of(mesh)},
-                        {"volume", nodes.at(1).volume},
+                        {"volume", nodes.at(root_node).volume},
                         {"regions", regions}};
     return {{"input", input},
             {"options", Json::object()},

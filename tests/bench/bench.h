@@ -36,9 +36,9 @@ inline Surface quartered(const Surface& surface) {
         for (int i = 0; i < 3; ++i) fine.facets.push_back({corner[i], middle[i], middle[(i + 2) % 3]});
     }
     for (std::size_t v = 0; v < fine.vertices.size(); ++v)
-        fine.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(v)));
+        fine.vertex_key.push_back(make_key(input_node, static_cast<std::int32_t>(v)));
     for (std::size_t f = 0; f < fine.facets.size(); ++f)
-        fine.facet_key.push_back(make_key(0, static_cast<std::int32_t>(f)));
+        fine.facet_key.push_back(make_key(input_node, static_cast<std::int32_t>(f)));
     fine.patch.assign(fine.facets.size(), 0);
     return Surface(std::move(fine));
 }

@@ -57,9 +57,9 @@ SurfaceArrays with_core(SurfaceArrays surface, const ShellCore& core) {
     surface.vertices.insert(surface.vertices.end(), core.points.begin(), core.points.end());
     for (const auto& [a, b, c] : core.faces) surface.facets.push_back({first + a, first + c, first + b});
     for (std::size_t v = first; v < surface.vertices.size(); ++v)
-        surface.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(v)));
+        surface.vertex_key.push_back(make_key(input_node, static_cast<std::int32_t>(v)));
     for (std::size_t f = surface.facet_key.size(); f < surface.facets.size(); ++f)
-        surface.facet_key.push_back(make_key(0, static_cast<std::int32_t>(f)));
+        surface.facet_key.push_back(make_key(input_node, static_cast<std::int32_t>(f)));
     surface.patch.resize(surface.facets.size(), 0);
     return surface;
 }

@@ -58,7 +58,7 @@ TEST_F(Decompose, WritesSurfacesAsStlOnRequest) {
     for (const auto& [name, bytes] : without) EXPECT_TRUE(with.at(name) == bytes) << name;
     const auto report = nlohmann::json::parse(test::bytes_of_file(folder_.file("out/report.json")));
     for (const auto& part : report["parts"]) {
-        const std::string name = "out/parts/" + part_stl_file_name(part["id"].get<int>());
+        const std::string name = "out/parts/" + part_stl_file_name(part["id"].get<NodeId>());
         EXPECT_EQ(read_surface(folder_.file(name)).facets.size(), part["surface_faces"].get<std::size_t>()) << name;
     }
 }
@@ -85,7 +85,7 @@ TEST_F(Decompose, BodiesAreSharedOutBeforeOneIsCut) {
         Soup soup;
         for (int i = 0; i < bodies; ++i) {
             const Vec3 low = i * step * direction;
-            soup = join(std::move(soup), test::box(low, low + size, 2 * fineness));
+            soup = test::join(std::move(soup), test::box(low, low + size, 2 * fineness));
         }
         std::ofstream(folder_.file("bars.off")) << test::to_off(soup);
         const ChildResult result = test::run_kerf(
@@ -120,7 +120,7 @@ TEST_F(Decompose, OneFileHoldsAllSurfaces) {
     for (const auto& of_report : report["parts"]) {
         const int id = of_report["id"].get<int>();
         EXPECT_NEAR(volumes[id] / of_report["surface_volume"].get<double>(), 1, 1e-9);
-        EXPECT_NE(files.at("surfaces.pvtu").find("parts/" + part_surface_file_name(id)), std::string::npos);
+        EXPECT_NE(files.at("surfaces.pvtu").find("parts/" + part_surface_file_name(NodeId(id))), std::string::npos);
     }
     run("decompose", {"-n", "3", "-q", "--workers", "3"});
     EXPECT_TRUE(test::contents(folder_.file("out")).at("surfaces.vtu") == bytes);

@@ -102,7 +102,8 @@ TEST_F(Quality, OfAPartIsTheSameInEveryFormat) {
     const PartMesh mesh = mesh_of(read);
     const Json expected = quality_json({part});
     EXPECT_EQ(expected.at("tets"), mesh.tets.size());
-    EXPECT_EQ(expected.at("boundary_triangles"), std::count(read.neighbour.begin(), read.neighbour.end(), -1));
+    EXPECT_EQ(expected.at("boundary_triangles"),
+              std::count(read.neighbour.begin(), read.neighbour.end(), NodeId::none()));
     EXPECT_GT(expected.at("interface_tets"), 0);
     std::vector<test::SurfaceFile> files = test::to_all_mesh_formats(mesh.boundary, mesh.tets);
     files.push_back({"tetgen.ele", test::to_element_list(mesh.tets, 1)});

@@ -140,7 +140,7 @@ TEST_F(Resume, APartWhoseStoreHasGoneIsTakenFromItsFile) {
         SCOPED_TRACE(is_whole);
         interrupt(SIGKILL);
         const std::size_t finished = test::finished_parts(folder_.file("out"));
-        const int leaf = std::stoi(some_finished_leaf());
+        const NodeId leaf(std::stoi(some_finished_leaf()));
         const fs::path parts = folder_.file("out.kerf-partial/parts"), file = parts / part_file_name(leaf);
         fs::remove(parts / stored_part_file_name(leaf));
         fs::copy_file(undisturbed_->file("out/parts/" + part_file_name(leaf)), file);
@@ -270,7 +270,7 @@ TEST_F(Resume, DamagedJournalsAndPartsAreMeshedAgain) {
         fs::copy(kept, partial, fs::copy_options::recursive);
         const std::string leaf = some_finished_leaf();
         damage(folder_.file("out.kerf-partial/" + sub_folder + "/" +
-                            (sub_folder == "parts" ? stored_part_file_name(std::stoi(leaf)) : leaf)));
+                            (sub_folder == "parts" ? stored_part_file_name(NodeId(std::stoi(leaf))) : leaf)));
         EXPECT_EQ(resume().exit_code, 0);
         EXPECT_EQ(resumed_parts(), finished - 1);
         EXPECT_TRUE(files_of("out") == expected);

@@ -67,9 +67,9 @@ class TwoTets : public PartSource {
         }
         part_.mesh.boundary_vertex_count = 8;
         part_.patch.assign(8, 0);
-        part_.neighbour.assign(8, -1);
+        part_.neighbour.assign(8, NodeId::none());
         for (std::int64_t v = 0; v < 8; ++v) part_.global_id.push_back(v);
-        outline_.parts = {{1, 8, 2, 8, 0}};
+        outline_.parts = {{root_node, 8, 2, 8, 0}};
         outline_.patch_names = {"all"};
     }
     const MeshOutline& outline() const override { return outline_; }

@@ -35,7 +35,7 @@ struct MergedFormat {
 };
 
 std::int64_t rank_from_one(const MeshOutline&, std::size_t rank) { return static_cast<std::int64_t>(rank) + 1; }
-std::int64_t leaf(const MeshOutline& outline, std::size_t rank) { return outline.parts[rank].id; }
+std::int64_t leaf(const MeshOutline& outline, std::size_t rank) { return outline.parts[rank].id.value(); }
 
 template <int first>
 std::vector<std::string> numbers(const MeshOutline& outline) {
@@ -215,7 +215,7 @@ Part one_tet(const std::array<Vec3, 4>& corners, const std::vector<std::string>&
     for (std::size_t f = 0; f < 4; ++f) {
         part.patch.push_back(static_cast<std::int32_t>(f % names.size()));
         part.facet.push_back(static_cast<std::int32_t>(f));
-        part.neighbour.push_back(-1);
+        part.neighbour.push_back(NodeId::none());
         part.tet_at_facet.push_back(0);
         part.global_id.push_back(static_cast<std::int64_t>(f));
     }

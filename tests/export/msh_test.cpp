@@ -419,10 +419,10 @@ class MadeUpParts : public PartSource {
         part_.facets = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
         part_.patch = {0, 0, 0, 0};
         part_.facet = {0, 1, 2, 3};
-        part_.neighbour = {-1, -1, -1, -1};
+        part_.neighbour.assign(4, NodeId::none());
         part_.global_id = {0, 1, 2, 3};
         part_.patch_names = patch_names;
-        outline_made_up.parts = {{1, 4, 1, 4, 0}};
+        outline_made_up.parts = {{root_node, 4, 1, 4, 0}};
         outline_made_up.vertices = 4;
         outline_made_up.patch_names = std::move(patch_names);
     }

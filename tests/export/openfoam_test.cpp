@@ -177,11 +177,11 @@ class MadeUpPart : public PartSource {
         part_.facets = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
         part_.patch = {0, 0, 0, 0};
         part_.facet = {0, 1, 2, 3};
-        part_.neighbour = {-1, -1, -1, -1};
+        part_.neighbour.assign(4, NodeId::none());
         part_.tet_at_facet = {0, 0, 0, 0};
         part_.global_id = {0, 1, 2, 3};
         part_.patch_names = names;
-        outline_ = {{{1, 4, 1, 4, 0}}, 4, names};
+        outline_ = {{{root_node, 4, 1, 4, 0}}, 4, names};
     }
 
     const MeshOutline& outline() const override { return outline_; }

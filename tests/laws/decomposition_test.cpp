@@ -70,7 +70,7 @@ TEST_F(Assets, ReachEveryNumberOfPartsWithoutAFailedCut) {
         EXPECT_EQ(outcome.broken_laws, "");
         EXPECT_EQ(outcome.vertices.size(), static_cast<std::size_t>(outcome.parts));
         EXPECT_EQ(outcome.cuts.size(), static_cast<std::size_t>(outcome.parts - 1));
-        for (const TreeNode& cut : outcome.cuts) EXPECT_TRUE(cut.cut_made) << "node " << cut.id;
+        for (const TreeNode& cut : outcome.cuts) EXPECT_TRUE(cut.cut_made) << "node " << cut.id.value();
     }
 }
 
@@ -143,13 +143,13 @@ TEST(DecompositionLaws, NoticeEveryDamage) {
     EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.leaves[2] = d.leaves[1]; }));
     EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.leaves[1].volume *= 1.001; }));
     EXPECT_TRUE(broken([](Decomposition& d, auto&) { ++d.nodes.front().interface_vertices; }));
-    EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.divided_facets.push_back({3, {}, 1, {}}); }));
+    EXPECT_TRUE(broken([](Decomposition& d, auto&) { d.divided_facets.push_back({3, {}, root_node, {}}); }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.facets.pop_back(), s.facet_key.pop_back(); }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.vertices.back() += Vec3::Constant(1e-9); }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.vertex_key.back() += 1; }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { std::swap(s.facets.front(), s.facets.back()); }));
     EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.patch.front() += 1; }));
-    EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.facet_key.front() = make_key(1, 0); }));
+    EXPECT_TRUE(broken([](Decomposition&, SurfaceArrays& s) { s.facet_key.front() = make_key(NodeId(1), 0); }));
 }
 
 // The bearing cap, and what it may become without being another body.

@@ -146,20 +146,20 @@ TEST(RunLaws, EveryDamageIsFound) {
         EXPECT_NE(test::broken_laws(parts, input).find(law), std::string::npos) << law;
     };
     const auto first_interface_facet = [](const Part& part) {
-        return std::find_if(part.neighbour.begin(), part.neighbour.end(), [](int n) { return n >= 0; }) -
+        return std::find_if(part.neighbour.begin(), part.neighbour.end(), [](NodeId n) { return n.is_valid(); }) -
                part.neighbour.begin();
     };
     expect_found("at different places", [](auto& parts) {
-        for (Part& part : parts) part.mesh.vertices[part.facets.back()[0]].x() += 1e-12 * part.id;
+        for (Part& part : parts) part.mesh.vertices[part.facets.back()[0]].x() += 1e-12 * part.id.value();
     });
     expect_found("gaps", [](auto& parts) { parts[0].global_id.back() += 1000000; });
     expect_found("not positive", [](auto& parts) { std::swap(parts[1].mesh.tets[0][0], parts[1].mesh.tets[0][1]); });
     expect_found("not the boundary", [](auto& parts) { parts[1].mesh.tets.pop_back(); });
     expect_found("not the enclosed", [](auto& parts) { parts[2].mesh.tets.pop_back(); });
-    expect_found("once in the input", [](auto& parts) { parts[0].neighbour[0] = 77; });
+    expect_found("once in the input", [](auto& parts) { parts[0].neighbour[0] = NodeId(77); });
     expect_found("without a facet of the input", [](auto& parts) { parts[0].patch[0] = 77; });
     expect_found("without a facet of the input", [](auto& parts) { parts[0].facet[0] = 1 << 30; });
-    expect_found("other side", [&](auto& parts) { parts[0].neighbour[first_interface_facet(parts[0])] = 77; });
+    expect_found("other side", [&](auto& parts) { parts[0].neighbour[first_interface_facet(parts[0])] = NodeId(77); });
     expect_found("other side", [&](auto& parts) {
         Triangle& t = parts[0].facets[first_interface_facet(parts[0])];
         std::swap(t[1], t[2]);

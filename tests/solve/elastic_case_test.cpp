@@ -75,7 +75,7 @@ max_iterations = 77
 )");
     ASSERT_EQ(found.materials.size(), 2U);
     EXPECT_EQ(found.materials[0].material.name, "rubber");  // in the order of names
-    EXPECT_EQ(found.materials[0].parts, (std::vector<NodeId>{2, 5}));
+    EXPECT_EQ(found.materials[0].parts, (std::vector<NodeId>{NodeId(2), NodeId(5)}));
     EXPECT_EQ(found.materials[1].material.density, 7.8e-9);
     ASSERT_EQ(found.supports.size(), 2U);
     EXPECT_EQ(found.supports[0].name, "foot");

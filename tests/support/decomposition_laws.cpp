@@ -108,7 +108,7 @@ void DecompositionLaws::check_vertices() {
             const Vec3& p = leaf.surface.vertices[v];
             moved += !same_bits(points.emplace(leaf.surface.vertex_key[v], p).first->second, p);
         }
-    std::map<NodeId, std::int32_t> expected = {{0, static_cast<std::int32_t>(input_.vertices.size())}};
+    std::map<NodeId, std::int32_t> expected = {{input_node, count_of(input_.vertices)}};
     for (const TreeNode& node : whole_.nodes)
         if (node.interface_vertices > 0) expected[node.id] = node.interface_vertices;
     std::map<NodeId, std::int32_t> found;  // the keys of a node ascend in the map
@@ -127,7 +127,7 @@ void DecompositionLaws::check_input_facets() {
     std::int64_t foreign = 0, missing = 0, divided = 0;
     for (const Leaf& leaf : whole_.leaves)
         for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f) {
-            if (key_node(leaf.surface.facet_key[f]) != 0) continue;
+            if (key_node(leaf.surface.facet_key[f]) != input_node) continue;
             const auto facet = static_cast<std::size_t>(key_index(leaf.surface.facet_key[f]));
             if (facet >= pieces.size() || leaf.surface.patch[f] != input_.patch[facet])
                 ++foreign;
@@ -158,11 +158,11 @@ void DecompositionLaws::check_interfaces() {
     std::vector<Side> sides;
     for (const Leaf& leaf : whole_.leaves)
         for (std::size_t f = 0; f < leaf.surface.facets.size(); ++f)
-            if (key_node(leaf.surface.facet_key[f]) != 0) sides.push_back({face_of(leaf.surface, f), leaf.id});
+            if (key_node(leaf.surface.facet_key[f]) != input_node) sides.push_back({face_of(leaf.surface, f), leaf.id});
     std::sort(sides.begin(), sides.end());
     std::int64_t unmatched = 0, doubled = 0;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        const Side back = {turned(sides[i].face), 0};
+        const Side back = {turned(sides[i].face), no_node};
         const auto it = std::lower_bound(sides.begin(), sides.end(), back);
         unmatched += it == sides.end() || it->face != back.face || it->leaf == sides[i].leaf;
         doubled += i > 0 && sides[i].face == sides[i - 1].face;

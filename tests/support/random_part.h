@@ -26,20 +26,21 @@ inline Part random_part(unsigned seed) {
         part.facets.push_back({number(boundary), number(boundary), number(boundary)});
         part.patch.push_back(number(4) - 1);
         part.facet.push_back(number(1000) - 1);
-        part.neighbour.push_back(number(20) - 1);
+        part.neighbour.emplace_back(number(20) - 1);
         part.tet_at_facet.push_back(number(tets + 1) - 1);
     }
     for (std::int32_t v = 0; v < boundary; ++v) part.global_id.push_back((std::int64_t{v} << 33) + number(9));
     for (std::int32_t v = 0; v < interior; ++v) part.global_id.push_back(7'000'000'000 + v);
-    part.id = 1 + number(1000);
+    part.id = NodeId(1 + number(1000));
     const std::vector<std::string> names = {"body", "",
                                             "l\xc3\xaf"
                                             "d <&\">",
                                             std::string(seed * 100, 'x')};
     part.patch_names = seed % 2 ? NameTable({0, 1, 2, 1000 + number(1000)}, names) : NameTable(names);
-    for (std::int32_t g = 0; g < number(4); ++g) part.shared.push_back({{1, 2 + g}, {number(boundary)}});
     for (std::int32_t g = 0; g < number(4); ++g)
-        part.shared_edges.push_back({{1, 2 + g}, {{number(boundary), number(boundary)}}});
+        part.shared.push_back({{root_node, NodeId(2 + g)}, {number(boundary)}});
+    for (std::int32_t g = 0; g < number(4); ++g)
+        part.shared_edges.push_back({{root_node, NodeId(2 + g)}, {{number(boundary), number(boundary)}}});
     return part;
 }
 

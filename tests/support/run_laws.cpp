@@ -23,7 +23,8 @@ namespace {
 // A face of the boundary of a part.
 struct BoundaryFace {
     Face corners;
-    std::int32_t part, neighbour, patch;
+    NodeId part, neighbour;
+    std::int32_t patch;
     auto key() const { return std::tie(corners, part, neighbour, patch); }
     bool operator<(const BoundaryFace& o) const { return key() < o.key(); }
 };
@@ -150,7 +151,7 @@ std::vector<BoundaryFace> RunLaws::boundary(bool interface) const {
     std::vector<BoundaryFace> faces;
     for (const Part& part : parts_)
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
-            if ((part.neighbour[f] >= 0) != interface) continue;
+            if (part.neighbour[f].is_valid() != interface) continue;
             const Triangle& t = part.facets[f];
             faces.push_back({rotated({part.global_id[t[0]], part.global_id[t[1]], part.global_id[t[2]]}), part.id,
                              part.neighbour[f], part.patch[f]});
@@ -162,7 +163,7 @@ std::vector<BoundaryFace> RunLaws::boundary(bool interface) const {
 // The pieces of a facet are the facet itself, or new vertices lie on its edges and inside of it.
 void RunLaws::check_facets() {
     // Behind facet f, then in front of it.
-    std::vector<std::vector<std::pair<Face, std::int32_t>>> pieces(2 * input_.facets.size());
+    std::vector<std::vector<std::pair<Face, NodeId>>> pieces(2 * input_.facets.size());
     std::int64_t foreign = 0, changed = 0;
     const auto region_at = [&](std::size_t side) {
         const FacetSides sides = sides_.empty() ? FacetSides{} : sides_[side / 2];
@@ -172,7 +173,7 @@ void RunLaws::check_facets() {
         for (std::size_t f = 0; f < part.facets.size(); ++f) {
             const auto facet = static_cast<std::size_t>(part.facet[f]);
             const bool is_wall = facet < sides_.size() && sides_[facet].is_wall();
-            if (part.neighbour[f] >= 0 && !is_wall) continue;
+            if (part.neighbour[f].is_valid() && !is_wall) continue;
             const Triangle& t = part.facets[f];
             const RegionIndex region = part.region_of(0);
             if (facet >= input_.facets.size() || part.patch[f] != input_.patch[facet] ||

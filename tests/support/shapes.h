@@ -342,9 +342,9 @@ inline Soup porous_frame(int cells, int n) {
 inline SurfaceArrays to_arrays(const Soup& soup) {
     SurfaceArrays arrays{soup.vertices, soup.facets, {}, {}, soup.patch};
     for (std::size_t v = 0; v < soup.vertices.size(); ++v)
-        arrays.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(v)));
+        arrays.vertex_key.push_back(make_key(input_node, static_cast<std::int32_t>(v)));
     for (std::size_t f = 0; f < soup.facets.size(); ++f)
-        arrays.facet_key.push_back(make_key(0, static_cast<std::int32_t>(f)));
+        arrays.facet_key.push_back(make_key(input_node, static_cast<std::int32_t>(f)));
     return arrays;
 }
 

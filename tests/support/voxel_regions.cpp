@@ -40,8 +40,8 @@ class VoxelBodyMaker {
         SurfaceArrays& facets = body_.facets;
         facets.vertex_key.resize(facets.vertices.size());
         facets.facet_key.resize(facets.facets.size());
-        std::iota(facets.vertex_key.begin(), facets.vertex_key.end(), make_key(0, 0));
-        std::iota(facets.facet_key.begin(), facets.facet_key.end(), make_key(0, 0));
+        std::iota(facets.vertex_key.begin(), facets.vertex_key.end(), make_key(input_node, 0));
+        std::iota(facets.facet_key.begin(), facets.facet_key.end(), make_key(input_node, 0));
         return std::move(body_);
     }
 

@@ -112,7 +112,7 @@ TEST(Legend, ColoursAreThoseOfThePicture) {
     driver.state().look.edges = false;
     driver.state().explosion.amount = 0.5;
     std::set<std::string> explained;
-    for (const NodeId node : {1, 2})
+    for (const NodeId node : {root_node, NodeId(2)})
         for (const Step& step : steps_of(driver.document(), node)) {
             driver.state().node = node;
             driver.state().step = step;
@@ -123,7 +123,7 @@ TEST(Legend, ColoursAreThoseOfThePicture) {
                 // Glass has the colour of what is behind it, too; the centre shines through the body.
                 if (entry.color.a < 1 || entry.mark == LegendEntry::Mark::point) continue;
                 EXPECT_GE(pixels_of(picture, body, entry.color), 20)
-                    << "node " << node << ", " << name(step) << ": " << entry.text;
+                    << "node " << node.value() << ", " << name(step) << ": " << entry.text;
             }
         }
     for (const char* text : {"long axis", "crossed edges", "contour", "projected", "triangulation", "interface",
@@ -143,10 +143,10 @@ TEST(Legend, ListsOnlyWhatIsThere) {
         return all;
     };
     EXPECT_EQ(texts().size(), 4U);
-    driver.state().visibility.set_hidden(4, true);
+    driver.state().visibility.set_hidden(NodeId(4), true);
     EXPECT_EQ(texts().size(), 3U);
     driver.state().visibility.hidden.clear();
-    driver.state().clip = {true, ClipStyle::cells, driver.document().tree.find(1)->plane()->normal, 0.1, false};
+    driver.state().clip = {true, ClipStyle::cells, driver.document().tree.find(root_node)->plane()->normal, 0.1, false};
     EXPECT_LT(texts().size(), 4U) << "parts beyond the plane";
     driver.state().clip.on = false;
     driver.state().coloring.by = ColorBy::kind;

@@ -95,7 +95,7 @@ TEST(SearchBox, DoesWhatIsTyped) {
     driver.key(key_enter);
     EXPECT_STREQ(found[1]->name, "Back view");
     EXPECT_LT((driver.app().camera().back() - Vec3::UnitY()).norm(), 1e-9) << "the second";
-    EXPECT_EQ(driver.state().node, 1) << "arrows were the box's alone";
+    EXPECT_EQ(driver.state().node, root_node) << "arrows were the box's alone";
 
     driver.key(key_of('K'), true);
     driver.settle();

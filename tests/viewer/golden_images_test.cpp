@@ -76,7 +76,7 @@ TEST(RefusedTries, LookAsTheyShould) {
     Driver driver(options);
     driver.show_panels(false);
     driver.open(asset_path("wing_in_box"));
-    driver.state().node = 4;
+    driver.state().node = NodeId(4);
     driver.settle();
     ASSERT_GE(driver.app().steps().size(), 13u);
     driver.state().step = driver.app().steps()[1];
@@ -163,15 +163,15 @@ TEST_F(Looks, ColouredBoundary) {
 }
 
 TEST_F(Looks, HiddenAndIsolated) {
-    state().visibility.hidden = {5};
+    state().visibility.hidden = {NodeId(5)};
     expect_golden("hidden");
     state().visibility.hidden = {};
-    state().visibility.isolated = 3;
+    state().visibility.isolated = NodeId(3);
     expect_golden("isolated");
 }
 
 TEST_F(Looks, OfANodeBelow) {
-    state().node = 3;
+    state().node = NodeId(3);
     state().step = {Stage::contour, -1};
     expect_golden("node-3-contour");
     state().step = {Stage::input, -1};
@@ -182,7 +182,7 @@ TEST_F(Looks, OfANodeBelow) {
 
 TEST_F(Looks, DarkAndSelected) {
     state().theme = Theme::dark;
-    state().selection = {Selection::Kind::cell, 4, 17, Vec3::Zero()};
+    state().selection = {Selection::Kind::cell, NodeId(4), 17, Vec3::Zero()};
     state().explosion.amount = 0.5;
     expect_golden("dark-selection");
 }
@@ -253,13 +253,13 @@ TEST(Colourings, OfCoreShellAndOtherMesher) {
         driver.settle();
         return driver.app().facts().selection;
     };
-    EXPECT_NE(description(2, 299).find("of the core"), std::string::npos);
-    EXPECT_NE(description(2, 300).find("of the shell"), std::string::npos);
-    EXPECT_EQ(description(3, 0).find("of the shell"), std::string::npos);
-    driver.state().visibility.isolated = 3;
+    EXPECT_NE(description(NodeId(2), 299).find("of the core"), std::string::npos);
+    EXPECT_NE(description(NodeId(2), 300).find("of the shell"), std::string::npos);
+    EXPECT_EQ(description(NodeId(3), 0).find("of the shell"), std::string::npos);
+    driver.state().visibility.isolated = NodeId(3);
     driver.settle();
     EXPECT_EQ(legend(), "TetGen; ") << "only what is shown";
-    driver.state().visibility.isolated = 2;
+    driver.state().visibility.isolated = NodeId(2);
     driver.settle();
     EXPECT_EQ(legend(), "core: stamped cells; shell around the core; ");
 }
@@ -328,14 +328,14 @@ TEST(WholeWindow, EmptyOpenedAndAtAStage) {
     driver.state().look.times = false;
     driver.open(asset_path("cylinder"));
     driver.state().look.times = false;
-    driver.state().node = 3;
+    driver.state().node = NodeId(3);
     driver.state().step = {Stage::contour, -1};
     expect_golden_window("ui-contour", driver);
-    driver.state().node = 1;
+    driver.state().node = root_node;
     driver.state().step = {Stage::tetrahedra, -1};
     driver.state().coloring.by = ColorBy::min_dihedral;
     driver.state().clip.on = true;
-    driver.state().selection = {Selection::Kind::cell, 4, 100, Vec3::Zero()};
+    driver.state().selection = {Selection::Kind::cell, NodeId(4), 100, Vec3::Zero()};
     expect_golden_window("ui-quality", driver);
     driver.state().theme = Theme::dark;
     driver.state().panels.keys = true;

@@ -77,7 +77,8 @@ TEST_F(RegionsShown, TheRunIsOpenedWithItsTrace) {
     const TreeRow& root = document().tree.rows.front();
     EXPECT_EQ(root.regions, 2);
     EXPECT_FALSE(root.centroid) << "several regions have none";
-    for (const TreeRow& row : document().tree.rows) EXPECT_EQ(row.region.is_valid(), row.id > 1) << "node " << row.id;
+    for (const TreeRow& row : document().tree.rows)
+        EXPECT_EQ(row.region.is_valid(), row.id > root_node) << "node " << row.id.value();
 }
 
 TEST_F(RegionsShown, AreHiddenIsolatedAndShownByTheirButtons) {
@@ -125,12 +126,12 @@ using Place = std::set<std::array<float, 3>>;
 TEST_F(RegionsShown, EachFacetIsDrawnOnceThroughGlassAndAsAWall) {
     std::int64_t outer = 0, walls = 0;
     std::map<std::string, std::int64_t> outer_of;
-    for (const NodeId part : document().tree.parts_below(1)) {
+    for (const NodeId part : document().tree.parts_below(root_node)) {
         const auto surface = driver_->app().session().fetched().part_surface(part);
         ASSERT_TRUE(surface);
-        for (const std::int32_t neighbour : surface->neighbour) {
-            if (neighbour < 0) ++outer_of[*region_of(document(), part)], ++outer;
-            if (neighbour >= 0 && *region_of(document(), part) == "cement")
+        for (const NodeId neighbour : surface->neighbour) {
+            if (!neighbour.is_valid()) ++outer_of[*region_of(document(), part)], ++outer;
+            if (neighbour.is_valid() && *region_of(document(), part) == "cement")
                 walls += *region_of(document(), neighbour) == "bone";
         }
     }
@@ -180,11 +181,11 @@ TEST_F(RegionsShown, MoveAsWholes) {
 }
 
 TEST_F(RegionsShown, WhatIsPickedNamesThem) {
-    for (const NodeId part : document().tree.parts_below(1)) {
+    for (const NodeId part : document().tree.parts_below(root_node)) {
         const auto surface = driver_->app().session().fetched().part_surface(part);
         ASSERT_TRUE(surface);
-        const auto wall = std::find_if(surface->neighbour.begin(), surface->neighbour.end(), [&](std::int32_t other) {
-            return other >= 0 && region_of(document(), other) != region_of(document(), part);
+        const auto wall = std::find_if(surface->neighbour.begin(), surface->neighbour.end(), [&](NodeId other) {
+            return other.is_valid() && region_of(document(), other) != region_of(document(), part);
         });
         if (wall == surface->neighbour.end()) continue;
         const auto facet = static_cast<std::int32_t>(wall - surface->neighbour.begin());

@@ -96,7 +96,7 @@ class RepairSession : public testing::Test {
         EXPECT_EQ(document.checked->soup.vertices, made.soup.vertices);
         EXPECT_EQ(to_text(document.checked->ladder), to_text(made.ladder));
         EXPECT_EQ(document.unrepaired != nullptr, made.soup.facets != check_input(path_).soup.facets);
-        EXPECT_EQ(surface(1)->facets, document.unrepaired ? made.soup.facets : read_.facets);
+        EXPECT_EQ(surface(root_node)->facets, document.unrepaired ? made.soup.facets : read_.facets);
     }
 
     const test::TemporaryFolder folder_;
@@ -112,7 +112,7 @@ TEST_F(RepairSession, EveryOptionThatMendsHasASurfaceBeforeIt) {
         set(options.repairs);
         session_.repairs().repair(options);
         settle();
-        EXPECT_EQ(steps_of(session_.document(), 1).front().stage, Stage::before_repair);
+        EXPECT_EQ(steps_of(session_.document(), root_node).front().stage, Stage::before_repair);
         EXPECT_TRUE(session_.repairs().can_undo());
     };
     mend([](RepairOptions& repairs) { repairs.weld_tolerance = 0.5; });
@@ -125,7 +125,7 @@ TEST_F(RepairSession, EveryOptionThatMendsHasASurfaceBeforeIt) {
 
 TEST_F(RepairSession, ShowsWhatACommandMakesOfTheFileAndWhatItWas) {
     open(read_);
-    const auto before = surface(1);
+    const auto before = surface(root_node);
     ASSERT_TRUE(session_.document().has_problems());
     EXPECT_FALSE(session_.fetched().surface(not_repaired)) << "nothing is repaired yet";
     EXPECT_TRUE(why_without_values(session_.document(), ColorBy::deviation));
@@ -135,16 +135,16 @@ TEST_F(RepairSession, ShowsWhatACommandMakesOfTheFileAndWhatItWas) {
         EXPECT_EQ(session_.document().options.input_options.repairs.plan, plan);
         expect_what_a_command_makes();
         const Document& document = session_.document();
-        const Step first = steps_of(document, 1).front();
+        const Step first = steps_of(document, root_node).front();
         EXPECT_EQ(first.stage, document.unrepaired ? Stage::before_repair : Stage::input);
         if (!document.unrepaired) continue;
         EXPECT_EQ(surface(not_repaired)->facets.size(), read_.facets.size());
-        for (const NodeId node : {NodeId(1), not_repaired}) {
-            EXPECT_GE(farthest(node), 0) << node;
-            EXPECT_LE(farthest(node), 0.02) << node;
+        for (const NodeId node : {root_node, not_repaired}) {
+            EXPECT_GE(farthest(node), 0) << node.value();
+            EXPECT_LE(farthest(node), 0.02) << node.value();
         }
     }
-    EXPECT_EQ(surface(1)->facets, before->facets) << "none";
+    EXPECT_EQ(surface(root_node)->facets, before->facets) << "none";
 }
 
 TEST_F(RepairSession, GoesBackAndForth) {
@@ -152,19 +152,19 @@ TEST_F(RepairSession, GoesBackAndForth) {
     EXPECT_FALSE(session_.repairs().can_undo());
     repair("weld=0.01");
     const auto welded = session_.document().checked;
-    const auto welded_surface = surface(1);
+    const auto welded_surface = surface(root_node);
     repair("weld=0.01,clean");
     const auto cleaned = session_.document().checked;
     EXPECT_FALSE(session_.repairs().can_redo());
     session_.repairs().undo();
     EXPECT_EQ(session_.document().checked, welded);
     EXPECT_EQ(session_.document().options.input_options.repairs.plan, "weld=0.01");
-    EXPECT_EQ(surface(1), welded_surface) << "at once";
+    EXPECT_EQ(surface(root_node), welded_surface) << "at once";
     session_.repairs().undo();
     EXPECT_FALSE(session_.repairs().can_undo());
     EXPECT_TRUE(session_.document().has_problems());
     EXPECT_FALSE(session_.document().unrepaired);
-    EXPECT_EQ(surface(1)->facets.size(), read_.facets.size());
+    EXPECT_EQ(surface(root_node)->facets.size(), read_.facets.size());
     session_.repairs().redo();
     session_.repairs().redo();
     EXPECT_EQ(session_.document().checked, cleaned);
@@ -242,12 +242,12 @@ TEST_F(RepairSession, GoesOnBehindARun) {
     session_.start_run(options, false);
     settle();
     ASSERT_TRUE(session_.document().trace) << session_.document().progress.message;
-    EXPECT_EQ(steps_of(session_.document(), 1).front().stage, Stage::before_repair);
+    EXPECT_EQ(steps_of(session_.document(), root_node).front().stage, Stage::before_repair);
     EXPECT_EQ(surface(not_repaired)->facets.size(), read_.facets.size());
     session_.repairs().undo();
     EXPECT_FALSE(session_.document().trace);
     EXPECT_TRUE(session_.document().has_problems());
-    EXPECT_EQ(surface(1)->facets.size(), read_.facets.size());
+    EXPECT_EQ(surface(root_node)->facets.size(), read_.facets.size());
     ASSERT_TRUE(session_.other_document());
     EXPECT_TRUE(session_.other_document()->trace);
     session_.repairs().redo();
@@ -265,8 +265,8 @@ TEST_F(RepairSession, WrapsAndUnwraps) {
     expect_what_a_command_makes();
     EXPECT_FALSE(session_.document().has_problems());
     ASSERT_TRUE(surface(not_repaired));
-    EXPECT_GE(farthest(1), 0);
-    EXPECT_LE(farthest(1), (1 + 1e-6) * session_.document().checked->wrapped->distance_to_input);
+    EXPECT_GE(farthest(root_node), 0);
+    EXPECT_LE(farthest(root_node), (1 + 1e-6) * session_.document().checked->wrapped->distance_to_input);
     session_.repairs().undo();
     EXPECT_FALSE(session_.document().options.input_options.wraps());
     EXPECT_FALSE(session_.document().unrepaired);

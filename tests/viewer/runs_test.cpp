@@ -45,7 +45,7 @@ OuterFacets outer_facets(Driver& driver, NodeId node) {
         const auto corner = [&](std::size_t i) -> const Vec3& {
             return surface->vertices[static_cast<std::size_t>(surface->facets[f][i])];
         };
-        if (surface->interface_of[f] == 0) outer.add(corner(0), corner(1), corner(2));
+        if (surface->interface_of[f] == no_node) outer.add(corner(0), corner(1), corner(2));
     }
     return outer;
 }
@@ -76,12 +76,12 @@ TEST(Runs, TheContextIsTheRestOfTheSurface) {
         Driver driver;
         driver.open(folder.file("run"));
         ASSERT_FALSE(driver.document().trace);
-        const OuterFacets all = outer_facets(driver, 1);
-        for (const NodeId node : {3, 4, 6}) {
+        const OuterFacets all = outer_facets(driver, root_node);
+        for (const NodeId node : {NodeId(3), NodeId(4), NodeId(6)}) {
             driver.state().node = node;
             const OuterFacets own = outer_facets(driver, node), context = context_of(driver);
-            EXPECT_EQ(context.count + own.count, all.count) << input << " " << node;
-            EXPECT_NEAR(context.area + own.area, all.area, 1e-5 * all.area) << input << " " << node;
+            EXPECT_EQ(context.count + own.count, all.count) << input << " " << node.value();
+            EXPECT_NEAR(context.area + own.area, all.area, 1e-5 * all.area) << input << " " << node.value();
         }
     }
 }
@@ -156,22 +156,22 @@ TEST(Runs, AStraightCutMadeAgainIsThatOfARun) {
     Driver driver;
     driver.open(folder.file("run"));
     ASSERT_TRUE(driver.document().trace);
-    const CutSummary of_run = *driver.document().tree.find(1)->cut;
+    const CutSummary of_run = *driver.document().tree.find(root_node)->cut;
     ASSERT_EQ(of_run.strategy, CutStrategy::straight);
     ASSERT_LT(of_run.quality.angle_deg, 60);
     driver.state().panels.parameters = true;
     driver.frame();
     driver.click("Re-run cut of node 1");
     driver.await("the cut", [&] { return !driver.app().session().busy(); });
-    const CutSummary again = *driver.document().tree.find(1)->cut;
+    const CutSummary again = *driver.document().tree.find(root_node)->cut;
     EXPECT_EQ(again.strategy, CutStrategy::straight);
     EXPECT_EQ(again.interface_faces, of_run.interface_faces);
     EXPECT_NEAR(again.quality.angle_deg, of_run.quality.angle_deg, 1e-9);
     EXPECT_NEAR(again.quality.dihedral_deg, of_run.quality.dihedral_deg, 1e-9);
     // Its halves are closed, and can be cut straight, too, although facets have pieces now.
-    driver.state().node = 3;
+    driver.state().node = NodeId(3);
     driver.settle();
-    EXPECT_EQ(driver.document().tree.parts_below(1), (std::vector<NodeId>{2, 3}));
+    EXPECT_EQ(driver.document().tree.parts_below(root_node), (std::vector<NodeId>{NodeId(2), NodeId(3)}));
 }
 
 // The run before stays, with its cells, and is shown again under the same camera, however the other one came to be.
@@ -191,15 +191,16 @@ TEST(Runs, TwoAreComparedUnderOneCamera) {
     driver.type("5");
     driver.key(key_enter);
     driver.click("Run all");
-    driver.await("five parts", [&] { return driver.document().tree.parts_below(1).size() == 5 && !session.busy(); });
+    driver.await("five parts",
+                 [&] { return driver.document().tree.parts_below(root_node).size() == 5 && !session.busy(); });
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::part).triangles > 0, true);
     const Camera camera = driver.app().camera();
     const auto second_triangles = driver.drawn(LayerKind::part).triangles;
     driver.click("A");
     EXPECT_TRUE(session.shows_before());
-    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 3u);
-    EXPECT_EQ(session.other_document()->tree.parts_below(1).size(), 5u);
+    EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 3u);
+    EXPECT_EQ(session.other_document()->tree.parts_below(root_node).size(), 5u);
     EXPECT_EQ(driver.app().camera(), camera);
     driver.settle();
     EXPECT_LT(driver.drawn(LayerKind::part).triangles, second_triangles) << "fewer interfaces";
@@ -217,12 +218,13 @@ TEST(Runs, TwoAreComparedUnderOneCamera) {
 
     // A cut made again takes the place of the later run, and what it was made of can be seen with all its cells.
     driver.click("Re-run cut of node 1");
-    driver.await("the cut", [&] { return driver.document().tree.parts_below(1).size() == 2 && !session.busy(); });
+    driver.await("the cut",
+                 [&] { return driver.document().tree.parts_below(root_node).size() == 2 && !session.busy(); });
     EXPECT_FALSE(driver.document().histograms[0]) << "of cells that are gone";
     EXPECT_FALSE(session.pair().can_save()) << "no run has made this";
     driver.click("A");
     driver.settle();
-    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 5u);
+    EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 5u);
     EXPECT_EQ(driver.drawn(LayerKind::part).triangles, second_triangles);
     EXPECT_TRUE(driver.document().histograms[0]);
 }
@@ -266,7 +268,7 @@ TEST(Runs, ATemporaryRunIsSaved) {
     EXPECT_EQ(run_kerf({"verify", place}).exit_code, 0);
     Driver driver;
     driver.open(place);
-    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 4u);
+    EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 4u);
     EXPECT_TRUE(driver.document().trace) << "with every step of its cuts";
 }
 
@@ -279,7 +281,7 @@ TEST(Runs, AnOldErrorLeavesTheStatusBar) {
     Driver driver(options);
     driver.open(asset_path("cube"));
     Session& session = driver.app().session();
-    session.pair().redo_cut(1, {});
+    session.pair().redo_cut(root_node, {});
     ASSERT_EQ(session.failures().size(), 1u);
     RunRequest run;
     run.parts = 2;
@@ -344,7 +346,7 @@ TEST(Runs, AViewKnowsWhatItWasMadeOf) {
     Driver driver(options);
     driver.open(asset_path("cube"));
     driver.key(key_of('3'));
-    driver.state().node = 3;
+    driver.state().node = NodeId(3);
     driver.key(key_f12);
     driver.settle();
     const std::string state = folder.file("kerf-001.json");

@@ -166,18 +166,19 @@ TEST(Cells, ShrunkOnesAreComplete) {
 
 TEST(Explosion, SistersPartByTheirCut) {
     Tree tree;
-    for (NodeId id = 1; id < 8; ++id) {
+    for (NodeId id = root_node; id < NodeId(8); ++id) {
         TreeRow& row = tree.at(id);
-        row.state = id < 4 ? NodeState::divided : NodeState::done;
+        row.state = id < NodeId(4) ? NodeState::divided : NodeState::done;
         row.volume = 8;
-        if (id >= 4) continue;
+        if (id >= NodeId(4)) continue;
         row.cut.emplace().strategy = CutStrategy::first_try;
-        row.cut->plane = Plane(Vec3::Zero(), id == 1 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY()));
+        row.cut->plane = Plane(Vec3::Zero(), id == root_node ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY()));
     }
-    EXPECT_EQ(explosion_offset(tree, 6, 1, 0, 1), Vec3::Zero());
-    EXPECT_EQ(explosion_offset(tree, 4, 1, 1, 1), Vec3(-1, -1, 0));
-    EXPECT_EQ(explosion_offset(tree, 7, 1, 1, 1), Vec3(1, 1, 0));
-    EXPECT_EQ(explosion_offset(tree, 7, 3, 1, 1), Vec3(0, 1, 0)) << "only cuts below the root that is shown";
+    EXPECT_EQ(explosion_offset(tree, NodeId(6), root_node, 0, 1), Vec3::Zero());
+    EXPECT_EQ(explosion_offset(tree, NodeId(4), root_node, 1, 1), Vec3(-1, -1, 0));
+    EXPECT_EQ(explosion_offset(tree, NodeId(7), root_node, 1, 1), Vec3(1, 1, 0));
+    EXPECT_EQ(explosion_offset(tree, NodeId(7), NodeId(3), 1, 1), Vec3(0, 1, 0))
+        << "only cuts below the root that is shown";
 }
 
 // The layer of a step has these edges of the node's surface, each where it is.
@@ -211,7 +212,7 @@ void expect_numbers_of_the_cuts(Driver& driver) {
         for (const Step& step : steps_of(document, row.id)) {
             driver.state().step = step;
             driver.settle();
-            const std::string where = std::to_string(row.id) + " " + name(step);
+            const std::string where = std::to_string(row.id.value()) + " " + name(step);
             const auto interface = static_cast<std::int64_t>(cut->interface.triangles.size());
             switch (step.stage) {
                 case Stage::crossed_edges:
@@ -255,8 +256,8 @@ TEST(Layers, HaveTheNumbersOfTheCut) {
     expect_numbers_of_the_cuts(driver);
     const Document& document = driver.document();
     std::int64_t part_facets = 0;
-    for (const NodeId part : document.tree.parts_below(1)) part_facets += document.tree.find(part)->facets;
-    driver.state().node = 1;
+    for (const NodeId part : document.tree.parts_below(root_node)) part_facets += document.tree.find(part)->facets;
+    driver.state().node = root_node;
     driver.state().step = {Stage::tetrahedra, -1};
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::part).triangles, part_facets);
@@ -278,7 +279,7 @@ TEST(Layers, OfPartsThatAreTogetherDrawNoInside) {
     };
     const Image together = driver.picture();
     std::int64_t interfaces = 0;
-    for (const NodeId part : driver.document().tree.parts_below(1)) {
+    for (const NodeId part : driver.document().tree.parts_below(root_node)) {
         const auto surface = driver.app().session().fetched().part_surface(part);
         for (std::int32_t f = 0; surface && f < std::ssize(surface->facets); ++f)
             interfaces += surface->is_interface(f);
@@ -289,7 +290,7 @@ TEST(Layers, OfPartsThatAreTogetherDrawNoInside) {
     EXPECT_EQ(count_inside(), 0);
     EXPECT_LT(compare(together, driver.picture()).differing, most_differing);
     driver.state().explosion.amount = 0;
-    driver.state().visibility.set_hidden(2, true);
+    driver.state().visibility.set_hidden(NodeId(2), true);
     EXPECT_EQ(count_inside(), 0) << "one looks at the insides";
 }
 
@@ -326,7 +327,7 @@ TEST(Layers, HaveTheNumbersThatSelectionsUse) {
     std::map<LayerKind, int> found;
     for (const TreeRow& row : driver.document().tree.rows)
         for (const Stage stage : {Stage::input, Stage::split, Stage::tetrahedra}) {
-            SCOPED_TRACE(std::string(name(stage)) + " of node " + std::to_string(row.id));
+            SCOPED_TRACE(std::string(name(stage)) + " of node " + std::to_string(row.id.value()));
             state.node = row.id;
             state.step = {stage, -1};
             driver.settle();
@@ -349,7 +350,7 @@ TEST(Layers, HaveTheNumbersThatSelectionsUse) {
 TEST(Selections, WaitForTheNumbersOfTheFile) {
     Driver driver(cut_straight());
     driver.open(asset_path("cylinder"));
-    const NodeId part = driver.document().tree.parts_below(1).front();
+    const NodeId part = driver.document().tree.parts_below(root_node).front();
     Session session(kerf_program());
     session.open(driver.document().folder);
     const auto await = [&](const auto& is_there) {
@@ -375,7 +376,7 @@ TEST(Layers, ShowEveryStageOfAContourThatMeetsItself) {
     Driver driver(options);
     driver.show_panels(false);
     driver.open(folder.file("ring.off"));
-    const ContourStages& stages = driver.document().trace->find(1)->stages;
+    const ContourStages& stages = driver.document().trace->find(root_node)->stages;
     EXPECT_GT(stages.crossed_edges.size(), stages.hanging_edges_removed.size());
     EXPECT_GT(stages.hanging_edges_removed.size(), stages.closed_loops.size());
     EXPECT_NE(stages.closed_loops, stages.multiple_paths_removed);

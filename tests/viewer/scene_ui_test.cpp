@@ -94,7 +94,7 @@ TEST(SceneUi, AFlightToADefectEndsBeforeIt) {
     const Eigen::Quaterniond turn = driver.app().camera().turn;
     driver.key(key_down);
     EXPECT_EQ(driver.app().camera().target, defects[1].where);
-    EXPECT_EQ(driver.state().selection, (Selection{Selection::Kind::defect, 1, 1, defects[1].where}));
+    EXPECT_EQ(driver.state().selection, (Selection{Selection::Kind::defect, root_node, 1, defects[1].where}));
     EXPECT_EQ(driver.app().camera().turn.coeffs(), turn.coeffs());
     driver.key(key_down);
     EXPECT_EQ(driver.state().selection.index, 1) << "the last one";
@@ -141,7 +141,7 @@ TEST(SceneUi, KeysWithinAFrameAllCount) {
     options.volume = false;
     Driver driver(options);
     driver.open(asset_path("cube"));
-    const std::vector<NodeId> order = {1, 2, 4};
+    const std::vector<NodeId> order = {root_node, NodeId(2), NodeId(4)};
     ASSERT_EQ(driver.state().node, order[0]);
     driver.keys_in_one_frame({{.key = key_down}, {.key = key_down}});
     EXPECT_EQ(driver.state().node, order[2]);
@@ -275,7 +275,7 @@ TEST(SceneUi, ClipsThroughTheSelection) {
     const Eigen::AlignedBox3d box = driver.document().box;
     const Vec3 place = box.min() + 0.3 * box.sizes();
     const auto distance = [&] { return std::abs(shown_side(state.clip, box).distance(place)) / box.diagonal().norm(); };
-    state.selection = {Selection::Kind::place, 1, -1, place};
+    state.selection = {Selection::Kind::place, root_node, -1, place};
     driver.settle();
     state.clip.normal = Vec3(1, 2, 2).normalized();
     driver.click("Through selection");
@@ -340,7 +340,7 @@ TEST(SceneUi, NoGapShowsTheBackground) {
     state.step = {Stage::tetrahedra, -1};
     state.look.edges = state.look.context = state.look.legend = false;
     const Image whole = driver.picture();
-    state.visibility.hidden = {1};
+    state.visibility.hidden = {root_node};
     const Image nothing = driver.picture();
     state.visibility.hidden = {};
     state.explosion.shrink = 0.3;
@@ -364,11 +364,12 @@ TEST(SceneUi, ACellAndItsNeighbours) {
     ViewState& state = driver.state();
     state.step = {Stage::tetrahedra, -1};
     driver.await("the cells", [&] {
-        return driver.app().session().fetched().cells(2) && driver.app().session().fetched().cells(3) &&
-               driver.app().session().fetched().part_surface(2);
+        return driver.app().session().fetched().cells(NodeId(2)) && driver.app().session().fetched().cells(NodeId(3)) &&
+               driver.app().session().fetched().part_surface(NodeId(2));
     });
-    const auto own = driver.app().session().fetched().cells(2), other = driver.app().session().fetched().cells(3);
-    const auto surface = driver.app().session().fetched().part_surface(2);
+    const auto own = driver.app().session().fetched().cells(NodeId(2)),
+               other = driver.app().session().fetched().cells(NodeId(3));
+    const auto surface = driver.app().session().fetched().part_surface(NodeId(2));
     std::int32_t cell = -1;  // all of its corners lie inside, but for one on the interface alone
     for (std::size_t t = 0; t < own->tets.size() && cell < 0; ++t) {
         int at_interface = 0, at_boundary = 0;
@@ -382,11 +383,12 @@ TEST(SceneUi, ACellAndItsNeighbours) {
         if (at_interface > 0 && at_boundary == 0) cell = static_cast<std::int32_t>(t);
     }
     ASSERT_GE(cell, 0);
-    state.selection = {Selection::Kind::cell, 2, cell, Vec3::Zero()};
+    state.selection = {Selection::Kind::cell, NodeId(2), cell, Vec3::Zero()};
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::selected_cell).triangles, 4);
-    EXPECT_LT(driver.app().scene().scene.find(LayerKind::part, 2)->opacity, 1) << "it is seen through the others";
-    EXPECT_LT(driver.app().scene().scene.find(LayerKind::part, 3)->opacity, 1);
+    EXPECT_LT(driver.app().scene().scene.find(LayerKind::part, NodeId(2))->opacity, 1)
+        << "it is seen through the others";
+    EXPECT_LT(driver.app().scene().scene.find(LayerKind::part, NodeId(3))->opacity, 1);
 
     driver.click("Neighbours");
     EXPECT_TRUE(state.visibility.neighbours);
@@ -410,14 +412,14 @@ TEST(SceneUi, ACellAndItsNeighbours) {
         return faces;
     };
     EXPECT_GT(faces_of_ring(*other), 0);
-    EXPECT_EQ(driver.drawn(LayerKind::cells, 2).triangles, faces_of_ring(*own));
-    EXPECT_EQ(driver.drawn(LayerKind::cells, 3).triangles, faces_of_ring(*other));
+    EXPECT_EQ(driver.drawn(LayerKind::cells, NodeId(2)).triangles, faces_of_ring(*own));
+    EXPECT_EQ(driver.drawn(LayerKind::cells, NodeId(3)).triangles, faces_of_ring(*other));
     driver.key(key_of('N'));
     EXPECT_FALSE(state.visibility.neighbours);
     driver.key(key_escape);
     driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::selected_cell).triangles, 0);
-    EXPECT_EQ(driver.app().scene().scene.find(LayerKind::part, 2)->opacity, 1);
+    EXPECT_EQ(driver.app().scene().scene.find(LayerKind::part, NodeId(2))->opacity, 1);
 }
 
 TEST(SceneUi, KeysGoThroughTheWorstCells) {
@@ -437,7 +439,7 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
     driver.keys_in_one_frame({{.key = key_down}, {.key = key_down}});
     EXPECT_EQ(state.selection.index, (*worst)[2].cell);
     EXPECT_EQ(driver.app().camera().target, (*worst)[2].center);
-    EXPECT_EQ(state.node, 1) << "the keys are the list's";
+    EXPECT_EQ(state.node, root_node) << "the keys are the list's";
 
     // A cell inside is seen through the others, one at the surface from where the camera goes.
     Session& session = driver.app().session();
@@ -445,7 +447,7 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
         driver.await("the cells",
                      [&] { return session.fetched().cells(cell.part) && session.fetched().part_surface(cell.part); });
         return direction_to_cell(*session.fetched().cells(cell.part), *session.fetched().part_surface(cell.part),
-                                 *session.fetched().surface(1), cell.cell, back);
+                                 *session.fetched().surface(root_node), cell.cell, back);
     };
     std::size_t at = 2;
     for (const bool at_surface : {false, true}) {
@@ -463,7 +465,7 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
     EXPECT_LT((seen_from((*worst)[at], back).value_or(Vec3::Zero()) - back).norm(), 1e-9);
     driver.click("node 1");
     driver.key(key_down);
-    EXPECT_EQ(state.node, 2) << "the keys are the tree's";
+    EXPECT_EQ(state.node, NodeId(2)) << "the keys are the tree's";
 }
 
 }  // namespace

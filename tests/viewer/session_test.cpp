@@ -118,7 +118,7 @@ TEST_F(SessionTest, OpensASurfaceAndChecksIt) {
     EXPECT_TRUE(session_.pending());
     EXPECT_EQ(document().title, "cube.stl");
     ASSERT_TRUE(reach(session_, [&] { return document().soup != nullptr; }));
-    EXPECT_TRUE(session_.fetched().surface(1)) << "the first picture does not wait for the check";
+    EXPECT_TRUE(session_.fetched().surface(root_node)) << "the first picture does not wait for the check";
     EXPECT_EQ(document().kind, Document::Kind::surface);
     EXPECT_EQ(document().error, "");
     EXPECT_NEAR(document().box.diagonal().norm(), std::sqrt(3.0), 1e-6);
@@ -132,12 +132,12 @@ TEST_F(SessionTest, OpensASurfaceAndChecksIt) {
     ASSERT_TRUE(document().tree.rows[0].centroid);
     EXPECT_LT((*document().tree.rows[0].centroid - document().box.center()).norm(), 0.1);
 
-    const auto surface = get(session_, [&] { return session_.fetched().surface(1); });
+    const auto surface = get(session_, [&] { return session_.fetched().surface(root_node); });
     ASSERT_TRUE(surface);
     EXPECT_EQ(surface->facets, document().soup->facets);
     EXPECT_EQ(surface->vertices, document().soup->vertices);
-    EXPECT_EQ(session_.fetched().surface(2), nullptr);
-    EXPECT_EQ(session_.fetched().cells(1), nullptr);
+    EXPECT_EQ(session_.fetched().surface(NodeId(2)), nullptr);
+    EXPECT_EQ(session_.fetched().cells(root_node), nullptr);
     EXPECT_EQ(failures_of(session_), "");
     EXPECT_FALSE(session_.poll());
 }
@@ -160,7 +160,7 @@ TEST_F(SessionTest, SaysWhyAFileCannotBeOpened) {
     EXPECT_EQ(document().error, "");
     session_.close();
     EXPECT_EQ(document().kind, Document::Kind::none);
-    EXPECT_EQ(session_.fetched().surface(1), nullptr);
+    EXPECT_EQ(session_.fetched().surface(root_node), nullptr);
 }
 
 TEST_F(SessionTest, ShowsASurfaceWithDefects) {
@@ -173,7 +173,7 @@ TEST_F(SessionTest, ShowsASurfaceWithDefects) {
     EXPECT_FALSE(document().checked->diagnosis.clean());
     EXPECT_TRUE(document().has_problems());
     EXPECT_EQ(document().error, "");
-    EXPECT_TRUE(get(session_, [&] { return session_.fetched().surface(1); }));
+    EXPECT_TRUE(get(session_, [&] { return session_.fetched().surface(root_node); }));
 
     session_.start_run(options(2), true);
     ASSERT_TRUE(settle(session_));
@@ -219,7 +219,8 @@ TEST_F(OwnRun, FillsTheDocumentAsItGoes) {
     start("hollow_box", options(4), true);
     ASSERT_TRUE(reach(session_, [&] { return document().trace != nullptr; }));
     EXPECT_EQ(document().tree.rows.size(), 7u);
-    EXPECT_EQ(document().tree.parts_below(1), (std::vector<NodeId>{4, 5, 6, 7}));
+    EXPECT_EQ(document().tree.parts_below(root_node),
+              (std::vector<NodeId>{NodeId(4), NodeId(5), NodeId(6), NodeId(7)}));
     finish();
     const Document& d = document();
     EXPECT_EQ(d.kind, Document::Kind::surface);
@@ -231,14 +232,15 @@ TEST_F(OwnRun, FillsTheDocumentAsItGoes) {
     EXPECT_TRUE(d.options.output.empty());
     EXPECT_EQ(d.progress.parts_done, 4);
     for (const TreeRow& row : d.tree.rows) {
-        SCOPED_TRACE(row.id);
-        EXPECT_EQ(row.state, row.id < 4 ? NodeState::divided : NodeState::done);
-        EXPECT_EQ(row.plane() != nullptr, row.id < 4);
-        EXPECT_EQ(row.tets > 0, row.id >= 4);
+        SCOPED_TRACE(row.id.value());
+        const int level = level_of(row.id);
+        EXPECT_EQ(row.state, level < 2 ? NodeState::divided : NodeState::done);
+        EXPECT_EQ(row.plane() != nullptr, level < 2);
+        EXPECT_EQ(row.tets > 0, level == 2);
         EXPECT_GT(row.facets, 0);
         EXPECT_GT(row.volume, 0);
         EXPECT_TRUE(row.centroid);
-        EXPECT_EQ(row.leaves, row.id == 1 ? 4 : row.id < 4 ? 2 : 1);
+        EXPECT_EQ(row.leaves, 4 >> level);
     }
     for (const auto& histogram : d.histograms) {
         ASSERT_TRUE(histogram);
@@ -248,7 +250,7 @@ TEST_F(OwnRun, FillsTheDocumentAsItGoes) {
             all += histogram->all[i];
             both += histogram->interface[i] + histogram->interior[i];
         }
-        for (const NodeId part : d.tree.parts_below(1)) tets += d.tree.find(part)->tets;
+        for (const NodeId part : d.tree.parts_below(root_node)) tets += d.tree.find(part)->tets;
         EXPECT_EQ(all, tets);
         EXPECT_EQ(both, tets);
     }
@@ -264,14 +266,14 @@ TEST_F(OwnRun, TheRunBeforeIsKeptForComparison) {
     session_.start_run(options(3), true);
     finish();
     ASSERT_TRUE(session_.other_document());
-    EXPECT_EQ(session_.other_document()->tree.parts_below(1).size(), 4u);
-    EXPECT_EQ(document().tree.parts_below(1).size(), 3u);
+    EXPECT_EQ(session_.other_document()->tree.parts_below(root_node).size(), 4u);
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 3u);
     EXPECT_EQ(scratch_folders().size(), 2u);
     session_.start_run(options(1000000), true);  // too many
     ASSERT_TRUE(settle(session_));
     EXPECT_NE(document().progress.message.find("too few"), std::string::npos) << document().progress.message;
-    EXPECT_EQ(document().tree.parts_below(1).size(), 3u);
-    for (const NodeId part : document().tree.parts_below(1))
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 3u);
+    for (const NodeId part : document().tree.parts_below(root_node))
         EXPECT_TRUE(get(session_, [&] { return session_.fetched().cells(part); }));
 }
 
@@ -281,8 +283,8 @@ TEST_F(OwnRun, WithoutTetrahedra) {
     start("pipe_with_holes", given, false);
     finish();
     EXPECT_EQ(document().folder, folder_.file("surfaces"));
-    EXPECT_EQ(document().tree.parts_below(1).size(), 5u);
-    for (const NodeId part : document().tree.parts_below(1)) {
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 5u);
+    for (const NodeId part : document().tree.parts_below(root_node)) {
         EXPECT_EQ(document().tree.find(part)->state, NodeState::waiting);
         EXPECT_TRUE(get(session_, [&] { return session_.fetched().part_surface(part); }));
         EXPECT_EQ(session_.fetched().cells(part), nullptr);
@@ -311,7 +313,7 @@ TEST_F(OwnRun, CanBeCancelled) {
     EXPECT_FALSE(fs::exists(folder_.file("fine")));
     EXPECT_TRUE(document().trace);
     for (const TreeRow& row : document().tree.rows) EXPECT_NE(row.state, NodeState::meshing);
-    EXPECT_TRUE(get(session_, [&] { return session_.fetched().surface(2); }));
+    EXPECT_TRUE(get(session_, [&] { return session_.fetched().surface(NodeId(2)); }));
     session_.cancel_run();  // there is none
 }
 
@@ -341,7 +343,7 @@ TEST_F(OwnRun, OfATraceWhoseSurfaceIsGone) {
     const std::shared_ptr<const Trace> before = document().trace;
     session_.start_run(options(4), true);
     finish();
-    EXPECT_EQ(document().tree.parts_below(1).size(), 4u);
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 4u);
     EXPECT_TRUE(to_bytes(document().trace->surface) == to_bytes(before->surface));
     EXPECT_NEAR(document().volume, 22, 1e-6);
 }
@@ -373,7 +375,7 @@ TEST_F(Data, SurfacesOfTraceAndFolderAgree) {
     ASSERT_EQ(by_trace_.document().tree.rows.size(), 9u);
     EXPECT_TRUE(by_trace_.document().box.isApprox(by_folder_.document().box));
     for (const TreeRow& row : tree.rows) {
-        SCOPED_TRACE(row.id);
+        SCOPED_TRACE(row.id.value());
         const auto a = get(by_trace_, [&] { return by_trace_.fetched().surface(row.id); });
         const auto b = get(by_folder_, [&] { return by_folder_.fetched().surface(row.id); });
         ASSERT_TRUE(a) << failures_of(by_trace_);
@@ -410,7 +412,7 @@ TEST_F(Data, SurfacesOfTraceAndFolderAgree) {
     }
     // The facets of the input are shared out; each interface is there twice.
     std::int64_t facets = 0, interfaces = 0;
-    for (const NodeId part : tree.parts_below(1)) facets += tree.find(part)->facets;
+    for (const NodeId part : tree.parts_below(root_node)) facets += tree.find(part)->facets;
     for (const TreeRow& row : tree.rows) interfaces += row.leaf() ? 0 : row.cut->interface_faces;
     EXPECT_EQ(facets, by_folder_.document().input_facets + 2 * interfaces);
 }
@@ -425,13 +427,13 @@ TEST_F(SessionTest, SurfacesOfStraightCutsAreClosed) {
     session_.start_run(as_it_is, true);
     ASSERT_TRUE(settle(session_));
     ASSERT_TRUE(document().trace) << document().progress.message;
-    ASSERT_EQ(document().tree.parts_below(1).size(), 6u);
-    EXPECT_EQ(document().tree.find(1)->cut->strategy, CutStrategy::straight);
+    ASSERT_EQ(document().tree.parts_below(root_node).size(), 6u);
+    EXPECT_EQ(document().tree.find(root_node)->cut->strategy, CutStrategy::straight);
     Session folder{test::kerf_program()};
     folder.open(document().folder);
     ASSERT_TRUE(settle(folder));
     for (const TreeRow& row : document().tree.rows) {
-        SCOPED_TRACE(row.id);
+        SCOPED_TRACE(row.id.value());
         for (Session* session : {&session_, &folder}) {
             const auto surface = get(*session, [&] { return session->fetched().surface(row.id); });
             ASSERT_TRUE(surface) << failures_of(*session);
@@ -447,7 +449,7 @@ TEST_F(Data, ATraceGivesTheNumbersThatItsCutsReferTo) {
     Replayer replayer(by_trace_.document().trace, 0);
     for (const TreeRow& row : by_trace_.document().tree.rows) {
         const Surface expected = replay(trace, row.id);
-        EXPECT_TRUE(to_bytes(replayer.surface(row.id)->arrays()) == to_bytes(expected.arrays())) << row.id;
+        EXPECT_TRUE(to_bytes(replayer.surface(row.id)->arrays()) == to_bytes(expected.arrays())) << row.id.value();
         const auto surface = get(by_trace_, [&] { return by_trace_.fetched().surface(row.id); });
         EXPECT_EQ(surface->vertices, expected.arrays().vertices);
         EXPECT_EQ(surface->facets, expected.arrays().facets);
@@ -456,8 +458,8 @@ TEST_F(Data, ATraceGivesTheNumbersThatItsCutsReferTo) {
 
 TEST_F(Data, PartsHaveTheirSurfacesAndCells) {
     open_apart();
-    for (const NodeId part : by_folder_.document().tree.parts_below(1)) {
-        SCOPED_TRACE(part);
+    for (const NodeId part : by_folder_.document().tree.parts_below(root_node)) {
+        SCOPED_TRACE(part.value());
         const TreeRow& row = *by_folder_.document().tree.find(part);
         const auto surface = get(by_folder_, [&] { return by_folder_.fetched().part_surface(part); });
         const auto cells = get(by_folder_, [&] { return by_folder_.fetched().cells(part); });
@@ -476,19 +478,19 @@ TEST_F(Data, PartsHaveTheirSurfacesAndCells) {
                 tet_quality(cells->vertices[a], cells->vertices[b], cells->vertices[c], cells->vertices[d]).volume;
         EXPECT_NEAR(volume, row.volume, 1e-9 * row.volume);
         for (std::size_t f = 0; f < surface->facets.size(); ++f) {
-            EXPECT_EQ(surface->neighbour[f] < 0, surface->interface_of[f] == 0);
+            EXPECT_EQ(surface->neighbour[f].is_valid(), surface->interface_of[f] != no_node);
             const auto& tet = cells->tets.at(static_cast<std::size_t>(cells->tet_at_facet[f]));
             for (const std::int32_t v : surface->facets[f])
                 EXPECT_TRUE(std::find(tet.begin(), tet.end(), v) != tet.end());
-            if (surface->neighbour[f] >= 0) {
+            if (surface->neighbour[f].is_valid()) {
                 EXPECT_TRUE(cells->at_interface[static_cast<std::size_t>(cells->tet_at_facet[f])]);
                 EXPECT_TRUE(lies_below(part, surface->interface_of[f]));
                 EXPECT_TRUE(lies_below(surface->neighbour[f], surface->interface_of[f]));
             }
         }
     }
-    EXPECT_EQ(by_folder_.fetched().cells(1), nullptr);
-    EXPECT_EQ(by_folder_.fetched().part_surface(2), nullptr);
+    EXPECT_EQ(by_folder_.fetched().cells(root_node), nullptr);
+    EXPECT_EQ(by_folder_.fetched().part_surface(NodeId(2)), nullptr);
     EXPECT_FALSE(by_folder_.pending());
 }
 
@@ -519,7 +521,7 @@ TEST_F(Data, ValuesAreThoseOfTheCells) {
     by_folder_.open(folder_.file("run"));
     ASSERT_TRUE(settle(by_folder_));
     ASSERT_TRUE(by_folder_.document().trace) << "the report says where the trace is";
-    const std::vector<NodeId> parts = by_folder_.document().tree.parts_below(1);
+    const std::vector<NodeId> parts = by_folder_.document().tree.parts_below(root_node);
     for (const ColorBy color : {ColorBy::kind, ColorBy::origin, ColorBy::min_dihedral, ColorBy::radius_edge,
                                 ColorBy::aspect, ColorBy::shape, ColorBy::volume, ColorBy::edge_length}) {
         SCOPED_TRACE(name(color));
@@ -569,7 +571,7 @@ TEST_F(SessionTest, CellsAreOfTheCoreTheShellOrAnotherMesher) {
     open(folder_.file("run"));
     const auto check = [&](NodeId part, const std::vector<float>& origins, const PartCells& cells) {
         for (std::size_t i = 0; i < origins.size(); ++i) {
-            const CellOrigin expected = part == 3                         ? CellOrigin::other
+            const CellOrigin expected = part == NodeId(3)                 ? CellOrigin::other
                                         : static_cast<int>(i) < core_tets ? CellOrigin::core
                                                                           : CellOrigin::shell;
             ASSERT_EQ(origins[i], static_cast<float>(expected)) << i;
@@ -579,8 +581,8 @@ TEST_F(SessionTest, CellsAreOfTheCoreTheShellOrAnotherMesher) {
         for (std::size_t f = 0; f < at_facets->size(); ++f)
             ASSERT_EQ((*at_facets)[f], origins[static_cast<std::size_t>(cells.tet_at_facet[f])]);
     };
-    for (const NodeId part : {2, 3}) {
-        SCOPED_TRACE(part);
+    for (const NodeId part : {NodeId(2), NodeId(3)}) {
+        SCOPED_TRACE(part.value());
         // Without the cells, and with them.
         const auto origins = get(session_, [&] { return session_.fetched().cell_values(part, ColorBy::origin); });
         const auto cells = get(session_, [&] { return session_.fetched().cells(part); });
@@ -589,13 +591,13 @@ TEST_F(SessionTest, CellsAreOfTheCoreTheShellOrAnotherMesher) {
         ASSERT_EQ(origins->size(), cells->tets.size());
         check(part, *origins, *cells);
     }
-    EXPECT_EQ(document().tree.find(2)->filled_by, "core and shell");
-    EXPECT_EQ(document().tree.find(3)->filled_by, "TetGen");
+    EXPECT_EQ(document().tree.find(NodeId(2))->filled_by, "core and shell");
+    EXPECT_EQ(document().tree.find(NodeId(3))->filled_by, "TetGen");
 }
 
 TEST_F(Data, WhatCannotBeReadIsSaidOnce) {
     open_apart();
-    const NodeId part = by_folder_.document().tree.parts_below(1).front();
+    const NodeId part = by_folder_.document().tree.parts_below(root_node).front();
     fs::resize_file(part_file_of(folder_.file("run"), part), 1000);
     EXPECT_EQ(get(by_folder_, [&] { return by_folder_.fetched().cells(part); }), nullptr);
     EXPECT_EQ(get(by_folder_, [&] { return by_folder_.fetched().cells(part); }), nullptr);
@@ -627,76 +629,76 @@ TEST_F(Data, ACutMadeAgainWithTheSameOptionsIsTheSame) {
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
     ASSERT_TRUE(old);
     EXPECT_EQ(by_folder_.other_document(), nullptr);
-    by_folder_.pair().redo_cut(2, test::request_of(*old));
-    by_folder_.pair().redo_cut(1, test::request_of(*old));
+    by_folder_.pair().redo_cut(NodeId(2), test::request_of(*old));
+    by_folder_.pair().redo_cut(root_node, test::request_of(*old));
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     const Document& d = by_folder_.document();
     EXPECT_NE(d.trace, old);
-    ASSERT_TRUE(d.trace->find(1));
-    EXPECT_TRUE(without_time(*d.trace->find(1)) == without_time(*old->find(1)));
+    ASSERT_TRUE(d.trace->find(root_node));
+    EXPECT_TRUE(without_time(*d.trace->find(root_node)) == without_time(*old->find(root_node)));
     EXPECT_EQ(d.trace->cuts.size(), 1u) << "those below are gone";
     ASSERT_TRUE(by_folder_.other_document());
-    EXPECT_TRUE(to_bytes(*by_folder_.other_document()->trace->find(1)) == to_bytes(*old->find(1)));
-    EXPECT_EQ(d.tree.parts_below(1), (std::vector<NodeId>{2, 3}));
-    EXPECT_EQ(d.tree.find(1)->leaves, 2);
-    EXPECT_EQ(by_folder_.fetched().cells(4), nullptr);
-    EXPECT_EQ(by_folder_.fetched().cells(2), nullptr);
-    EXPECT_EQ(by_folder_.fetched().part_surface(2), nullptr);
-    const auto surface = get(by_folder_, [&] { return by_folder_.fetched().surface(3); });
+    EXPECT_TRUE(to_bytes(*by_folder_.other_document()->trace->find(root_node)) == to_bytes(*old->find(root_node)));
+    EXPECT_EQ(d.tree.parts_below(root_node), (std::vector<NodeId>{NodeId(2), NodeId(3)}));
+    EXPECT_EQ(d.tree.find(root_node)->leaves, 2);
+    EXPECT_EQ(by_folder_.fetched().cells(NodeId(4)), nullptr);
+    EXPECT_EQ(by_folder_.fetched().cells(NodeId(2)), nullptr);
+    EXPECT_EQ(by_folder_.fetched().part_surface(NodeId(2)), nullptr);
+    const auto surface = get(by_folder_, [&] { return by_folder_.fetched().surface(NodeId(3)); });
     ASSERT_TRUE(surface);
-    EXPECT_EQ(surface->facets, replay(*old, 3).arrays().facets);
+    EXPECT_EQ(surface->facets, replay(*old, NodeId(3)).arrays().facets);
 }
 
 TEST_F(Data, ACutMadeAgainWithOtherOptionsTakesItsPlace) {
     by_folder_.open(folder_.file("run"));
     ASSERT_TRUE(settle(by_folder_));
     const std::shared_ptr<const Trace> old = by_folder_.document().trace;
-    ASSERT_TRUE(old && old->find(2));
+    ASSERT_TRUE(old && old->find(NodeId(2)));
     const std::size_t nodes = by_folder_.document().tree.rows.size();
     RunRequest other = test::request_of(*old);
     other.cut.criterion = Criterion::volume;
     other.cut.axis = 2;
-    by_folder_.pair().redo_cut(2, other);
+    by_folder_.pair().redo_cut(NodeId(2), other);
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
     const Document& d = by_folder_.document();
-    ASSERT_TRUE(d.trace->find(2) && d.trace->find(2)->made());
-    EXPECT_EQ(d.trace->find(2)->plane.normal.cwiseAbs().z(), 1);
-    EXPECT_NE(d.trace->find(2)->plane.normal, old->find(2)->plane.normal);
+    ASSERT_TRUE(d.trace->find(NodeId(2)) && d.trace->find(NodeId(2))->made());
+    EXPECT_EQ(d.trace->find(NodeId(2))->plane.normal.cwiseAbs().z(), 1);
+    EXPECT_NE(d.trace->find(NodeId(2))->plane.normal, old->find(NodeId(2))->plane.normal);
     ASSERT_TRUE(by_folder_.other_document());
     EXPECT_EQ(by_folder_.other_document()->trace, old);
     EXPECT_LE(d.tree.rows.size(), nodes);
-    EXPECT_EQ(d.tree.find(2)->plane()->normal, d.trace->find(2)->plane.normal);
+    EXPECT_EQ(d.tree.find(NodeId(2))->plane()->normal, d.trace->find(NodeId(2))->plane.normal);
     double volume = 0;
-    for (const NodeId half : {4, 5}) {
+    for (const NodeId half : {NodeId(4), NodeId(5)}) {
         const auto surface = get(by_folder_, [&] { return by_folder_.fetched().surface(half); });
         ASSERT_TRUE(surface);
         EXPECT_TRUE(is_closed(*surface));
         EXPECT_EQ(static_cast<std::int64_t>(surface->facets.size()), d.tree.find(half)->facets);
         volume += volume_of(*surface);
     }
-    EXPECT_NEAR(volume, d.tree.find(2)->volume, 1e-9 * volume);
-    for (const NodeId part : d.tree.parts_below(3))  // the others are as they were
+    EXPECT_NEAR(volume, d.tree.find(NodeId(2))->volume, 1e-9 * volume);
+    for (const NodeId part : d.tree.parts_below(NodeId(3)))  // the others are as they were
         EXPECT_TRUE(get(by_folder_, [&] { return by_folder_.fetched().cells(part); }));
     // A part may be cut, too, also by a straight cut.
     other.cut.contour = ContourMethod::straight;
-    by_folder_.pair().redo_cut(4, other);
+    by_folder_.pair().redo_cut(NodeId(4), other);
     ASSERT_TRUE(settle(by_folder_));
     EXPECT_EQ(failures_of(by_folder_), "");
-    ASSERT_TRUE(d.trace->find(4));
-    EXPECT_EQ(d.trace->find(4)->strategy, CutStrategy::straight);
-    const auto split = get(by_folder_, [&] { return by_folder_.fetched().surface(4); });
-    EXPECT_EQ(split->facets, d.trace->find(4)->split_parent.facets);
+    ASSERT_TRUE(d.trace->find(NodeId(4)));
+    EXPECT_EQ(d.trace->find(NodeId(4))->strategy, CutStrategy::straight);
+    const auto split = get(by_folder_, [&] { return by_folder_.fetched().surface(NodeId(4)); });
+    EXPECT_EQ(split->facets, d.trace->find(NodeId(4))->split_parent.facets);
     volume = 0;
-    for (const NodeId half : {8, 9})
+    for (const NodeId half : {NodeId(8), NodeId(9)})
         volume += volume_of(*get(by_folder_, [&] { return by_folder_.fetched().surface(half); }));
     EXPECT_NEAR(volume, volume_of(*split), 1e-9 * volume);
 }
 
 TEST_F(SessionTest, ACutIsMadeAgainOnlyInATrace) {
     open(test::asset_path("cube"));
-    session_.pair().redo_cut(1, {});
+    session_.pair().redo_cut(root_node, {});
     ASSERT_TRUE(settle(session_));
     EXPECT_EQ(session_.failures().size(), 1u);
 }
@@ -716,17 +718,17 @@ TEST_F(SessionTest, FollowsTheFolderOfARunUnderWay) {
     EXPECT_FALSE(document().progress.ours);
     EXPECT_EQ(document().kind, Document::Kind::run);
     EXPECT_TRUE(document().soup);
-    EXPECT_EQ(document().tree.parts_below(1).size(), 6u);
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 6u);
     EXPECT_LT(document().progress.parts_done, 6);
     ::kill(run.process(), SIGCONT);
     ASSERT_TRUE(reach(session_, [&] { return !document().progress.running; }));
     EXPECT_EQ(document().progress.message, "");
     EXPECT_EQ(run.wait().exit_code, 0);
     EXPECT_EQ(document().folder, output);
-    EXPECT_EQ(document().tree.parts_below(1).size(), 6u);
-    for (const NodeId part : document().tree.parts_below(1))
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 6u);
+    for (const NodeId part : document().tree.parts_below(root_node))
         EXPECT_TRUE(get(session_, [&] { return session_.fetched().cells(part); })) << failures_of(session_);
-    const auto whole = get(session_, [&] { return session_.fetched().surface(1); });
+    const auto whole = get(session_, [&] { return session_.fetched().surface(root_node); });
     ASSERT_TRUE(whole);
     EXPECT_EQ(whole->facets.size(), 51840u);
 }
@@ -772,18 +774,18 @@ TEST_F(SessionTest, ShowsAnInterruptedRun) {
     entry->outcome.result.core_tets = 5;  // as if its mesher had stamped some
     write_journal_entry(file, *entry);
     open(output + ".kerf-partial");
-    const TreeRow& with_core = *document().tree.find(std::stoi(fs::path(file).filename()));
+    const TreeRow& with_core = *document().tree.find(NodeId(std::stoi(fs::path(file).filename())));
     EXPECT_EQ(with_core.core_tets, 5);
     EXPECT_EQ(with_core.filled_by, "core and shell");
     EXPECT_FALSE(document().progress.running);
     EXPECT_NE(document().progress.message.find("--resume"), std::string::npos);
     EXPECT_EQ(document().options.outputs.trace_file, "") << "another run shall not write over it";
     EXPECT_GE(document().progress.parts_done, 2);
-    EXPECT_EQ(document().tree.parts_below(1).size(), 12u);
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 12u);
     EXPECT_TRUE(document().trace);
-    EXPECT_TRUE(document().tree.find(1)->plane());
+    EXPECT_TRUE(document().tree.find(root_node)->plane());
     int done = 0;
-    for (const NodeId part : document().tree.parts_below(1)) {
+    for (const NodeId part : document().tree.parts_below(root_node)) {
         EXPECT_TRUE(get(session_, [&] { return session_.fetched().part_surface(part); }));
         if (document().tree.find(part)->state != NodeState::done) continue;
         ++done;
@@ -813,20 +815,20 @@ TEST_F(SessionTest, FollowsAnEventsFile) {
     ASSERT_TRUE(reach(session_, [&] { return document().trace != nullptr; }));
     EXPECT_EQ(document().progress.stage, "volume");
     EXPECT_EQ(document().progress.parts, 4);
-    EXPECT_EQ(document().tree.parts_below(1).size(), 4u);
-    EXPECT_GT(document().tree.find(4)->load, 0);
+    EXPECT_EQ(document().tree.parts_below(root_node).size(), 4u);
+    EXPECT_GT(document().tree.find(NodeId(4))->load, 0);
     const std::size_t end = whole.find("{\"event\":\"end\"");
     out << whole.substr(half, end - half) << std::flush;
     ASSERT_TRUE(reach(session_, [&] { return document().progress.parts_done == 4; }));
     EXPECT_TRUE(document().progress.running);
-    for (const NodeId part : document().tree.parts_below(1))
+    for (const NodeId part : document().tree.parts_below(root_node))
         EXPECT_EQ(document().tree.find(part)->state, NodeState::done);
     out << whole.substr(end) << std::flush;
     ASSERT_TRUE(reach(session_, [&] { return !document().progress.running; }));
     EXPECT_EQ(document().folder, folder_.file("run"));
     EXPECT_TRUE(document().trace);
     EXPECT_TRUE(document().histograms[0]);
-    EXPECT_TRUE(get(session_, [&] { return session_.fetched().cells(5); }));
+    EXPECT_TRUE(get(session_, [&] { return session_.fetched().cells(NodeId(5)); }));
     EXPECT_EQ(failures_of(session_), "");
 
     open(events);  // the whole at once
@@ -844,8 +846,8 @@ TEST_F(SessionTest, EventsOfAFailedRunSayWhy) {
     open(folder_.file("events"));
     EXPECT_FALSE(document().progress.running);
     EXPECT_EQ(document().progress.message, "It is open.");
-    EXPECT_EQ(document().tree.parts_below(1), (std::vector<NodeId>{2, 3}));
-    EXPECT_EQ(session_.fetched().surface(1), nullptr);
+    EXPECT_EQ(document().tree.parts_below(root_node), (std::vector<NodeId>{NodeId(2), NodeId(3)}));
+    EXPECT_EQ(session_.fetched().surface(root_node), nullptr);
 }
 
 TEST_F(SessionTest, EventsSayWhatHasFilledAPart) {
@@ -857,10 +859,11 @@ TEST_F(SessionTest, EventsSayWhatHasFilledAPart) {
         << R"({"event":"part","id":3,"state":"done","mesher":"tetgen","parts_done":2,"parts":2,"load_done":1})" << '\n';
     open(folder_.file("events"));
     const Tree& tree = document().tree;
-    ASSERT_TRUE(tree.find(2) && tree.find(3)) << document().error;
-    EXPECT_EQ(std::pair(tree.find(2)->core_tets, tree.find(2)->filled_by),
+    ASSERT_TRUE(tree.find(NodeId(2)) && tree.find(NodeId(3))) << document().error;
+    EXPECT_EQ(std::pair(tree.find(NodeId(2))->core_tets, tree.find(NodeId(2))->filled_by),
               std::pair(std::int64_t{7}, "core and shell"s));
-    EXPECT_EQ(std::pair(tree.find(3)->core_tets, tree.find(3)->filled_by), std::pair(std::int64_t{0}, "TetGen"s));
+    EXPECT_EQ(std::pair(tree.find(NodeId(3))->core_tets, tree.find(NodeId(3))->filled_by),
+              std::pair(std::int64_t{0}, "TetGen"s));
 }
 
 // --- parts of it ---
@@ -868,8 +871,8 @@ TEST_F(SessionTest, EventsSayWhatHasFilledAPart) {
 TEST(StoreTest, KeepsTheLimitButWhatIsInUse) {
     Store store(100);
     const auto value = std::make_shared<const int>(7);
-    const auto key = [](NodeId node) { return Store::Key{Store::Kind::cells, node}; };
-    for (NodeId node = 1; node <= 5; ++node) {
+    const auto key = [](int node) { return Store::Key{Store::Kind::cells, NodeId(node)}; };
+    for (int node = 1; node <= 5; ++node) {
         store.next_frame();
         store.next_frame();
         store.insert(key(node), value, 30);
@@ -884,7 +887,7 @@ TEST(StoreTest, KeepsTheLimitButWhatIsInUse) {
     store.insert(key(6), value, 30);
     EXPECT_TRUE(store.holds(key(3))) << "used since";
     EXPECT_FALSE(store.holds(key(4)));
-    for (NodeId node = 10; node < 20; ++node) store.insert(key(node), value, 30);  // all in one frame
+    for (int node = 10; node < 20; ++node) store.insert(key(node), value, 30);  // all in one frame
     EXPECT_TRUE(store.is_full());
     EXPECT_TRUE(store.holds(key(10)));
     EXPECT_GE(store.bytes(), 300u);
@@ -894,7 +897,7 @@ TEST(StoreTest, KeepsTheLimitButWhatIsInUse) {
     store.insert(key(30), value, 30);
     EXPECT_LE(store.bytes(), 100u);
     store.insert(key(30), value, 10);  // replaced
-    store.erase_if([](const Store::Key& k) { return k.node != 30; });
+    store.erase_if([](const Store::Key& k) { return k.node != NodeId(30); });
     EXPECT_EQ(store.bytes(), 10u);
     store.clear();
     EXPECT_EQ(store.bytes(), 0u);
@@ -942,26 +945,26 @@ TEST(CommandLine, HoldsWhatDiffersFromTheDefaults) {
     options.mesher.improve = false;
     options.mesher.tetgen.switches = "q1.2";
     EXPECT_EQ(command_line_of(options, false),
-              (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8",
-                                        "--size=0.1", "--axis=z", "--no-improve", "--workers=3",
-                                        "--tetgen-switches=q1.2", "--stl"}));
+              (std::vector<std::string>{"decompose", "/a b.stl", "--output=/out", "--quiet", "--parts=8", "--size=0.1",
+                                        "--axis=z", "--no-improve", "--workers=3", "--tetgen-switches=q1.2", "--stl"}));
 }
 
 TEST(TreeTest, FindsAndOrders) {
     Tree tree;
-    for (const NodeId id : {1, 2, 3, 6, 7, 13, 12}) tree.at(id);
-    for (const NodeId id : {1, 3, 6}) tree.find(id)->state = NodeState::divided;
-    EXPECT_EQ(tree.find(5), nullptr);
+    for (const NodeId id : {root_node, NodeId(2), NodeId(3), NodeId(6), NodeId(7), NodeId(13), NodeId(12)}) tree.at(id);
+    for (const NodeId id : {root_node, NodeId(3), NodeId(6)}) tree.find(id)->state = NodeState::divided;
+    EXPECT_EQ(tree.find(NodeId(5)), nullptr);
     EXPECT_EQ(tree.levels(), 4);
-    EXPECT_EQ(tree.parts_below(1), (std::vector<NodeId>{2, 7, 12, 13}));
-    EXPECT_EQ(tree.parts_below(6), (std::vector<NodeId>{12, 13}));
-    EXPECT_EQ(tree.parts_below(7), (std::vector<NodeId>{7}));
+    EXPECT_EQ(tree.parts_below(root_node), (std::vector<NodeId>{NodeId(2), NodeId(7), NodeId(12), NodeId(13)}));
+    EXPECT_EQ(tree.parts_below(NodeId(6)), (std::vector<NodeId>{NodeId(12), NodeId(13)}));
+    EXPECT_EQ(tree.parts_below(NodeId(7)), (std::vector<NodeId>{NodeId(7)}));
     std::vector<NodeId> order;
     for (const TreeRow* row : tree.in_order()) order.push_back(row->id);
-    EXPECT_EQ(order, (std::vector<NodeId>{1, 2, 3, 6, 12, 13, 7}));
-    EXPECT_EQ(common_ancestor(12, 7), 3);
-    EXPECT_EQ(common_ancestor(2, 13), 1);
-    EXPECT_EQ(common_ancestor(6, 13), 6);
+    EXPECT_EQ(order,
+              (std::vector<NodeId>{root_node, NodeId(2), NodeId(3), NodeId(6), NodeId(12), NodeId(13), NodeId(7)}));
+    EXPECT_EQ(common_ancestor(NodeId(12), NodeId(7)), NodeId(3));
+    EXPECT_EQ(common_ancestor(NodeId(2), NodeId(13)), root_node);
+    EXPECT_EQ(common_ancestor(NodeId(6), NodeId(13)), NodeId(6));
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST_F(SolvedCube, TellsWhatIsAtAPlace) {
     ViewState& state = driver_->state();
     state.coloring.by = ColorBy::von_mises;
     driver_->settle();
-    const NodeId part = 2;
+    const NodeId part(2);
     const auto surface = driver_->app().session().fetched().part_surface(part);
     ASSERT_TRUE(surface);
     const Selection vertex = {Selection::Kind::vertex, part, 0, surface->vertices[0]};

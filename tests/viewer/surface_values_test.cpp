@@ -52,7 +52,7 @@ TEST(Distances, AreThoseOfTheFacet) {
         EXPECT_FLOAT_EQ(distances[f], reaches_top || std::max({z(0), z(1), z(2)}) < 0.5 ? 0.25f : 0.f);
     }
     NodeSurface with_interface = box;
-    with_interface.interface_of[3] = 1;
+    with_interface.interface_of[3] = root_node;
     EXPECT_TRUE(std::isnan(distances_of_facets(with_interface, box)[3]));
 }
 
@@ -65,7 +65,7 @@ TEST(Features, AreSharpEdgesAndBordersOfPatches) {
     NodeSurface sphere = node_surface_of(test::icosphere(1));
     sphere.patch[7] = 1;
     EXPECT_EQ(feature_edges(sphere).size(), 3u);
-    sphere.interface_of[7] = 1;
+    sphere.interface_of[7] = root_node;
     EXPECT_TRUE(feature_edges(sphere).empty()) << "of an interface";
 }
 
@@ -154,10 +154,10 @@ class RemeshedRun : public testing::Test {
     // Both surfaces and their distances, as every way to open the run has to show them.
     void expect_both_surfaces() {
         ASSERT_TRUE(session_.document().remeshed);
-        EXPECT_EQ(steps_of(session_.document(), 1).front(), (Step{Stage::before_remeshing, -1}));
-        EXPECT_EQ(steps_of(session_.document(), 2).front(), (Step{Stage::input, -1}));
-        const auto before = get([&] { return session_.fetched().surface(0); });
-        const auto after = get([&] { return session_.fetched().surface(1); });
+        EXPECT_EQ(steps_of(session_.document(), root_node).front(), (Step{Stage::before_remeshing, -1}));
+        EXPECT_EQ(steps_of(session_.document(), NodeId(2)).front(), (Step{Stage::input, -1}));
+        const auto before = get([&] { return session_.fetched().surface(not_remeshed); });
+        const auto after = get([&] { return session_.fetched().surface(root_node); });
         ASSERT_TRUE(before && after);
         EXPECT_EQ(before->facets.size(), soup_.facets.size());
         EXPECT_GT(after->facets.size(), 2 * soup_.facets.size());
@@ -190,12 +190,12 @@ TEST_F(RemeshedRun, ShowsWhatWasThereBefore) {
     ASSERT_TRUE(advice);
     EXPECT_EQ(words_of(*advice), "Remesh the surface");
     EXPECT_FALSE(session_.document().remeshed);
-    EXPECT_FALSE(session_.fetched().surface(0));
+    EXPECT_FALSE(session_.fetched().surface(not_remeshed));
     EXPECT_TRUE(why_without_values(session_.document(), ColorBy::deviation));
     run(true);
     EXPECT_TRUE(session_.document().notes.empty()) << "the advice was followed";
     expect_both_surfaces();
-    const auto part = get([&] { return session_.fetched().part_surface(2); });
+    const auto part = get([&] { return session_.fetched().part_surface(NodeId(2)); });
     const auto of_part = get([&] { return session_.fetched().values_on(part, ColorBy::deviation); });
     ASSERT_TRUE(of_part);
     for (std::size_t f = 0; f < part->facets.size(); ++f)
@@ -219,7 +219,7 @@ TEST_F(RemeshedRun, KnowsTheSizesThatWereAskedFor) {
     options.sizes.inside = {"sphere:1,1,1,0.2=0.1"};
     session_.start_run(options, false);
     ASSERT_TRUE(settle());
-    const auto surface = get([&] { return session_.fetched().surface(1); });
+    const auto surface = get([&] { return session_.fetched().surface(root_node); });
     const auto values = get([&] { return session_.fetched().values_on(surface, ColorBy::size); });
     ASSERT_TRUE(values);
     for (std::size_t v = 0; v < values->values.size(); ++v) {

@@ -62,7 +62,7 @@ TEST(Tour, TellsEveryStageOfEveryCut) {
             for (const Step& step : stops_of_tour(document, cut.node)) {
                 stages.insert(step.stage);
                 expect_sentences(tell(document, cut.node, step.stage),
-                                 fmt::format("{}, node {}, {}", c.asset, cut.node, name(step)));
+                                 fmt::format("{}, node {}, {}", c.asset, cut.node.value(), name(step)));
             }
             for (const Stage stage : {Stage::input, Stage::plane, Stage::contour, Stage::interface, Stage::split})
                 EXPECT_TRUE(stages.contains(stage)) << name(stage);
@@ -74,7 +74,7 @@ TEST(Tour, TellsEveryStageOfEveryCut) {
             EXPECT_TRUE(tells(Stage::interface, cut.interface.triangles.size()));
             EXPECT_TRUE(cut.stages.crossed_edges.empty() ||
                         tells(Stage::crossed_edges, cut.stages.crossed_edges.size()));
-            const TreeRow& below = *document.tree.find(2 * cut.node);
+            const TreeRow& below = *document.tree.find(child_of(cut.node, 0));
             EXPECT_NE(tell(document, cut.node, Stage::split).find(fmt::format("{:.4g}", below.volume)),
                       std::string::npos);
         }
@@ -100,7 +100,7 @@ TEST(Tour, LooksAtEveryStageFromBeforeThePlane) {
 TEST(Tour, GoesThroughTheStagesAndBackToWhatWasSeen) {
     Driver driver(run_of(4, ContourMethod::min_cut, true));
     driver.open(asset_path("cube"));
-    driver.state().node = 3;
+    driver.state().node = NodeId(3);
     driver.state().coloring.by = ColorBy::level;
     driver.settle();
     const ViewState before = driver.state();
@@ -108,11 +108,11 @@ TEST(Tour, GoesThroughTheStagesAndBackToWhatWasSeen) {
     driver.settle();
     ASSERT_TRUE(driver.offers("Next"));
     EXPECT_FALSE(driver.offers("Back"));
-    const std::vector<Step> stops = stops_of_tour(driver.document(), 3);
+    const std::vector<Step> stops = stops_of_tour(driver.document(), NodeId(3));
     ASSERT_GT(stops.size(), 6u);
     for (std::size_t i = 0; i < stops.size(); ++i) {
         EXPECT_EQ(driver.state().step, stops[i]) << i;
-        EXPECT_EQ(driver.state().node, 3);
+        EXPECT_EQ(driver.state().node, NodeId(3));
         if (i + 1 < stops.size()) driver.click("Next");
     }
     EXPECT_TRUE(driver.state().clip.on) << "the cells are cut open";
@@ -141,7 +141,7 @@ TEST(Tour, EndsWhereAnotherNodeIsChosen) {
     driver.settle();
     driver.click("node 3");
     driver.settle();
-    EXPECT_EQ(driver.state().node, 3);
+    EXPECT_EQ(driver.state().node, NodeId(3));
     EXPECT_FALSE(driver.app().widgets().find("Next"));
 }
 
@@ -150,15 +150,15 @@ TEST(Tour, FindsACut) {
     Driver::Options options = run_of(2, ContourMethod::min_cut, true);
     options.auto_run = false;
     Driver driver(options);
-    EXPECT_FALSE(node_of_tour(driver.document(), 1));
+    EXPECT_FALSE(node_of_tour(driver.document(), root_node));
     driver.open(asset_path("cube"));
     driver.key(key_of('T'));
     driver.await("a cut", [&] { return driver.app().widgets().find("Next").has_value(); });
     driver.settle();
-    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 2u);
+    EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 2u);
     EXPECT_EQ(driver.state().step.stage, Stage::input);
-    EXPECT_EQ(node_of_tour(driver.document(), 2), 1);
-    EXPECT_EQ(node_of_tour(driver.document(), 99), 1);
+    EXPECT_EQ(node_of_tour(driver.document(), NodeId(2)), root_node);
+    EXPECT_EQ(node_of_tour(driver.document(), NodeId(99)), root_node);
 }
 
 }  // namespace

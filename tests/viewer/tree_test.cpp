@@ -126,17 +126,17 @@ TEST_F(CutWing, SortsByTheHeadOfAColumn) {
 TEST_F(CutWing, FoldsWhatLiesBelowANode) {
     const std::vector<NodeId> all = listed();
     driver_->click("fold 2");
-    EXPECT_EQ(driver_->state().node, 1) << "it is not chosen by that";
+    EXPECT_EQ(driver_->state().node, root_node) << "it is not chosen by that";
     std::vector<NodeId> left = all;
-    std::erase_if(left, [](NodeId node) { return node != 2 && lies_below(node, 2); });
+    std::erase_if(left, [](NodeId node) { return node != NodeId(2) && lies_below(node, NodeId(2)); });
     EXPECT_EQ(listed(), left);
     driver_->click("node 2");
     EXPECT_EQ(listed(), left);
     driver_->key(key_down);
-    EXPECT_EQ(driver_->state().node, 4);
+    EXPECT_EQ(driver_->state().node, NodeId(4));
     EXPECT_EQ(listed(), all) << "what is shown is listed";
     driver_->click("fold 1");
-    EXPECT_EQ(listed(), std::vector<NodeId>{1});
+    EXPECT_EQ(listed(), std::vector<NodeId>{root_node});
     driver_->click("fold 1");
     EXPECT_EQ(listed(), all);
 }
@@ -144,7 +144,7 @@ TEST_F(CutWing, FoldsWhatLiesBelowANode) {
 // Left of the number of a node of the third level there are lines from the top of its row to the bottom.
 TEST_F(CutWing, LevelsHaveLines) {
     const Image picture = driver_->picture();
-    const auto lines_left_of = [&](NodeId node) {
+    const auto lines_left_of = [&](int node) {
         const ItemRect number = *driver_->app().widgets().find("node " + std::to_string(node));
         int lines = 0;
         for (int x = 2; x < static_cast<int>(number.left) - 16; ++x) {
@@ -274,7 +274,7 @@ TEST_F(CutWing, NothingIsPulledApartWhereThereIsOnePiece) {
 }
 
 TEST_F(CutWing, AllOfTheTextOfAStepIsSeen) {
-    for (const NodeId node : {1, 4}) {
+    for (const NodeId node : {root_node, NodeId(4)}) {
         driver_->state().node = node;
         driver_->settle();
         const std::vector<Step> steps = driver_->app().steps();
@@ -299,7 +299,7 @@ TEST(Timeline, IsReadableInTheSmallestWindow) {
     for (const Step& step : steps) {
         driver.state().step = step;
         driver.settle();
-        EXPECT_EQ(times_on_screen(describe_step(driver.document(), 1, step)), step.refused_try < 0 ? 1 : 2)
+        EXPECT_EQ(times_on_screen(describe_step(driver.document(), root_node, step)), step.refused_try < 0 ? 1 : 2)
             << name(step);
         const std::vector<std::string> words = words_on_screen();
         for (const Step& other : steps)

@@ -44,8 +44,9 @@ TEST(Ui, ASession) {
 
     // Opens a model by dropping it; it is cut and meshed.
     driver.drop(asset_path("hollow_box"));
-    driver.await("the run",
-                 [&] { return driver.document().tree.parts_below(1).size() == 4 && !driver.app().session().busy(); });
+    driver.await("the run", [&] {
+        return driver.document().tree.parts_below(root_node).size() == 4 && !driver.app().session().busy();
+    });
     const Image opened = driver.picture();
     EXPECT_GT(changed(empty, opened), 0.1) << "the body, and the tree beside it";
     EXPECT_EQ(driver.drawn(LayerKind::surface).triangles, 3786);
@@ -53,12 +54,12 @@ TEST(Ui, ASession) {
 
     // Node 3, smoothed contour, by the tree and the timeline.
     driver.click("node 3");
-    EXPECT_EQ(state.node, 3);
+    EXPECT_EQ(state.node, NodeId(3));
     driver.click("step contour");
     EXPECT_EQ(name(state.step), "contour");
     const Image contour = driver.picture();
     EXPECT_GT(changed(opened, contour), 0.05) << "a node instead of the whole, behind glass";
-    const Cut* cut = driver.document().trace->find(3);
+    const Cut* cut = driver.document().trace->find(NodeId(3));
     ASSERT_TRUE(cut);
     EXPECT_EQ(driver.drawn(LayerKind::contour).segments, cut->contour_edges);
     EXPECT_GT(driver.drawn(LayerKind::context).triangles, 0);
@@ -73,9 +74,9 @@ TEST(Ui, ASession) {
     EXPECT_EQ(changed(contour, driver.picture()), 0) << "the same step";
     EXPECT_EQ(driver.app().geometry_made(), made);
     driver.key(key_up);
-    EXPECT_EQ(state.node, 5) << "before 3 in the tree";
+    EXPECT_EQ(state.node, NodeId(5)) << "before 3 in the tree";
     driver.key(key_down);
-    EXPECT_EQ(state.node, 3);
+    EXPECT_EQ(state.node, NodeId(3));
 
     // Clips.
     driver.click("node 1");
@@ -87,7 +88,7 @@ TEST(Ui, ASession) {
     EXPECT_GT(changed(tetrahedra, clipped), 0.05) << "half of the body is gone";
     EXPECT_GT(driver.drawn(LayerKind::cells).triangles, 0);
     driver.click("Snap to cut of node 1");
-    const TreeRow& root = *driver.document().tree.find(1);
+    const TreeRow& root = *driver.document().tree.find(root_node);
     EXPECT_LT((state.clip.normal - root.plane()->normal).norm(), 1e-12);
     const Image snapped = driver.picture();
     EXPECT_GT(changed(clipped, snapped), 0.005) << "another half, seen from the same side";
@@ -179,17 +180,19 @@ TEST(Ui, HidesAndIsolatesFromTheTree) {
     state.step = {Stage::split, -1};
     const auto drawn_halves = [&] {
         driver.settle();
-        return std::pair(driver.drawn(LayerKind::half, 2).triangles, driver.drawn(LayerKind::half, 3).triangles);
+        return std::pair(driver.drawn(LayerKind::half, NodeId(2)).triangles,
+                         driver.drawn(LayerKind::half, NodeId(3)).triangles);
     };
-    const std::int64_t below = driver.document().tree.find(2)->facets, above = driver.document().tree.find(3)->facets;
+    const std::int64_t below = driver.document().tree.find(NodeId(2))->facets,
+                       above = driver.document().tree.find(NodeId(3))->facets;
     EXPECT_EQ(drawn_halves(), std::pair(below, above));
     driver.click("isolate 3");
-    EXPECT_EQ(state.visibility.isolated, 3);
+    EXPECT_EQ(state.visibility.isolated, NodeId(3));
     EXPECT_EQ(drawn_halves(), std::pair(std::int64_t{0}, above));
     driver.click("isolate 3");
     EXPECT_FALSE(state.visibility.isolated);
     driver.click("show 3");
-    EXPECT_EQ(state.visibility.hidden, std::vector<NodeId>{3});
+    EXPECT_EQ(state.visibility.hidden, std::vector<NodeId>{NodeId(3)});
     EXPECT_EQ(drawn_halves(), std::pair(below, std::int64_t{0}));
     driver.click("isolate 2");
     driver.click("Show all");
@@ -286,7 +289,7 @@ TEST(Ui, PicksTheFacetThatIsSeen) {
     options.auto_run = false;
     Driver driver(options);
     driver.open(asset_path("cylinder"));
-    const auto surface = driver.app().session().fetched().surface(1);
+    const auto surface = driver.app().session().fetched().surface(root_node);
     ASSERT_TRUE(surface);
     const Rectangle scene = driver.app().scene_area(), body = body_area(driver.state(), scene);
     const Camera camera = driver.app().camera();
@@ -356,7 +359,7 @@ TEST(Ui, HasEveryOptionUnderTheHeadingsOfTheHelp) {
 TEST(Ui, ChangesOptionsRunsAgainAndCompares) {
     Driver driver;
     driver.open(asset_path("cylinder"));
-    EXPECT_EQ(driver.document().tree.parts_below(1).size(), 4u);
+    EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 4u);
     driver.state().panels.parameters = true;
     driver.frame();
     driver.click("parts");
@@ -364,10 +367,11 @@ TEST(Ui, ChangesOptionsRunsAgainAndCompares) {
     driver.type("6");
     driver.key(key_enter);
     driver.click("Run all");
-    driver.await("six parts",
-                 [&] { return driver.document().tree.parts_below(1).size() == 6 && !driver.app().session().busy(); });
+    driver.await("six parts", [&] {
+        return driver.document().tree.parts_below(root_node).size() == 6 && !driver.app().session().busy();
+    });
     ASSERT_TRUE(driver.app().session().other_document());
-    EXPECT_EQ(driver.app().session().other_document()->tree.parts_below(1).size(), 4u);
+    EXPECT_EQ(driver.app().session().other_document()->tree.parts_below(root_node).size(), 4u);
 }
 
 // The button of a problem does what its text says, and then both surfaces can be seen.
@@ -434,7 +438,7 @@ TEST(Ui, PlaysThroughTheSteps) {
     std::set<std::string> seen;
     for (int i = 0; i < 500 && driver.app().facts().playing; ++i) {
         driver.frame(0.9f);
-        seen.insert(std::to_string(driver.state().node) + " " + name(driver.state().step));
+        seen.insert(std::to_string(driver.state().node.value()) + " " + name(driver.state().step));
     }
     EXPECT_FALSE(driver.app().facts().playing) << "it comes to an end";
     EXPECT_TRUE(seen.contains("1 contour") && seen.contains("3 triangulation") && seen.contains("7 tetrahedra"));

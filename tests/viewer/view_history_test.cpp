@@ -21,7 +21,7 @@ std::vector<ViewState> random_views(std::size_t count, unsigned seed) {
     while (views.size() < count) {
         ViewState view = views.back();
         view.camera.emplace().height = static_cast<double>(views.size());
-        if (random() % 2 == 0) view.node = static_cast<NodeId>(1 + random() % 8);
+        if (random() % 2 == 0) view.node = NodeId(1 + random() % 8);
         if (random() % 2 == 0) view.look.edges = !view.look.edges;
         views.push_back(view);
     }

@@ -24,7 +24,7 @@ Vec3 to_screen(const Projection& projection, const Frame& frame, const Vec3& poi
 
 ViewState unusual_state() {
     ViewState s;
-    s.node = 13;
+    s.node = NodeId(13);
     s.step = {Stage::plane, 4};
     s.camera = Camera{{1, 2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 7, false};
     s.look.shading = Shading::smooth;
@@ -45,14 +45,14 @@ ViewState unusual_state() {
     s.deformation.motion = Motion::rise;
     s.deformation.phase = 0.75;
     s.deformation.speed = 1.5;
-    s.visibility.hidden = {4, 11};
-    s.visibility.isolated = 3;
+    s.visibility.hidden = {NodeId(4), NodeId(11)};
+    s.visibility.isolated = NodeId(3);
     s.visibility.hidden_regions = {"bone", "cement \xe4"};
     s.visibility.glass_regions = {"void_1"};
     s.visibility.isolated_region = "cement";
     s.visibility.walls = s.explosion.regions = true;
     s.pick = PickMode::vertex;
-    s.selection = {Selection::Kind::cell, 12, 34, {5, 6, 7}};
+    s.selection = {Selection::Kind::cell, NodeId(12), 34, {5, 6, 7}};
     s.theme = Theme::dark;
     s.panels = {false, false, false, true, true, true, false};
     return s;
@@ -167,7 +167,7 @@ TEST(ViewState, TheUnusualOneDiffersInEveryField) {
 
 TEST(ViewState, MissingFieldsHaveTheirDefaults) {
     EXPECT_EQ(to_json(state_from_json("{}", "it")), to_json(ViewState()));
-    EXPECT_EQ(state_from_json(R"({"node": 5})", "it").node, 5);
+    EXPECT_EQ(state_from_json(R"({"node": 5})", "it").node, NodeId(5));
 }
 
 TEST(ViewState, RefusesWhatItDoesNotKnowAndNamesIt) {
@@ -193,13 +193,13 @@ TEST(ViewState, RefusesWhatItDoesNotKnowAndNamesIt) {
 
 TEST(ViewState, ANodeIsHiddenWithWhatLiesAboveIt) {
     ViewState s;
-    s.visibility.set_hidden(5, true);
-    s.visibility.set_hidden(5, true);
-    EXPECT_TRUE(s.visibility.is_hidden(5));
-    EXPECT_TRUE(s.visibility.is_hidden(21));
-    EXPECT_FALSE(s.visibility.is_hidden(2));
-    EXPECT_FALSE(s.visibility.is_hidden(4));
-    s.visibility.set_hidden(5, false);
+    s.visibility.set_hidden(NodeId(5), true);
+    s.visibility.set_hidden(NodeId(5), true);
+    EXPECT_TRUE(s.visibility.is_hidden(NodeId(5)));
+    EXPECT_TRUE(s.visibility.is_hidden(NodeId(21)));
+    EXPECT_FALSE(s.visibility.is_hidden(NodeId(2)));
+    EXPECT_FALSE(s.visibility.is_hidden(NodeId(4)));
+    s.visibility.set_hidden(NodeId(5), false);
     EXPECT_TRUE(s.visibility.hidden.empty());
 }
 
@@ -340,7 +340,7 @@ TEST(ClipText, NamesAxesNormalsAndNodes) {
     EXPECT_FALSE(x.flipped);
     EXPECT_TRUE(clip_from_text("-z=0.5", {}, document).flipped);
     EXPECT_LT((clip_from_text("1,1,0=0.5", {}, document).normal - Vec3(1, 1, 0).normalized()).norm(), 1e-15);
-    TreeRow& row = document.tree.at(1);
+    TreeRow& row = document.tree.at(root_node);
     row.cut.emplace().strategy = CutStrategy::first_try;
     row.cut->plane = Plane(Vec3(11, 21, 30.5), Vec3(0, 0.6, 0.8));
     const ShownSide side = shown_side(clip_from_text("node=1", {}, document), box);
@@ -406,7 +406,7 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
     EXPECT_TRUE(good.screenshot && good.picture.panels);
     EXPECT_EQ(good.picture.width, 1600);
     EXPECT_EQ(good.picture.height, 1000);
-    EXPECT_EQ(good.state.node, 5);
+    EXPECT_EQ(good.state.node, NodeId(5));
     EXPECT_EQ(name(good.state.step), "contour");
     EXPECT_TRUE(good.state.clip.on);
     EXPECT_EQ(good.state.coloring.by, ColorBy::min_dihedral);

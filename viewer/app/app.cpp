@@ -85,7 +85,7 @@ void App::follow_session() {
     const Document& document = session.document();
     // A node that is asked for before the tree is known is waited for.
     const bool is_final = !session.busy() && !session.pending() && !document.progress.running;
-    if (is_final && !document.tree.rows.empty() && !document.tree.find(view_.state.node)) view_.state.node = 1;
+    if (is_final && !document.tree.rows.empty() && !document.tree.find(view_.state.node)) view_.state.node = root_node;
     view_.steps = steps_of(document, view_.shown().node);
     view_.facts.pending = session.pending();
 }

@@ -180,9 +180,9 @@ Clip clip_from_text(const std::string& text, const Clip& before, const Document&
     const std::string_view place = std::string_view(text).substr(0, equals);
     const std::string_view value = std::string_view(text).substr(equals + 1);
     if (place == "node") {
-        NodeId node = 0;
+        std::int32_t node = 0;
         if (!read_number(value, node) || node < 1) refuse_clip(text);
-        const TreeRow* row = document.tree.find(node);
+        const TreeRow* row = document.tree.find(NodeId(node));
         if (!row || !row->plane())
             throw Error(ErrorCode::usage,
                         fmt::format("Node {} was not cut, so that there is no plane to clip at.", node));

@@ -100,7 +100,7 @@ void Opening::redo_repair() {
 
 void Opening::show_before_repair(bool before) {
     view_.state.camera = view_.camera;
-    view_.state.node = 1;
+    view_.state.node = root_node;
     view_.state.step = {before ? Stage::before_repair : Stage::input, -1};
     view_.wake();
 }
@@ -110,7 +110,7 @@ void Opening::show_other() {
     if (view_.session.other_document())
         swap_runs();
     else if (view_.session.document().unrepaired)
-        show_before_repair(view_.state.node != 1 || view_.state.step.stage != Stage::before_repair);
+        show_before_repair(view_.state.node != root_node || view_.state.step.stage != Stage::before_repair);
 }
 
 // Numbers of facets and defects mean others in a repaired surface.

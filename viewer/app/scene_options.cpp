@@ -268,7 +268,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     if (!options.side.camera_file.empty())
         state.camera = camera_from_json(read_file(options.side.camera_file), options.side.camera_file);
     apply_view(options.side, command);
-    if (options.side.node > 0) state.node = options.side.node;
+    if (options.side.node > 0) state.node = NodeId(options.side.node);
     // Values that only cells have are not to be asked for in vain.
     const bool is_of_cells = !options.colors.by.empty() || options.clip.explode > 0 || options.clip.shrink > 0 ||
                              !options.colors.filter.empty() || !options.colors.deform.empty() || options.colors.vectors;
@@ -287,8 +287,8 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     apply_colors(options.colors, command);
     if (options.clip.explode >= 0) state.explosion.amount = options.clip.explode;
     if (options.clip.shrink >= 0) state.explosion.shrink = options.clip.shrink;
-    for (const NodeId node : options.side.hidden) state.visibility.set_hidden(node, true);
-    if (options.side.isolated > 0) state.visibility.isolated = options.side.isolated;
+    for (const std::int32_t node : options.side.hidden) state.visibility.set_hidden(NodeId(node), true);
+    if (options.side.isolated > 0) state.visibility.isolated = NodeId(options.side.isolated);
     apply_regions(options.regions, state);
     apply_look(options.look, state.look);
     if (!options.side.state_file.empty()) command.theme = state.theme;

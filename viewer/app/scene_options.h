@@ -15,8 +15,8 @@ namespace kerf::view {
 /// The options for the node, the step and the camera, and the file with a whole view.
 struct SideOptions {
     std::string state_file, camera_file, view, up, stage;
-    NodeId node = 0, isolated = 0;
-    std::vector<NodeId> hidden;
+    std::int32_t node = 0, isolated = 0;
+    std::vector<std::int32_t> hidden;
 };
 
 /// The options for the layers that are drawn.

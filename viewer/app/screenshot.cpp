@@ -45,7 +45,7 @@ bool needs_run(const Document& document, const ViewState& state) {
     const bool is_there = state.step == Step{} || (is_repaired && state.step == Step{Stage::before_repair, -1});
     const bool needs_values =
         is_of_surface(state.coloring.by) && !(is_repaired && state.coloring.by == ColorBy::deviation);
-    return state.node != 1 || !is_there || needs_values;
+    return state.node != root_node || !is_there || needs_values;
 }
 
 void wait_for_document(App& app, const ViewCommand& command, const Deadline& deadline) {
@@ -115,7 +115,7 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
     if (state.visibility.isolated) nodes.push_back(*state.visibility.isolated);
     for (const NodeId node : nodes)
         if (!document.tree.find(node))
-            refuse(document, fmt::format("The tree of {} has no node {}.", document.path, node));
+            refuse(document, fmt::format("The tree of {} has no node {}.", document.path, node.value()));
     check_regions(document, state);
     if (const char* why = why_without_values(document, state.coloring.by)) refuse(document, why);
     if (document.has_surfaces_alone() && is_of_cells(state.coloring.by))
@@ -127,7 +127,7 @@ void check_wishes(const Document& document, const ViewState& state, bool with_pa
     if (steps[nearest_step(steps, state.step)] == state.step) return;
     std::vector<std::string> names;
     for (const Step& step : steps) names.push_back(name(step));
-    refuse(document, fmt::format("Node {} of {} has no stage '{}', but {}.", state.node, document.path,
+    refuse(document, fmt::format("Node {} of {} has no stage '{}', but {}.", state.node.value(), document.path,
                                  name(state.step), fmt::join(names, ", ")));
 }
 

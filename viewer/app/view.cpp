@@ -29,7 +29,7 @@ void View::notify(const std::string& text) {
 
 ViewState View::shown() const {
     ViewState shown = state;
-    if (!session.document().tree.find(shown.node)) shown.node = 1;
+    if (!session.document().tree.find(shown.node)) shown.node = root_node;
     return shown;
 }
 

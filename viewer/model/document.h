@@ -34,14 +34,14 @@ struct NodeSurface {
     std::vector<Triangle> facets;
     std::vector<std::int32_t> patch;          ///< #F; patch of the input, -1 on interfaces
     std::vector<NodeId> interface_of;         ///< #F; the node whose cut made the facet, 0: none, -1: not known
-    std::vector<std::int32_t> neighbour;      ///< #F or empty; of a part, the part behind an interface or wall, else -1
+    std::vector<NodeId> neighbour;            ///< #F or empty; of a part, the part behind an interface or wall, else -1
     std::vector<std::int32_t> facet_number;   ///< #F; number of the facet in the input, -1 on interfaces
     std::vector<std::int64_t> vertex_number;  ///< #V; global number (parts) or number in the input; -1: interior of an
                                               ///< interface
     EdgePoints edges = {};                    ///< nodes on the edges of a part of second order
     std::vector<std::array<std::int32_t, 3>> edges_of_facet = {};  ///< #F or empty; indices in `edges`, of 01, 12, 02
 
-    bool is_interface(std::size_t facet) const { return !interface_of.empty() && interface_of[facet] != 0; }
+    bool is_interface(std::size_t facet) const { return !interface_of.empty() && interface_of[facet] != no_node; }
 };
 
 /// Values of the facets or of the vertices of a surface.
@@ -63,11 +63,11 @@ constexpr CellOrigin origin_of(std::int64_t tet, std::int64_t core_tets) {
 
 /// Numbers that stand for a node where a surface is asked for that was there before the one that was cut: the surface
 /// before remeshing, and the one before repairs.
-inline constexpr NodeId not_remeshed = 0, not_repaired = -1;
+inline constexpr NodeId not_remeshed(0), not_repaired(-1);
 
 /// The tetrahedra of one part.
 struct PartCells {
-    NodeId part = 1;
+    NodeId part = root_node;
     std::vector<Vec3> vertices;  ///< the boundary's come first and are those of the part's surface
     std::int32_t boundary_vertex_count = 0;
     std::vector<std::array<std::int32_t, 4>> tets;
@@ -90,7 +90,7 @@ struct MeasureHistogram {
 
 /// One of the worst cells of a run by a measure, with its value.
 struct WorstCell {
-    NodeId part = 0;
+    NodeId part = no_node;
     std::int32_t cell = -1;
     double value = 0;
     Vec3 center = Vec3::Zero();

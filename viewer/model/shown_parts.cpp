@@ -13,7 +13,7 @@ bool holds(const std::vector<std::string>& ascending, const std::string& name) {
 }  // namespace
 
 bool Visibility::is_hidden(NodeId wanted) const {
-    for (; wanted > 0; wanted /= 2)
+    for (; wanted > no_node; wanted = parent_of(wanted))
         if (std::binary_search(hidden.begin(), hidden.end(), wanted)) return true;
     return false;
 }

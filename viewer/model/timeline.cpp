@@ -60,9 +60,10 @@ std::string describe_plane_of(const CutTry& attempt, NodeId node) {
                            attempt.step + 1);
     constexpr std::array<const char*, 3> ordinals = {"first", "second", "third"};
     std::string text = fmt::format("{} axis, ", ordinals[std::clamp(attempt.axis, 0, 2)]);
-    text += attempt.step == 0 ? "the plane in its first place"
-                              : fmt::format("the plane moved {} into the half of node {}",
-                                            counted(std::abs(attempt.step), "step"), 2 * node + (attempt.step > 0));
+    text += attempt.step == 0
+                ? "the plane in its first place"
+                : fmt::format("the plane moved {} into the half of node {}", counted(std::abs(attempt.step), "step"),
+                              child_of(node, attempt.step > 0 ? 1 : 0).value());
     return text + (attempt.repair == 0 ? ", no repairs yet" : ", after " + counted(attempt.repair, "repair"));
 }
 
@@ -130,11 +131,11 @@ std::string describe_interface(const Cut& cut, const TreeRow* row) {
 }
 
 std::string describe_halves(const Document& document, NodeId node) {
-    const TreeRow* below = document.tree.find(2 * node);
-    const TreeRow* above = document.tree.find(2 * node + 1);
+    const TreeRow* below = document.tree.find(child_of(node, 0));
+    const TreeRow* above = document.tree.find(child_of(node, 1));
     if (!below || !above) return "Both halves.";
-    return fmt::format("Node {}: {} facets; node {}: {} facets.", 2 * node, grouped(below->facets), 2 * node + 1,
-                       grouped(above->facets));
+    return fmt::format("Node {}: {} facets; node {}: {} facets.", child_of(node, 0).value(), grouped(below->facets),
+                       child_of(node, 1).value(), grouped(above->facets));
 }
 
 std::string describe_parts(const Document& document, NodeId node) {
@@ -172,8 +173,8 @@ bool has_cells(const Document& document, NodeId node) {
 
 std::vector<Step> steps_of(const Document& document, NodeId node) {
     std::vector<Step> steps;
-    if (node == 1 && document.unrepaired) steps.push_back({Stage::before_repair, -1});
-    if (node == 1 && document.remeshed) steps.push_back({Stage::before_remeshing, -1});
+    if (node == root_node && document.unrepaired) steps.push_back({Stage::before_repair, -1});
+    if (node == root_node && document.remeshed) steps.push_back({Stage::before_remeshing, -1});
     steps.push_back({Stage::input, -1});
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
     const TreeRow* row = document.tree.find(node);

@@ -133,7 +133,7 @@ void add_contour(const Cut& cut, Figures& figures) {
 
 // Adds figures of the tree, which knows more than the trace of all that came after the cut.
 void add_tree(const Document& document, NodeId node, Figures& figures) {
-    figures["body"] = node == 1 ? "the whole body" : fmt::format("piece {}", node);
+    figures["body"] = node == root_node ? "the whole body" : fmt::format("piece {}", node.value());
     const Tree& tree = document.tree;
     if (const TreeRow* row = tree.find(node)) {
         if (row->facets > 0) figures["facets"] = grouped(row->facets);
@@ -142,7 +142,7 @@ void add_tree(const Document& document, NodeId node, Figures& figures) {
             figures["dihedral"] = fmt::format("{:.0f} degrees", row->cut->quality.dihedral_deg);
         }
     }
-    for (const auto& [child, side] : {std::pair(2 * node, "below"), std::pair(2 * node + 1, "above")}) {
+    for (const auto& [child, side] : {std::pair(child_of(node, 0), "below"), std::pair(child_of(node, 1), "above")}) {
         const TreeRow* row = tree.find(child);
         if (row && row->facets > 0) figures[std::string("facets_") + side] = grouped(row->facets);
         if (row && row->volume > 0) figures[std::string("volume_") + side] = short_value(row->volume);

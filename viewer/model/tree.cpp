@@ -15,8 +15,8 @@ void append_in_order(const Tree& tree, NodeId node, std::vector<const TreeRow*>&
     const TreeRow* row = tree.find(node);
     if (!row) return;
     rows.push_back(row);
-    append_in_order(tree, 2 * node, rows);
-    append_in_order(tree, 2 * node + 1, rows);
+    append_in_order(tree, child_of(node, 0), rows);
+    append_in_order(tree, child_of(node, 1), rows);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ std::vector<NodeId> Tree::parts_below(NodeId node) const {
 
 std::vector<const TreeRow*> Tree::in_order() const {
     std::vector<const TreeRow*> ordered;
-    append_in_order(*this, 1, ordered);
+    append_in_order(*this, root_node, ordered);
     return ordered;
 }
 

@@ -20,7 +20,7 @@ const char* name(NodeState state);
 
 /// One node of the tree. Facts that are not known are negative, or empty.
 struct TreeRow {
-    NodeId id = 1;
+    NodeId id = root_node;
     NodeState state = NodeState::waiting;
     std::int32_t leaves = 1;
     std::int64_t vertices = -1, facets = -1, tets = -1;
@@ -41,12 +41,6 @@ struct TreeRow {
     /// Returns the plane of the cut, if one was made and is known; else null.
     const Plane* plane() const { return cut && cut->made() ? &cut->plane : nullptr; }
 };
-
-constexpr int level_of(NodeId node) {
-    int level = 0;
-    for (; node > 1; node /= 2) ++level;
-    return level;
-}
 
 /// Returns the words for a part's filler: the way that its mesher went, or the mesher where it has one way.
 std::string name_of_filler(const std::string& mesher, const std::string& strategy);

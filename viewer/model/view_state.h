@@ -114,7 +114,7 @@ enum class PickMode { facet, cell, vertex };
 struct Selection {
     enum class Kind { none, facet, cell, vertex, place, defect };
     Kind kind = Kind::none;
-    NodeId owner = 0;           ///< node or part whose numbers follow
+    NodeId owner = no_node;     ///< node or part whose numbers follow
     std::int32_t index = -1;    ///< index of the facet, cell or vertex there, or in Diagnosis::defects
     Vec3 place = Vec3::Zero();  ///< place of the click, or of a defect
 
@@ -203,7 +203,7 @@ struct Deformation {
 /// All that a view shows, apart from the document. In its JSON the fields of Look, Visibility, Coloring, Explosion and
 /// Deformation are fields of the state.
 struct ViewState {
-    NodeId node = 1;
+    NodeId node = root_node;
     Step step;
     std::optional<Camera> camera;  ///< none: everything fits, seen from the corner
     Look look;

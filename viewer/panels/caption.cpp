@@ -35,9 +35,9 @@ std::string beginning_small(std::string text) {
 }
 
 std::string body_of(const Document& document, NodeId node) {
-    if (node == 1) return "Whole body";
+    if (node == root_node) return "Whole body";
     const TreeRow* row = document.tree.find(node);
-    return fmt::format("{} {}", row && row->leaf() ? "Part" : "Piece", node);
+    return fmt::format("{} {}", row && row->leaf() ? "Part" : "Piece", node.value());
 }
 
 // The parts of a node: their number, those shown, those of these that are filled, and the tetrahedra and facets of
@@ -87,7 +87,7 @@ std::string heading(const Document& document, const ViewState& state, const Step
             default:
                 break;
         }
-    return fmt::format("Cut of {}{}: {}", state.node == 1 ? "the " : "", beginning_small(body),
+    return fmt::format("Cut of {}{}: {}", state.node == root_node ? "the " : "", beginning_small(body),
                        step.refused_try < 0 ? in_words(name(step.stage)) : beginning_small(title(step)));
 }
 

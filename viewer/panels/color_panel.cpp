@@ -120,7 +120,7 @@ void draw_worst_row(UiContext& context, WorstCellsMemory& memory, ListKeys& keys
     ImGui::TableSetColumnIndex(1);
     show_right(rounded(cell.value), color);
     ImGui::TableSetColumnIndex(2);
-    show_right(fmt::format("{}", cell.part), color);
+    show_right(fmt::format("{}", cell.part.value()), color);
     ImGui::TableSetColumnIndex(3);
     show_right(fmt::format("{}", cell.cell), color);
 }

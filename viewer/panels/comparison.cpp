@@ -68,7 +68,7 @@ bool is_same(const CutSummary& a, const CutSummary& b) {
 }
 
 void compare_cuts(NodeId node, const CutSummary& before, const CutSummary& now, const Palette& colors) {
-    Table table(fmt::format("Cut of node {}", node).c_str(), colors);
+    Table table(fmt::format("Cut of node {}", node.value()).c_str(), colors);
     table.add("cut by", in_words(name(before.strategy)), in_words(name(now.strategy)));
     table.add("tries", before.tries, now.tries, Better::less);
     table.add("contour length", before.contour_length, now.contour_length, Better::less);

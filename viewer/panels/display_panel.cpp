@@ -98,7 +98,7 @@ void draw_snap_button(UiContext& context) {
     const TreeRow* row = context.session.document().tree.find(context.state.node);
     const bool has_plane = row && row->plane() && !context.session.document().box.isEmpty();
     ImGui::BeginDisabled(!has_plane);
-    const std::string label = fmt::format("Snap to cut of node {}", context.state.node);
+    const std::string label = fmt::format("Snap to cut of node {}", context.state.node.value());
     if (context.widgets.button(label.c_str(), has_plane ? "Clips at the plane of this cut" : "This node has no cut"))
         snap_to(context.state.clip, *row->plane(), context.session.document().box);
     ImGui::EndDisabled();

@@ -143,7 +143,7 @@ void draw_buttons(UiContext& context, ParametersMemory& memory) {
     ImGui::EndDisabled();
     if (w.button("Reset", "The options as they were")) put_options(memory, document.options);
     ImGui::BeginDisabled(!valid || !has_cut);
-    const std::string label = fmt::format("Re-run cut of node {}", node);
+    const std::string label = fmt::format("Re-run cut of node {}", node.value());
     if (w.button(label.c_str(), has_cut ? "Makes this cut again with these options; what lies below it is left out"
                                 : document.progress.running ? "A run is under way"
                                                             : "Needs a trace with a cut of this node"))

@@ -110,7 +110,7 @@ void draw_plan(UiContext& context, RepairMemory& memory) {
 }
 
 void draw_before_and_after(UiContext& context) {
-    const bool shows_before = context.state.node == 1 && context.state.step.stage == Stage::before_repair;
+    const bool shows_before = context.state.node == root_node && context.state.step.stage == Stage::before_repair;
     if (context.widgets.radio("Before repairs", shows_before)) context.actions.repairs.show_before_repair(true);
     explain("The surface as the file has it, and what was wrong with it, under the same camera (key B)");
     ImGui::SameLine();

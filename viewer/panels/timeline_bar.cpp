@@ -26,7 +26,7 @@ class TimelineBar {
           current_(nearest_step(steps_, context.state.step)) {}
 
     void draw() {
-        if (dialogs_.tour.node != 0) {
+        if (dialogs_.tour.node != no_node) {
             draw_tour(context_, dialogs_);
             const bool has_room = width_of_buttons() <= ImGui::GetContentRegionAvail().x;  // for the steps in one row
             if (has_room) draw_steps();
@@ -42,7 +42,7 @@ class TimelineBar {
     static float step_height() { return 1.9f * em(); }
     void show_step(std::size_t index) {
         const Step& step = steps_[index];
-        if (dialogs_.tour.node != 0 && step.refused_try < 0 && step.stage >= Stage::input)
+        if (dialogs_.tour.node != no_node && step.refused_try < 0 && step.stage >= Stage::input)
             dialogs_.tour.go_to = step.stage;
         else
             context_.state.step = step;
@@ -76,7 +76,7 @@ class TimelineBar {
     // Draws the title of the step beside the buttons, and buttons for places of a refused try and for missing stages.
     void draw_heading() {
         ImGui::AlignTextToFramePadding();
-        show(fmt::format("Node {}: {}", context_.state.node, title(steps_[current_])), colors_.text);
+        show(fmt::format("Node {}: {}", context_.state.node.value(), title(steps_[current_])), colors_.text);
         draw_places();
         if (!has_no_stages(context_.session.document(), context_.state.node)) return;
         ImGui::SameLine(0, 1.2f * em());

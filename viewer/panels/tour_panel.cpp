@@ -82,7 +82,7 @@ void go_on_tour(UiContext& context, Dialogs& dialogs, int count) {
 void follow_tour(UiContext& context, Dialogs& dialogs, const Rectangle& scene) {
     Tour& tour = dialogs.tour;
     if (tour.awaited) await_cut(context, tour);
-    if (tour.node == 0) return;
+    if (tour.node == no_node) return;
     const bool is_left = !tour.go_to && context.state.node != tour.node;
     if (is_left || node_of_tour(context.session.document(), tour.node) != tour.node)
         tour = {};

@@ -75,10 +75,11 @@ class TreeTable {
     void leave_out_folded() {
         // The node that is shown comes into sight when it is chosen.
         if (memory_.scrolled_to != context_.state.node)
-            for (NodeId node = context_.state.node / 2; node > 0; node /= 2) memory_.folded.erase(node);
+            for (NodeId node = parent_of(context_.state.node); node > no_node; node = parent_of(node))
+                memory_.folded.erase(node);
         if (memory_.folded.empty()) return;
         std::erase_if(rows_, [&](const TreeRow* row) {
-            for (NodeId node = row->id / 2; node > 0; node /= 2)
+            for (NodeId node = parent_of(row->id); node > no_node; node = parent_of(node))
                 if (memory_.folded.contains(node)) return true;
             return false;
         });
@@ -139,7 +140,7 @@ class TreeTable {
     void draw_row(const TreeRow& row) {
         const float alpha = is_shown(context_.state, context_.session.document(), row.id) ? 1 : 0.45f;
         text_ = faded(colors_.text, alpha);
-        ImGui::PushID(row.id);
+        ImGui::PushID(row.id.value());
         ImGui::TableNextRow(0, row_height());
         draw_node(row, alpha);
         draw_switches(row);
@@ -173,7 +174,7 @@ class TreeTable {
             choose(row.id);
         const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
         const float number = cell.x + tree_indent * em() * level + em();  // right of the button that folds it
-        context_.widgets.record(fmt::format("node {}", row.id), {number, from.y},
+        context_.widgets.record(fmt::format("node {}", row.id.value()), {number, from.y},
                                 {from.x + width, ImGui::GetItemRectMax().y});
         if (ImGui::IsItemHovered()) explain(details(row, region_of(context_.session.document(), row.id)));
         draw_guides(cell, level);
@@ -183,7 +184,7 @@ class TreeTable {
         if (row.leaf()) draw_swatch(row, {at.x, at.y + (line_height() - size) / 2}, size, alpha);
         if (!row.leaf() && is_tree()) draw_fold(row.id);
         ImGui::SetCursorScreenPos({at.x + em(), at.y});
-        show(fmt::format("{}", row.id), text_);
+        show(fmt::format("{}", row.id.value()), text_);
     }
 
     // Draws a line for each level above, from row to row.
@@ -199,7 +200,7 @@ class TreeTable {
     void draw_fold(NodeId node) {
         const bool folded = memory_.folded.contains(node);
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (line_height() - fold_size * em()) / 2);
-        if (icon_button(context_.widgets, fmt::format("fold {}", node), folded ? Icon::right : Icon::down,
+        if (icon_button(context_.widgets, fmt::format("fold {}", node.value()), folded ? Icon::right : Icon::down,
                         fold_size * em(), packed(folded ? colors_.accent : colors_.dim),
                         folded ? "Lists what lies below" : "Leaves what lies below out of this list"))
             set_in(memory_.folded, node, !folded);
@@ -220,12 +221,12 @@ class TreeTable {
         ViewState& state = context_.state;
         const bool hidden = state.visibility.is_hidden(row.id), isolated = state.visibility.isolated == row.id;
         const ImU32 quiet = packed(faded(colors_.dim, 0.55f));
-        if (icon_button(context_.widgets, fmt::format("show {}", row.id), hidden ? Icon::eye_closed : Icon::eye,
+        if (icon_button(context_.widgets, fmt::format("show {}", row.id.value()), hidden ? Icon::eye_closed : Icon::eye,
                         line_height(), hidden ? packed(colors_.warning) : quiet,
                         hidden ? "Hidden: show it again" : "Hide it and what lies below"))
             hidden ? reveal(context_, row.id) : state.visibility.set_hidden(row.id, true);
         ImGui::SameLine(0, 0.1f * em());
-        if (icon_button(context_.widgets, fmt::format("isolate {}", row.id), Icon::isolate, line_height(),
+        if (icon_button(context_.widgets, fmt::format("isolate {}", row.id.value()), Icon::isolate, line_height(),
                         isolated ? packed(colors_.accent) : quiet,
                         isolated ? "Show the others again" : "Show only this and what lies below"))
             state.visibility.isolated = isolated ? std::nullopt : std::optional(row.id);

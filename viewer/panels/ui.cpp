@@ -209,7 +209,7 @@ void go_to_node(UiContext& context, NodeId node) {
 
 void reveal(UiContext& context, NodeId node) {
     if (const std::string* region = region_of(context.session.document(), node)) reveal_region(context.state, *region);
-    for (; node > 0; node /= 2) context.state.visibility.set_hidden(node, false);
+    for (; node > no_node; node = parent_of(node)) context.state.visibility.set_hidden(node, false);
 }
 
 void scroll_to_row(float top, float height) {
@@ -237,7 +237,8 @@ bool input_on_leaving(Widgets& widgets, const char* label, float width, double v
 }
 
 const Color* part_color(const SceneFacts& facts, const ViewState& state, NodeId part) {
-    return state.coloring.by == ColorBy::part ? color_in_legend(facts, "part " + std::to_string(part)) : nullptr;
+    return state.coloring.by == ColorBy::part ? color_in_legend(facts, "part " + std::to_string(part.value()))
+                                              : nullptr;
 }
 
 const Color* color_in_legend(const SceneFacts& facts, const std::string& text) {

@@ -71,7 +71,7 @@ class WorstInterfaces {
         const ImVec2 from = ImGui::GetItemRectMin();  // the row spans columns, which are clipped one by one
         context_.widgets.record(label, from, {from.x + 2 * em(), ImGui::GetItemRectMax().y});
         ImGui::TableSetColumnIndex(1);
-        show_right(fmt::format("{}", row.id), colors_.text);
+        show_right(fmt::format("{}", row.id.value()), colors_.text);
         for (const auto& [index, column] : {std::pair(2, dihedral_column), {3, angle_column}}) {
             ImGui::TableSetColumnIndex(index);
             const std::optional<double> degrees = number_in(row, column);
@@ -95,13 +95,13 @@ class WorstInterfaces {
 
 // Flies to the awaited interface once its node's surface is there, which may have to be made first.
 void fly_when_there(UiContext& context, WorstInterfacesMemory& memory) {
-    if (memory.awaited == 0) return;
+    if (memory.awaited == no_node) return;
     const NodeId node = memory.awaited;
     const Document& document = context.session.document();
     const Cut* cut = document.trace ? document.trace->find(node) : nullptr;
     const std::shared_ptr<const NodeSurface> surface = cut ? context.session.fetched().surface(node) : nullptr;
     if (cut && !surface && context.state.node == node) return;
-    memory.awaited = 0;
+    memory.awaited = no_node;
     if (!surface || context.state.node != node) return;
     const std::optional<InterfacePlace> place =
         memory.by_angle ? smallest_angle(cut->interface) : smallest_dihedral(cut->interface, *surface);

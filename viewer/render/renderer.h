@@ -23,7 +23,7 @@ struct Gl;
 /// A primitive under a pixel.
 struct PickHit {
     std::size_t layer = 0;       ///< number of the layer in the scene
-    NodeId owner = 0;            ///< owner of the range
+    NodeId owner = no_node;      ///< owner of the range
     std::uint32_t range = 0;     ///< index in Layer::ranges
     std::int32_t primitive = 0;  ///< number of the primitive in the geometry, not in the range
     std::int32_t element = 0;    ///< Geometry::element of the primitive
@@ -35,7 +35,7 @@ struct PickHit {
 /// The numbers of primitives that a layer has drawn.
 struct DrawnLayer {
     LayerKind kind = LayerKind::surface;
-    NodeId owner = 0;
+    NodeId owner = no_node;
     std::int64_t triangles = 0, segments = 0, points = 0;
 };
 

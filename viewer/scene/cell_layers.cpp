@@ -53,7 +53,7 @@ std::shared_ptr<Geometry> CellLayers::colored_faces(const PartCells& cells, cons
 Layer* CellLayers::add_faces(LayerKind kind, const std::string& chosen, const PartCells& cells,
                              const NodeSurface& surface, CellColors& colors) {
     const std::string key =
-        fmt::format("{} of {} {} {}", static_cast<int>(kind), cells.part, context_.value_key(), chosen);
+        fmt::format("{} of {} {} {}", static_cast<int>(kind), cells.part.value(), context_.value_key(), chosen);
     const auto faces =
         context_.cache.get(key, colors.source, [&] { return colored_faces(cells, surface, colors.patches, colors); });
     if (faces->corners.empty()) return nullptr;
@@ -66,7 +66,7 @@ Layer* CellLayers::add_faces(LayerKind kind, const std::string& chosen, const Pa
 }
 
 void CellLayers::add_section(const PartCells& cells, const CellColors& colors) {
-    const std::string key = fmt::format("section {} {} {}", cells.part, context_.value_key(),
+    const std::string key = fmt::format("section {} {} {}", cells.part.value(), context_.value_key(),
                                         context_.clip_key(context_.state.explosion.shrink));
     const auto sections =
         context_.cache.get(key, colors.source, [&] { return cell_sections(cells, context_.frame, colors.choice); });

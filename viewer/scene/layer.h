@@ -74,7 +74,7 @@ struct Geometry {
 /// A run of primitives that moves and is coloured as one: a part, or a half.
 struct Range {
     std::uint32_t first = 0, count = 0;  ///< primitives: triangles, segments or points
-    NodeId owner = 0;                    ///< the node or part that it belongs to
+    NodeId owner = no_node;              ///< the node or part that it belongs to
     std::array<float, 3> offset = {};    ///< added to the positions after clipping
     Color color;                         ///< colour of Fill::plain, lines and points
     /// The range, of a closed layer, is hidden by other layers from everywhere outside. It is drawn only where backs
@@ -142,7 +142,7 @@ inline std::int32_t patch_number(std::int32_t index) { return index + 1; }
 /// Geometry that is drawn in one way.
 struct Layer {
     LayerKind kind = LayerKind::surface;  ///< with the owner unique in a scene, but for isolines
-    NodeId owner = 0;                     ///< the node or part that it belongs to; 0: none
+    NodeId owner = no_node;               ///< the node or part that it belongs to; 0: none
     std::shared_ptr<const Geometry> geometry;
     std::vector<Range> ranges;
     Fill fill = Fill::plain;

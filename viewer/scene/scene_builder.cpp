@@ -125,12 +125,12 @@ void GeometryCache::age() {
 Vec3 explosion_offset(const Tree& tree, NodeId part, NodeId root, double explode, double diagonal) {
     Vec3 offset = Vec3::Zero();
     if (!(explode > 0)) return offset;
-    for (NodeId node = part; node > root; node /= 2) {
-        const TreeRow* parent = tree.find(node / 2);
+    for (NodeId node = part; node > root; node = parent_of(node)) {
+        const TreeRow* parent = tree.find(parent_of(node));
         if (!parent || !parent->plane()) continue;
         // As long as a cube of the parent's volume; without a volume, less with every level.
         const double length = parent->volume > 0 ? std::cbrt(parent->volume) : diagonal / (2 + level_of(node));
-        offset += (node % 2 == 0 ? -0.5 : 0.5) * explode * length * parent->plane()->normal;
+        offset += (side_of(node) == 0 ? -0.5 : 0.5) * explode * length * parent->plane()->normal;
     }
     return offset;
 }

@@ -62,7 +62,8 @@ std::string in_region(const Document& document, NodeId node) {
 std::string owner_text(const Document& document, NodeId owner) {
     if (owner == not_remeshed) return "the surface before remeshing";
     if (owner == not_repaired) return "the surface before repairs";
-    return fmt::format("{} {}{}", is_leaf(document, owner) ? "part" : "node", owner, in_region(document, owner));
+    return fmt::format("{} {}{}", is_leaf(document, owner) ? "part" : "node", owner.value(),
+                       in_region(document, owner));
 }
 
 // The surface to which the numbers of facets belong.
@@ -79,11 +80,11 @@ std::string describe_facet(Session& session, const NodeSurface& surface, NodeId 
     const Document& document = session.document();
     std::string text = fmt::format("facet {} of {}\n", facet, owner_text(document, owner));
     const std::int32_t number = surface.facet_number.empty() ? -1 : surface.facet_number[facet];
-    const NodeId interface = surface.interface_of.empty() ? 0 : surface.interface_of[facet];
+    const NodeId interface = surface.interface_of.empty() ? no_node : surface.interface_of[facet];
     if (number >= 0) text += fmt::format("facet {} of the {}\n", number, numbered_surface(document, owner));
-    if (interface > 0) text += fmt::format("interface of the cut of node {}\n", interface);
-    if (!surface.neighbour.empty() && surface.neighbour[facet] >= 0)
-        text += fmt::format("part {} behind it{}\n", surface.neighbour[facet],
+    if (interface > no_node) text += fmt::format("interface of the cut of node {}\n", interface.value());
+    if (!surface.neighbour.empty() && surface.neighbour[facet].is_valid())
+        text += fmt::format("part {} behind it{}\n", surface.neighbour[facet].value(),
                             in_region(document, surface.neighbour[facet]));
     const std::int32_t patch = surface.patch.empty() ? -1 : surface.patch[facet];
     if (patch >= 0 && patch < count_of(document.patch_names))
@@ -235,7 +236,7 @@ std::string describe_mesh(Session& session, const Selection& s) {
     // Vertices inside of a part come after those of its surface.
     const auto cells = session.fetched().cells(s.owner);
     if (!cells || index >= cells->vertices.size()) return "";
-    return fmt::format("vertex {} of part {}, inside of it\nglobal number {}\n{}\n", index, s.owner,
+    return fmt::format("vertex {} of part {}, inside of it\nglobal number {}\n{}\n", index, s.owner.value(),
                        cells->vertex_number[index], place_text(cells->vertices[index]));
 }
 

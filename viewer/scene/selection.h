@@ -14,7 +14,7 @@ namespace kerf::view {
 /// The facet or cell of `owner` that was hit, and the point on it in coordinates of the file.
 struct Hit {
     bool is_cell = false;
-    NodeId owner = 0;
+    NodeId owner = no_node;
     std::int32_t element = -1;
     Vec3 point = Vec3::Zero();
 };

@@ -87,6 +87,16 @@ using PartIndex = Id<struct PartIndexTag>;
 /// A region of a complex (surface/complex/complex.h): a body of one material.
 using RegionIndex = Id<struct RegionIndexTag>;
 
+/// Lets JSON hold an id as its number.
+template <class Json, class Tag>
+void to_json(Json& json, Id<Tag> id) {
+    json = id.value();
+}
+template <class Json, class Tag>
+void from_json(const Json& json, Id<Tag>& id) {
+    id = Id<Tag>(json.template get<std::int32_t>());
+}
+
 }  // namespace kerf
 
 template <class Tag>

@@ -6,7 +6,6 @@
 #include "cut/cut/bisect.h"
 
 #include <algorithm>
-#include <bit>
 #include <memory>
 #include <optional>
 
@@ -30,8 +29,7 @@ constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cu
 // not grow with surfaces of millions of facets, whose bands do not.
 std::int64_t flow_step_budget(NodeId node, std::int32_t facets) {
     constexpr std::int64_t most_steps = 2'000'000'000;
-    const int level = std::bit_width(static_cast<std::uint32_t>(node)) - 1;
-    return 5'000'000 + (std::min(3'000 * static_cast<std::int64_t>(facets), most_steps) >> level);
+    return 5'000'000 + (std::min(3'000 * static_cast<std::int64_t>(facets), most_steps) >> level_of(node));
 }
 
 // Bound of the places of all tries of a node where an interface met the surface, a few of each try not counted. A plane
@@ -139,7 +137,7 @@ std::unique_ptr<Attempt> Ladder::climb(std::vector<CutTry>& tries) {
 
 Bisection bisect(const Surface& surface, const MassProperties& mass, NodeId node, const CutPlace& place,
                  const CutOptions& options, bool record) {
-    KERF_CHECK(surface.facet_count() > 0 && node >= 1);
+    KERF_CHECK(surface.facet_count() > 0 && node >= root_node);
     KERF_CHECK(place.fraction > 0 && place.fraction < 1);
     const Stopwatch stopwatch;
     Bisection result;

@@ -166,7 +166,7 @@ struct CutPlace {
 
 /// The record of one bisection.
 struct Cut {
-    NodeId node = 1;
+    NodeId node = root_node;
     CutStrategy strategy = CutStrategy::whole;
     ContourMethod method = ContourMethod::min_cut;
     Plane plane;

@@ -94,7 +94,7 @@ Half build_half(const Surface& surface, const Array<Facet, Side>& sides, Side si
 
 std::array<Half, 2> split(const Surface& surface, const Array<Facet, Side>& side, const Interface& interface,
                           NodeId node) {
-    KERF_CHECK(fit(side, surface) && node >= 1);
+    KERF_CHECK(fit(side, surface) && node >= root_node);
     KERF_CHECK(interface.contour.size() <= interface.points.size());
     KERF_CHECK(are_in_range(interface.triangles, interface.points.size()));
     std::array<Half, 2> halves;

@@ -28,14 +28,14 @@ std::vector<EdgeSide> edge_sides(const FaceComplex& complex) {
     std::vector<char> on_cap(complex.vertex_count(), 0);
     for (const ComplexFace& face : complex.faces())
         for (std::int32_t v : face.corners)
-            if (face.cap != 0) on_cap[v] = 1;
+            if (face.cap != no_node) on_cap[v] = 1;
     std::vector<EdgeSide> sides;
     for (const ComplexFace& face : complex.faces())
         for (int i = 0; i < 3; ++i) {
             const auto [low, high] = std::minmax(face.corners[i], face.corners[(i + 1) % 3]);
             if (!on_cap[low] || !on_cap[high]) continue;
             for (const NodeId part : face.owner)
-                if (part != 0) sides.push_back({low, high, part, face.corners[(i + 2) % 3], face.cap});
+                if (part != no_node) sides.push_back({low, high, part, face.corners[(i + 2) % 3], face.cap});
         }
     std::sort(sides.begin(), sides.end());
     return sides;
@@ -46,7 +46,7 @@ std::vector<EdgeSide> edge_sides(const FaceComplex& complex) {
 std::map<NodeId, CapMeasures> measure_caps(const FaceComplex& complex) {
     std::map<NodeId, CapMeasures> caps;
     for (const ComplexFace& face : complex.faces()) {
-        if (face.cap == 0) continue;
+        if (face.cap == no_node) continue;
         CapMeasures& cap = caps[face.cap];
         ++cap.faces;
         cap.quality.gap_rel = std::numeric_limits<double>::quiet_NaN();
@@ -65,7 +65,7 @@ std::map<NodeId, CapMeasures> measure_caps(const FaceComplex& complex) {
         const double angle =
             dihedral_degrees(complex.point(a.low), complex.point(a.high), complex.point(a.apex), complex.point(b.apex));
         for (const NodeId cap : {a.cap, b.cap})
-            if (cap != 0) caps[cap].quality.dihedral_deg = std::min(caps[cap].quality.dihedral_deg, angle);
+            if (cap != no_node) caps[cap].quality.dihedral_deg = std::min(caps[cap].quality.dihedral_deg, angle);
     }
     return caps;
 }

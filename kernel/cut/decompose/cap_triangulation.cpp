@@ -85,13 +85,13 @@ class CapTriangulator {
 
 void CapTriangulator::find_borders() {
     for (const ComplexFace& face : complex_.faces())
-        if (face.cap != 0) regions_.push_back(region_of(face));
+        if (face.cap != no_node) regions_.push_back(region_of(face));
     std::sort(regions_.begin(), regions_.end());
     regions_.erase(std::unique(regions_.begin(), regions_.end()), regions_.end());
 
     std::vector<BorderEdge> edges;
     for (const ComplexFace& face : complex_.faces()) {
-        if (face.cap == 0) continue;
+        if (face.cap == no_node) continue;
         const auto region = static_cast<std::int32_t>(
             std::lower_bound(regions_.begin(), regions_.end(), region_of(face)) - regions_.begin());
         for (int i = 0; i < 3; ++i) edges.push_back({region, face.corners[i], face.corners[(i + 1) % 3]});
@@ -110,7 +110,7 @@ void CapTriangulator::measure_sizes() {
     }
     sort_unique(border_edges);
     for (const ComplexFace& face : complex_.faces())
-        for (int i = 0; i < 3 && face.cap == 0; ++i) {
+        for (int i = 0; i < 3 && face.cap == no_node; ++i) {
             const UndirectedEdge e = undirected(face.corners[i], face.corners[(i + 1) % 3]);
             if (at_border[e[0]] && at_border[e[1]] && contains(border_edges, e)) hard_.push_back(e);
         }
@@ -139,7 +139,7 @@ void CapTriangulator::find_passed_vertices() {
     std::vector<char> solid(complex_.vertex_count(), 0);
     for (const ComplexFace& face : complex_.faces())
         for (std::int32_t v : face.corners)
-            if (face.cap == 0) solid[v] = 1;
+            if (face.cap == no_node) solid[v] = 1;
     std::vector<UndirectedEdge> ends;  // vertex and neighbour
     for (const BorderEdge& e : borders_) {
         if (!solid[e.from]) ends.push_back({e.from, e.to});

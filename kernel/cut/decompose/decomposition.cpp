@@ -186,7 +186,7 @@ CutOptions DecomposeOptions::cut_in(RegionIndex region) const {
 Decomposition decompose(Surface surface, const DecomposeOptions& options, LeafRange range, CutListener* listener) {
     KERF_CHECK(surface.facet_count() > 0);
     KERF_CHECK(options.parts >= 1 && options.threads >= 1);
-    return Decomposer(options, range, nullptr, listener).descend(std::move(surface), {1, 0, options.parts, {}});
+    return Decomposer(options, range, nullptr, listener).descend(std::move(surface), {root_node, 0, options.parts, {}});
 }
 
 Decomposition decompose(const Complex& complex, const DecomposeOptions& options, LeafRange range,

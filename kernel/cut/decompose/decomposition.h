@@ -33,7 +33,7 @@ inline constexpr std::int32_t min_facets_per_part = 50;
 
 /// The closed surface of one subdomain.
 struct Leaf {
-    NodeId id = 1;
+    NodeId id = root_node;
     std::int32_t first_leaf = 0;  ///< as in TreeNode
     std::int32_t leaves = 1;      ///< more than one: the part should have been cut, but has no contour of edges
     double volume = 0;            ///< enclosed volume
@@ -50,7 +50,7 @@ struct Leaf {
 struct DividedFacet {
     std::int32_t facet = 0;
     std::array<Vec3, 3> corners;  ///< counter-clockwise seen from outside of the part
-    NodeId part = 1;              ///< the part that was divided, or one beside it
+    NodeId part = root_node;      ///< the part that was divided, or one beside it
     RegionIndex region;           ///< of the part
 };
 
@@ -77,7 +77,7 @@ struct LeafRange {
 
 /// A node with its whole subtree, before it is cut.
 struct Branch {
-    NodeId id = 1;
+    NodeId id = root_node;
     std::int32_t first_leaf = 0, leaves = 1;
     RegionIndex region;  ///< region in which it lies
 

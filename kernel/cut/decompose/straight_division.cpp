@@ -121,7 +121,7 @@ void StraightDivision::finish_interfaces() {
     }
     std::map<NodeId, std::vector<Vec3>> corners;
     for (const ComplexFace& face : complex_.faces())
-        if (face.cap != 0)
+        if (face.cap != no_node)
             for (const std::int32_t v : face.corners) corners[face.cap].push_back(complex_.point(v));
     for (const auto& [id, points] : corners) add_to_cut_hash(nodes_.at(id), std::span<const Vec3>(points));
 }
@@ -129,7 +129,7 @@ void StraightDivision::finish_interfaces() {
 // Returns the region of the leaf of `whole` from which this leaf was divided.
 RegionIndex StraightDivision::region_of(NodeId leaf) const {
     auto found = regions_.find(leaf);
-    while (found == regions_.end()) found = regions_.find(leaf /= 2);
+    while (found == regions_.end()) found = regions_.find(leaf = parent_of(leaf));
     return found->second;
 }
 

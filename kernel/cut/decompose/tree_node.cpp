@@ -13,16 +13,16 @@
 namespace kerf {
 
 std::array<NodeId, 2> children_of(NodeId node) {
-    if (node > std::numeric_limits<NodeId>::max() / 2)
+    if (node.value() > std::numeric_limits<std::int32_t>::max() / 2)
         throw Error(ErrorCode::usage, fmt::format("The part of node {} would be cut once more, but the tree of cuts "
                                                   "cannot be deeper. Use fewer parts, or another --balance.",
-                                                  node));
-    return {2 * node, 2 * node + 1};
+                                                  node.value()));
+    return halves_of(node);
 }
 
 TreeNode describe_node(NodeId id, std::int32_t first_leaf, std::int32_t leaves, const Surface& surface,
                        const MassProperties& mass) {
-    KERF_CHECK(id >= 1 && first_leaf >= 0 && leaves >= 1);
+    KERF_CHECK(id >= root_node && first_leaf >= 0 && leaves >= 1);
     TreeNode node;
     node.id = id;
     node.first_leaf = first_leaf;

@@ -10,7 +10,7 @@ namespace kerf {
 
 /// A node of the tree once it has been cut; in a part, the summary is that of the cuts that were tried in vain.
 struct TreeNode : CutSummary {
-    NodeId id = 1;
+    NodeId id = root_node;
     std::int32_t first_leaf = 0;  ///< first of the leaves below it, in the order of the tree
     std::int32_t leaves = 1;      ///< number of leaves wanted below it
     std::int32_t regions = 1;     ///< number of regions in it; a node of several is divided into those of both halves,

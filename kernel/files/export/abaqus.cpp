@@ -83,8 +83,8 @@ void write_elements(const PartSource& parts, ExportFile& file) {
     const char* const type = parts.outline().order == 1 ? "C3D4" : "C3D10";
     std::int64_t element = 0;
     for_each_part(parts, PartContent::cells, [&](PartIndex index, const Part& part) {
-        file.write(
-            fmt::format("** part {}\n*ELEMENT, TYPE={}, ELSET=SUBDOMAIN_{}\n", part.id, type, index.value() + 1));
+        file.write(fmt::format("** part {}\n*ELEMENT, TYPE={}, ELSET=SUBDOMAIN_{}\n", part.id.value(), type,
+                               index.value() + 1));
         for (std::int64_t t = 0; t < part.tet_count(); ++t)
             TextRow(file, ",").add(++element).add(nodes_of_tet(part, t), 1).end();
     });

@@ -143,7 +143,7 @@ class Hdf5Piece {
         const PartExtent& extent = outline_.parts[index_];
         Hdf5Rows<std::int32_t> part(file_, "VTKHDF/CellData/Part", own_.cells);
         Hdf5Rows<std::int32_t> patch(file_, "VTKHDF/CellData/Patch", own_.cells);
-        for (std::int64_t cell = 0; cell < extent.tets + extent.patch_facets; ++cell) part.put(part_.id);
+        for (std::int64_t cell = 0; cell < extent.tets + extent.patch_facets; ++cell) part.put(part_.id.value());
         for (std::int64_t cell = 0; cell < extent.tets; ++cell) patch.put(-1);
         for_each_patch_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f]); });
         part.flush();
@@ -222,7 +222,7 @@ class Hdf5Piece {
         Hdf5Rows<std::int32_t> part(file_, "viz/part", outline_.first_tet(index_));
         Hdf5Rows<std::int32_t> patch(file_, "viz/patch", outline_.first_patch_facet(index_));
         for (const std::int32_t of_tet : parts_.bodies().of_tets(index_, part_)) body.put(of_tet + 1);
-        for (std::int64_t tet = 0; tet < part_.tet_count(); ++tet) part.put(part_.id);
+        for (std::int64_t tet = 0; tet < part_.tet_count(); ++tet) part.put(part_.id.value());
         for_each_patch_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f] + 1); });
         body.flush();
         part.flush();

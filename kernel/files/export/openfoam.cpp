@@ -110,7 +110,7 @@ void require_labels(const MeshOutline& outline) {
             throw Error(ErrorCode::usage,
                         fmt::format("Part {} has {} faces, more than the {} that OpenFOAM's 32-bit labels can number. "
                                     "Make more parts: kerf mesh -n.",
-                                    part.id, faces, most_faces));
+                                    part.id.value(), faces, most_faces));
     }
 }
 

@@ -42,7 +42,7 @@ using GridArray = VtuArray<ExportFile>;
 void write_parts(const MeshOutline& outline, ExportFile& file) {
     for (const auto count : {&PartExtent::tets, &PartExtent::patch_facets})
         for (const PartExtent& part : outline.parts)
-            write_computed<std::int32_t>(file, part.*count, [&](std::int64_t) { return part.id; });
+            write_computed<std::int32_t>(file, part.*count, [&](std::int64_t) { return part.id.value(); });
 }
 
 // -1 for tetrahedra, then the values of the triangles on patches.

@@ -110,7 +110,7 @@ ReadSurface read_surfaces(const PageJson& report, const ListedFiles& files, std:
 PageJson groups_of(const PagePart& part) {
     PageJson groups = PageJson::array();
     for (const PageTriangle& t : part.triangles) {
-        if (groups.empty() || groups.back()[0] != t.neighbour || groups.back()[1] != t.patch)
+        if (groups.empty() || groups.back()[0] != t.neighbour.value() || groups.back()[1] != t.patch)
             groups.push_back({t.neighbour, t.patch, 0});
         PageJson& count = groups.back()[2];
         count = count.get<std::int64_t>() + 1;

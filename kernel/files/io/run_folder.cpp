@@ -124,15 +124,15 @@ std::string older_path_of(const std::string& partial) { return partial + "-older
 std::string removed_path_of(const std::string& partial) { return partial + "-removed"; }
 
 // The leaves that have an entry in the journal of a run; a folder that is not there has none.
-std::vector<int> leaves_in_journal(const std::string& folder) {
-    std::vector<int> leaves;
+std::vector<NodeId> leaves_in_journal(const std::string& folder) {
+    std::vector<NodeId> leaves;
     for (const std::string& entry : list_files((fs::path(folder) / "work/journal").string())) {
         const char* end = entry.data() + entry.size();
         const std::size_t slash = entry.rfind('/');
-        int leaf = 0;
+        std::int32_t leaf = 0;
         const auto [stop, error] =
             std::from_chars(entry.data() + (slash == std::string::npos ? 0 : slash + 1), end, leaf);
-        if (error == std::errc() && stop == end) leaves.push_back(leaf);
+        if (error == std::errc() && stop == end) leaves.emplace_back(leaf);
     }
     return leaves;
 }
@@ -140,10 +140,11 @@ std::vector<int> leaves_in_journal(const std::string& folder) {
 // Returns the name of a file of a leaf in a folder that holds one file of each. A few hundred leaves have a folder of
 // their own, named by the first of them: disks that many hosts share are slow where one folder holds thousands. No leaf
 // before has that name for its file.
-std::string with_folder_of(int leaf, std::string name) {
+std::string with_folder_of(NodeId leaf, std::string name) {
     constexpr int leaves_without_folder = 2048, leaves_of_folder = 200;
-    if (leaf < leaves_without_folder) return name;
-    return fmt::format("{}/{}", std::max(leaves_without_folder, leaf - leaf % leaves_of_folder), name);
+    const std::int32_t number = leaf.value();
+    if (number < leaves_without_folder) return name;
+    return fmt::format("{}/{}", std::max(leaves_without_folder, number - number % leaves_of_folder), name);
 }
 
 // Tells whether a file is needed to continue a run with failed parts.
@@ -162,9 +163,9 @@ void clear_all_but_parts(const RunFolder& folder) {
 // Moves the finished parts of a run with failed parts here. Those that cannot be moved are meshed again.
 void take_over_finished_parts(const std::string& failed, const RunFolder& folder) {
     std::error_code ignored;
-    const std::vector<int> leaves = leaves_in_journal(failed);
+    const std::vector<NodeId> leaves = leaves_in_journal(failed);
     folder.make_room(leaves);
-    for (const int leaf : leaves)
+    for (const NodeId leaf : leaves)
         for (const std::string& name : {"parts/" + stored_part_file_name(leaf), journal_file_name(leaf)})
             fs::rename(fs::path(failed) / name, folder.file(name), ignored);
 }
@@ -312,9 +313,9 @@ RunFolder RunFolder::create_transient(const std::string& path) {
     return folder;
 }
 
-void RunFolder::keep_only(const std::vector<int>& leaves) const {
+void RunFolder::keep_only(const std::vector<NodeId>& leaves) const {
     std::set<std::string> kept;
-    for (const int leaf : leaves) {
+    for (const NodeId leaf : leaves) {
         kept.insert(journal_file_name(leaf));
         std::error_code ignored;
         const bool is_stored = fs::exists(stored_part_file(leaf), ignored);
@@ -327,9 +328,9 @@ void RunFolder::keep_only(const std::vector<int>& leaves) const {
     make_room(leaves);
 }
 
-void RunFolder::make_room(const std::vector<int>& leaves) const {
+void RunFolder::make_room(const std::vector<NodeId>& leaves) const {
     std::set<fs::path> folders = {file("parts")};
-    for (const int leaf : leaves)
+    for (const NodeId leaf : leaves)
         for (const std::string& name : {part_file(leaf), job_file(leaf), journal_file(leaf), begun_file(leaf)})
             folders.insert(fs::path(name).parent_path());
     for (const fs::path& folder : folders) create_folder(folder.string());
@@ -347,14 +348,14 @@ RunFolder RunFolder::join(const std::string& partial_path) {
 }
 
 std::string RunFolder::file(const std::string& name) const { return (fs::path(partial_) / name).string(); }
-std::string RunFolder::stored_part_file(int leaf) const { return file("parts/" + stored_part_file_name(leaf)); }
-std::string RunFolder::part_file(int leaf) const { return file("parts/" + part_file_name(leaf)); }
-std::string RunFolder::part_surface_file(int leaf) const { return file("parts/" + part_surface_file_name(leaf)); }
-std::string RunFolder::part_stl_file(int leaf) const { return file("parts/" + part_stl_file_name(leaf)); }
+std::string RunFolder::stored_part_file(NodeId leaf) const { return file("parts/" + stored_part_file_name(leaf)); }
+std::string RunFolder::part_file(NodeId leaf) const { return file("parts/" + part_file_name(leaf)); }
+std::string RunFolder::part_surface_file(NodeId leaf) const { return file("parts/" + part_surface_file_name(leaf)); }
+std::string RunFolder::part_stl_file(NodeId leaf) const { return file("parts/" + part_stl_file_name(leaf)); }
 std::string RunFolder::saved_run_file() const { return file("work/run.json"); }
-std::string RunFolder::job_file(int leaf) const { return file(job_file_name(leaf)); }
-std::string RunFolder::journal_file(int leaf) const { return file(journal_file_name(leaf)); }
-std::string RunFolder::begun_file(int leaf) const { return file(begun_file_name(leaf)); }
+std::string RunFolder::job_file(NodeId leaf) const { return file(job_file_name(leaf)); }
+std::string RunFolder::journal_file(NodeId leaf) const { return file(journal_file_name(leaf)); }
+std::string RunFolder::begun_file(NodeId leaf) const { return file(begun_file_name(leaf)); }
 
 std::size_t RunFolder::finished_parts() const { return leaves_in_journal(partial_).size(); }
 
@@ -392,16 +393,24 @@ std::string RunFolder::commit(bool valid) {
     return place;
 }
 
-std::string stored_part_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.part", leaf)); }
-std::string part_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.vtu", leaf)); }
-std::string part_surface_file_name(int leaf) {
-    return with_folder_of(leaf, fmt::format("part_{:04}.surface.vtu", leaf));
+std::string stored_part_file_name(NodeId leaf) {
+    return with_folder_of(leaf, fmt::format("part_{:04}.part", leaf.value()));
 }
-std::string part_stl_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.stl", leaf)); }
-std::string failed_part_file_name(int leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.txt", leaf)); }
+std::string part_file_name(NodeId leaf) { return with_folder_of(leaf, fmt::format("part_{:04}.vtu", leaf.value())); }
+std::string part_surface_file_name(NodeId leaf) {
+    return with_folder_of(leaf, fmt::format("part_{:04}.surface.vtu", leaf.value()));
+}
+std::string part_stl_file_name(NodeId leaf) {
+    return with_folder_of(leaf, fmt::format("part_{:04}.stl", leaf.value()));
+}
+std::string failed_part_file_name(NodeId leaf) {
+    return with_folder_of(leaf, fmt::format("part_{:04}.txt", leaf.value()));
+}
 
-std::string job_file_name(int leaf) { return "work/jobs/" + with_folder_of(leaf, std::to_string(leaf)); }
-std::string journal_file_name(int leaf) { return "work/journal/" + with_folder_of(leaf, std::to_string(leaf)); }
-std::string begun_file_name(int leaf) { return "work/taken/" + with_folder_of(leaf, std::to_string(leaf)); }
+std::string job_file_name(NodeId leaf) { return "work/jobs/" + with_folder_of(leaf, std::to_string(leaf.value())); }
+std::string journal_file_name(NodeId leaf) {
+    return "work/journal/" + with_folder_of(leaf, std::to_string(leaf.value()));
+}
+std::string begun_file_name(NodeId leaf) { return "work/taken/" + with_folder_of(leaf, std::to_string(leaf.value())); }
 
 }  // namespace kerf

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/types.h"
+
 namespace kerf {
 
 /// The locks on the partial folder of a run: one that its creator holds, one that its other ranks share.
@@ -76,16 +78,16 @@ class RunFolder {
 
     const std::string& partial_path() const { return partial_; }
     const std::string& final_path() const { return final_; }  ///< empty if another rank has created the folder
-    std::string stored_part_file(int leaf) const;             ///< .../parts/part_0008.part
-    std::string part_file(int leaf) const;                    ///< .../parts/part_0008.vtu
-    std::string part_surface_file(int leaf) const;            ///< .../parts/part_0008.surface.vtu
-    std::string part_stl_file(int leaf) const;                ///< .../parts/part_0008.stl
+    std::string stored_part_file(NodeId leaf) const;          ///< .../parts/part_0008.part
+    std::string part_file(NodeId leaf) const;                 ///< .../parts/part_0008.vtu
+    std::string part_surface_file(NodeId leaf) const;         ///< .../parts/part_0008.surface.vtu
+    std::string part_stl_file(NodeId leaf) const;             ///< .../parts/part_0008.stl
     std::string file(const std::string& name) const;
 
-    std::string saved_run_file() const;        ///< the options, for a run that continues this one
-    std::string job_file(int leaf) const;      ///< the part's job, for a worker
-    std::string journal_file(int leaf) const;  ///< exists when the part is finished
-    std::string begun_file(int leaf) const;    ///< exists once a worker has begun the part, for watchers of the run
+    std::string saved_run_file() const;           ///< the options, for a run that continues this one
+    std::string job_file(NodeId leaf) const;      ///< the part's job, for a worker
+    std::string journal_file(NodeId leaf) const;  ///< exists when the part is finished
+    std::string begun_file(NodeId leaf) const;    ///< exists once a worker has begun the part, for watchers of the run
 
     /// Returns the number of journal entries.
     std::size_t finished_parts() const;
@@ -93,9 +95,9 @@ class RunFolder {
     /// Removes parts and journal entries of other leaves, and all surfaces, that an interrupted run has left; also the
     /// files part_file() of leaves that have a stored_part_file(). Makes room for all of these leaves then. Only for
     /// the creator. Throws Error(io).
-    void keep_only(const std::vector<int>& leaves) const;
+    void keep_only(const std::vector<NodeId>& leaves) const;
     /// Makes the folders that files of these leaves lie in. Throws Error(io).
-    void make_room(const std::vector<int>& leaves) const;
+    void make_room(const std::vector<NodeId>& leaves) const;
 
     /// From now on the destructor leaves the folder for the next run (keep()), or removes it again (discard()).
     void keep() { keep_ = true; }
@@ -120,16 +122,16 @@ class RunFolder {
 /// File names of a part, part_0008.part, part_0008.vtu, part_0008.surface.vtu and part_0008.stl, relative to the folder
 /// `parts`. Leaves from 2048 on, of runs with more than 1,024 parts, have folders of their own there, one for 200
 /// leaves: 4000/part_4123.vtu. No folder of a run with thousands of parts holds more than 1,000 names.
-std::string stored_part_file_name(int leaf);
-std::string part_file_name(int leaf);
-std::string part_surface_file_name(int leaf);
-std::string part_stl_file_name(int leaf);
+std::string stored_part_file_name(NodeId leaf);
+std::string part_file_name(NodeId leaf);
+std::string part_surface_file_name(NodeId leaf);
+std::string part_stl_file_name(NodeId leaf);
 /// The name part_0008.txt, relative to the folder `failed`, which is divided in the same way as `parts`.
-std::string failed_part_file_name(int leaf);
+std::string failed_part_file_name(NodeId leaf);
 /// The names work/jobs/8, work/journal/8 and work/taken/8, relative to the partial folder; work/jobs/4000/4123 of a
 /// leaf from 2048 on.
-std::string job_file_name(int leaf);
-std::string journal_file_name(int leaf);
-std::string begun_file_name(int leaf);
+std::string job_file_name(NodeId leaf);
+std::string journal_file_name(NodeId leaf);
+std::string begun_file_name(NodeId leaf);
 
 }  // namespace kerf

@@ -25,12 +25,13 @@ void divide(const std::vector<NodeId>& leaves, PieceOfTree node, std::int32_t pi
     if (pieces == 1) return divided.push_back(node);
     const std::int32_t count = node.last - node.first;
     const auto begin = leaves.begin() + node.first, end = leaves.begin() + node.last;
-    const auto middle = std::partition_point(begin, end, [&](NodeId leaf) { return lies_below(leaf, 2 * node.id); });
+    const auto middle =
+        std::partition_point(begin, end, [&](NodeId leaf) { return lies_below(leaf, child_of(node.id, 0)); });
     const std::int32_t on_left = middle - begin, on_right = count - on_left;
     const std::int32_t fair = std::lround(static_cast<double>(pieces) * on_left / count);
     const std::int32_t left = std::clamp(fair, std::max(1, pieces - on_right), std::min(on_left, pieces - 1));
-    divide(leaves, {2 * node.id, node.first, node.first + on_left}, left, divided);
-    divide(leaves, {2 * node.id + 1, node.first + on_left, node.last}, pieces - left, divided);
+    divide(leaves, {child_of(node.id, 0), node.first, node.first + on_left}, left, divided);
+    divide(leaves, {child_of(node.id, 1), node.first + on_left, node.last}, pieces - left, divided);
 }
 
 // The vertices of a piece. Of a vertex that several of its parts have, the first stands for all.
@@ -147,7 +148,7 @@ std::vector<PieceOfTree> divide_leaves(const std::vector<NodeId>& leaves, std::i
     const std::int32_t count = std::ssize(leaves);
     KERF_CHECK(pieces >= 1 && pieces <= count);
     std::vector<PieceOfTree> divided;
-    divide(leaves, {1, 0, count}, pieces, divided);
+    divide(leaves, {root_node, 0, count}, pieces, divided);
     return divided;
 }
 
@@ -169,7 +170,7 @@ JoinedParts::JoinedParts(const PartSource& parts, std::int32_t pieces, std::int6
                 ErrorCode::usage,
                 fmt::format("--into {} makes a piece of {} {} of parts {} to {}, but a piece has {} at most. Ask "
                             "for more pieces.",
-                            pieces, number, what, leaves[piece.first], leaves[piece.last - 1], most));
+                            pieces, number, what, leaves[piece.first].value(), leaves[piece.last - 1].value(), most));
     };
     for (const PieceOfTree& piece : pieces_) {
         std::int64_t tets = 0;
@@ -214,7 +215,7 @@ std::vector<NodeId> JoinedParts::pieces_of(const std::vector<NodeId>& leaves) co
     for (const NodeId leaf : leaves) {
         const auto found = std::lower_bound(piece_of_leaf_.begin(), piece_of_leaf_.end(), leaf,
                                             [](const auto& entry, NodeId wanted) { return entry.first < wanted; });
-        pieces.push_back(leaf < 0 ? -1 : found->second);
+        pieces.push_back(leaf.is_valid() ? found->second : NodeId::none());
     }
     return pieces;
 }

@@ -12,7 +12,7 @@ namespace kerf {
 
 /// A piece: the leaves [first, last) of the tree, in its order, and the node below which all of them lie.
 struct PieceOfTree {
-    NodeId id = 1;
+    NodeId id = root_node;
     std::int32_t first = 0, last = 0;
 };
 

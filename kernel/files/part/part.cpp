@@ -44,8 +44,8 @@ namespace {
 // Returns a number that ascends in the order of the tree among nodes of which none lies below another: the way from the
 // root, a bit a step.
 std::uint32_t way_from_root(NodeId id) {
-    const std::uint32_t bits = id;
-    return id > 0 ? bits << std::countl_zero(bits) : 0;
+    const std::uint32_t bits = id.value();
+    return id > no_node ? bits << std::countl_zero(bits) : 0;
 }
 
 std::int64_t sum_before(PartIndex index, const Array<PartIndex, PartExtent>& parts, std::int64_t PartExtent::*count) {
@@ -66,7 +66,7 @@ std::optional<PartIndex> MeshOutline::find(NodeId id) const {
 
 PartIndex MeshOutline::index_of(NodeId id) const {
     const std::optional<PartIndex> found = find(id);
-    if (!found) throw Error(ErrorCode::internal, fmt::format("The mesh has no part {}.", id));
+    if (!found) throw Error(ErrorCode::internal, fmt::format("The mesh has no part {}.", id.value()));
     return *found;
 }
 

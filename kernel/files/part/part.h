@@ -59,7 +59,7 @@ struct PartValues {
 
 /// Tells whether files list a triangle of `part` with this patch and neighbour, see Part::is_listed().
 constexpr bool is_listed_triangle(std::int32_t patch, NodeId part, NodeId neighbour) {
-    return patch >= 0 && (neighbour < 0 || part < neighbour);
+    return patch >= 0 && (!neighbour.is_valid() || part < neighbour);
 }
 
 /// Tetrahedra of a part that follow each other and lie in one region.
@@ -75,7 +75,7 @@ struct RegionRun {
 
 /// The boundary of a part, and what it shares with other parts: all but its vertices and cells.
 struct PartBoundary {
-    NodeId id = 1;                    ///< leaf of the tree
+    NodeId id = root_node;            ///< leaf of the tree
     std::vector<Triangle> facets;     ///< #F; boundary triangles, over the boundary vertices, seen from outside
     std::vector<std::int32_t> patch;  ///< #F; number on the user's surface, -1 on interfaces
     std::vector<std::int32_t> facet;  ///< #F; facet of the input that is or contains the triangle, -1 on interfaces
@@ -102,9 +102,9 @@ struct Part : PartBoundary {
     EdgeNodes edge_nodes = {};            ///< nodes on edges of order 2; empty for order 1
 
     /// Tells whether another part lies on the other side of a boundary triangle.
-    bool is_interface(std::size_t f) const { return neighbour[f] >= 0; }
+    bool is_interface(std::size_t f) const { return neighbour[f].is_valid(); }
     /// Tells whether nothing lies on the other side of a boundary triangle.
-    bool is_on_outer_boundary(std::size_t f) const { return neighbour[f] < 0; }
+    bool is_on_outer_boundary(std::size_t f) const { return !neighbour[f].is_valid(); }
     /// Tells whether a boundary triangle is a facet of the input, or a piece of one.
     bool is_of_input(std::size_t f) const { return facet[f] >= 0; }
     /// Tells whether a boundary triangle lies between two regions.
@@ -157,7 +157,7 @@ std::vector<NodeId> owners_of_vertices(const Part& part);
 
 /// The counts of a part, by which writers of other parts know how large the whole is.
 struct PartExtent {
-    NodeId id = 1;
+    NodeId id = root_node;
     std::int64_t vertices = 0, tets = 0;
     std::int64_t patch_facets = 0;      ///< boundary triangles that files list, see Part::is_listed()
     std::int64_t interface_facets = 0;  ///< boundary triangles that files do not list

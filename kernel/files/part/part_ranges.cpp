@@ -30,8 +30,9 @@ void require_neighbours(const Part& part, const MeshOutline& outline, const std:
     std::sort(told.begin(), told.end());
     told.erase(std::unique(told.begin(), told.end()), told.end());
     for (const NodeId id : told)
-        if (id >= 0 && (id == part.id || !outline.find(id)))
-            fail(path, fmt::format("a triangle lies between it and part {}, which is no other part of the run", id));
+        if (id.is_valid() && (id == part.id || !outline.find(id)))
+            fail(path,
+                 fmt::format("a triangle lies between it and part {}, which is no other part of the run", id.value()));
 }
 
 // Requires numbers of the boundary from those that come first, each once, and of the inside one after the other.
@@ -55,7 +56,7 @@ void require_counts(const Part& part, const PartExtent& told, PartContent conten
     if (std::ssize(part.global_id) != vertices || (has_tets && part.tet_count() != told.tets))
         fail(path, "it has other numbers of vertices and tetrahedra than report.json");
     if (content != PartContent::vertices && part.id != told.id)
-        fail(path, fmt::format("it says that it is part {}, not {}", part.id, told.id));
+        fail(path, fmt::format("it says that it is part {}, not {}", part.id.value(), told.id.value()));
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ void require_ranges(const Part& part, const std::string& path) {
         const bool may_have_none = part.patch[f] == -1 && !part.is_of_input(f);
         if (!may_have_none && !part.patch_names.has(part.patch[f]))
             fail(path, fmt::format("triangle {} lies in patch {}, which has no name", f, part.patch[f]));
-        if (part.facet[f] < -1 || part.neighbour[f] < -1 || part.neighbour[f] == 0 ||
+        if (part.facet[f] < -1 || part.neighbour[f] < NodeId::none() || part.neighbour[f] == no_node ||
             (part.is_on_outer_boundary(f) && !part.is_of_input(f)))
             fail(path, fmt::format("triangle {} lies neither on the surface nor beside a part", f));
     }

@@ -38,14 +38,15 @@ void require_parts(const std::string& folder, const MeshOutline& outline) {
     if (outline.order != 1 && outline.order != 2) fail_damaged_report(folder, "its order is neither 1 nor 2");
     std::int64_t held = 0;  // of all parts: each vertex once or more
     for (const PartExtent& part : outline.parts)
-        if (part.id < 1) fail_damaged_report(folder, fmt::format("there is no part {}", part.id));
+        if (part.id < root_node) fail_damaged_report(folder, fmt::format("there is no part {}", part.id.value()));
     for (const PartIndex index : outline.parts.ids()) {
         const PartExtent& part = outline.parts[index];
         if (outline.find(part.id) != index)
-            fail_damaged_report(folder, fmt::format("part {} does not stand in the order of the tree", part.id));
+            fail_damaged_report(folder,
+                                fmt::format("part {} does not stand in the order of the tree", part.id.value()));
         if (std::min({part.vertices, part.tets, part.edge_nodes}) < 0 ||
             std::max({part.vertices, part.tets, part.edge_nodes}) > std::numeric_limits<std::int32_t>::max())
-            fail_damaged_report(folder, fmt::format("it has numbers of part {} that cannot be", part.id));
+            fail_damaged_report(folder, fmt::format("it has numbers of part {} that cannot be", part.id.value()));
         held += part.vertices;
     }
     for (const PartExtent& part : outline.parts)
@@ -53,7 +54,7 @@ void require_parts(const std::string& folder, const MeshOutline& outline) {
             throw Error(ErrorCode::io,
                         fmt::format("Part {} of {} has no tetrahedra: kerf decompose makes none, and a run of kerf "
                                     "mesh that has not ended goes on by kerf mesh --resume {}.",
-                                    part.id, folder, folder));
+                                    part.id.value(), folder, folder));
     if (outline.vertices < 0 || outline.vertices > held)
         fail_damaged_report(folder, fmt::format("it has {} vertices, and its parts {}", outline.vertices, held));
 }
@@ -94,7 +95,7 @@ void require_edges(const EdgeTable& edges, const PartExtent& told, const Part& p
         std::all_of(part.shared_edges.begin(), part.shared_edges.end(), has_edges))
         return;
     throw Error(ErrorCode::io,
-                fmt::format("The files of part {} do not belong together. Run kerf mesh again.", part.id));
+                fmt::format("The files of part {} do not belong together. Run kerf mesh again.", part.id.value()));
 }
 
 }  // namespace

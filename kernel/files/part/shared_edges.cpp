@@ -14,7 +14,7 @@ namespace kerf {
 
 namespace {
 
-constexpr NodeId any_part = -1;
+constexpr NodeId any_part = NodeId::none();
 
 // An edge of an interface with the part on the other side of one of its two triangles, or an edge of a contact.
 struct InterfaceEdge {

@@ -91,14 +91,14 @@ std::vector<std::int32_t> read_input_facets(PartArraysFile& file, std::int64_t t
     return file.take<std::int32_t>(facet_count);
 }
 
-std::int32_t common_part(PartArraysFile& file) {
+NodeId common_part(PartArraysFile& file) {
     if (file.header().cell_count == 0) file.fail("it has no cells");
     std::int32_t part = -1;
     visit_tags(file, "Part", [&](std::int32_t value) {
         if (part >= 0 && value != part) file.fail("its cells belong to several parts");
         part = value;
     });
-    return part;
+    return NodeId(part);
 }
 
 std::vector<std::string> read_names(PartArraysFile& file, const char* array) {
@@ -191,7 +191,8 @@ void read_cells(PartArraysFile& file, Part& part) {
     part.id = common_part(file);
     part.patch = facet_values(file, "Patch", tet_count);
     part.facet = read_input_facets(file, tet_count);
-    part.neighbour = facet_values(file, "Neighbour", tet_count);
+    for (const std::int32_t neighbour : facet_values(file, "Neighbour", tet_count))
+        part.neighbour.emplace_back(neighbour);
     part.patch_names = read_name_table(file, "PatchNames", "PatchNumbers");
     read_regions(file, tet_count, part);
     read_contacts(file, part);

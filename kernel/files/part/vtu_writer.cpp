@@ -59,9 +59,9 @@ class GridMaker {
         add_contacts();
         add_array<std::int32_t>("FieldData", "Facet", 1, part_.facet);  // each tetrahedron has none
         add_global_ids();
-        add_tags(layout.tag_bytes, "Part", part_.id, nullptr);
-        add_tags(layout.tag_bytes, "Patch", -1, &part_.patch);
-        add_tags(layout.tag_bytes, "Neighbour", -1, &part_.neighbour);
+        add_part(layout.tag_bytes);
+        add_tags(layout.tag_bytes, "Patch", part_.patch);
+        add_neighbours(layout.tag_bytes);
         if (layout.has_regions) add_regions(layout.tag_bytes);
         add_quality(layout.fields);
         add_points();
@@ -78,10 +78,10 @@ class GridMaker {
         if (!part_.region_names.empty()) add_names("RegionNames", "RegionNumbers", part_.region_names);
         add_contacts();
         add_global_ids();
-        add_tags(sizeof(std::int32_t), "Part", part_.id, nullptr);
-        add_tags(sizeof(std::int32_t), "Patch", -1, &part_.patch);
-        add_tags(sizeof(std::int32_t), "Facet", -1, &part_.facet);
-        add_tags(sizeof(std::int32_t), "Neighbour", -1, &part_.neighbour);
+        add_part(sizeof(std::int32_t));
+        add_tags(sizeof(std::int32_t), "Patch", part_.patch);
+        add_tags(sizeof(std::int32_t), "Facet", part_.facet);
+        add_neighbours(sizeof(std::int32_t));
         if (!part_.region_names.empty()) add_regions(sizeof(std::int32_t));
         add_points();
         add_cells<std::int64_t>();
@@ -150,11 +150,22 @@ class GridMaker {
                });
     }
 
-    // The same integer for every tetrahedron and, without values of facets, for every facet.
-    void add_tags(int bytes, const char* name, std::int32_t tag, const std::vector<std::int32_t>* of_facets) {
+    void add_part(int bytes) {
+        const auto of_all = [id = part_.id.value()](std::int64_t) { return id; };
+        add_integers(bytes, "Part", of_all, of_all);
+    }
+
+    // Integers of facets; tetrahedra have -1.
+    template <class OfFacet>
+    void add_of_facets(int bytes, const char* name, OfFacet of_facet) {
         add_integers(
-            bytes, name, [tag](std::int64_t) { return tag; },
-            [tag, of_facets](std::int64_t f) { return of_facets ? (*of_facets)[f] : tag; });
+            bytes, name, [](std::int64_t) { return -1; }, of_facet);
+    }
+    void add_tags(int bytes, const char* name, const std::vector<std::int32_t>& tags) {
+        add_of_facets(bytes, name, [&tags](std::int64_t f) { return tags[f]; });
+    }
+    void add_neighbours(int bytes) {
+        add_of_facets(bytes, "Neighbour", [&part = part_](std::int64_t f) { return part.neighbour[f].value(); });
     }
 
     // Triangles have the values of the tetrahedra behind them.
@@ -273,7 +284,7 @@ constexpr const char* nowhere = "/dev/null";
 
 VtuLayout layout_for(const MeshOutline& outline, CellFieldSet fields) {
     std::int64_t largest = std::max(std::ssize(outline.patch_names), std::ssize(outline.region_names));
-    for (const PartExtent& part : outline.parts) largest = std::max<std::int64_t>(largest, part.id);
+    for (const PartExtent& part : outline.parts) largest = std::max<std::int64_t>(largest, part.id.value());
     const auto fits = [&](std::int64_t limit) { return outline.is_whole && largest <= limit; };
     const int tag_bytes = fits(std::numeric_limits<std::int8_t>::max())    ? 1
                           : fits(std::numeric_limits<std::int16_t>::max()) ? 2

@@ -53,7 +53,7 @@ class ArrayFiller {
             mesh_.triangles[row] = global_corners(part, part.facets[f]);
             if (part.order() == 2) mesh_.quadratic_triangles[row] = global_nodes(part, part.nodes_of_facet(f));
             mesh_.patch[row] = part.patch[f];
-            mesh_.sides[row] = {region, part.is_wall(f) ? part.neighbour[f] : -1};
+            mesh_.sides[row] = {region, part.is_wall(f) ? part.neighbour[f].value() : -1};
         }
         require(next == end, part);
         const std::lock_guard lock(mutex_);
@@ -77,7 +77,7 @@ class ArrayFiller {
         const auto count = std::ssize(tets);
         std::transform(tets.begin(), tets.end(), mesh_.tets.begin() + begin,
                        [&](const Tetrahedron& tet) { return global_corners(part, tet); });
-        std::fill_n(mesh_.part.begin() + begin, count, part.id);
+        std::fill_n(mesh_.part.begin() + begin, count, part.id.value());
         std::fill_n(mesh_.region.begin() + begin, count, part.region_of(0).value());
     }
 
@@ -97,7 +97,7 @@ class ArrayFiller {
     // Returns the mesh, when all parts are there.
     MeshArrays take() {
         for (auto& [behind, in_front] : mesh_.sides)
-            if (in_front >= 0) in_front = region_of_part_.at(in_front);
+            if (in_front >= 0) in_front = region_of_part_.at(NodeId(in_front));
         return std::move(mesh_);
     }
 
@@ -111,7 +111,7 @@ class ArrayFiller {
     static void require(bool holds, const Part& part) {
         if (!holds)
             throw Error(ErrorCode::io,
-                        fmt::format("The files of part {} do not belong together. Mesh again.", part.id));
+                        fmt::format("The files of part {} do not belong together. Mesh again.", part.id.value()));
     }
 
     const MeshOutline& outline_;

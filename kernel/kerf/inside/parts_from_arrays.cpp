@@ -87,7 +87,7 @@ class PartTaker {
     void add_boundary(std::int32_t tet, std::int32_t place, Part& part) {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::int32_t beyond = whole_.neighbours[tet][i].value();
-            const NodeId neighbour = beyond < 0 ? -1 : mesh_.part[beyond];
+            const NodeId neighbour = beyond < 0 ? NodeId::none() : NodeId(mesh_.part[beyond]);
             if (neighbour == part.id) continue;
             Corners corners;
             for (std::size_t c = 0; c < 3; ++c) corners[c] = whole_.tets[tet][tet_faces[i][c]];
@@ -120,7 +120,7 @@ class PartTaker {
 void for_each_part_of(const MeshArrays& mesh, const std::function<void(const Part&)>& take) {
     PartTaker taker(mesh);
     std::map<NodeId, std::vector<std::int32_t>> tets_of;
-    for (std::size_t tet = 0; tet < mesh.part.size(); ++tet) tets_of[mesh.part[tet]].push_back(tet);
+    for (std::size_t tet = 0; tet < mesh.part.size(); ++tet) tets_of[NodeId(mesh.part[tet])].push_back(tet);
     for (const auto& [id, tets] : tets_of) take(taker.take(id, tets));
 }
 

@@ -42,7 +42,7 @@ void require_32_bits(const MeshArrays& mesh) {
 RegionsAsParts::RegionsAsParts(const MeshArrays& mesh) : mesh_(mesh) {
     const std::size_t region_count = std::max<std::size_t>(1, mesh.region_names.size());
     // Parts are leaves of a tree of one depth, so that no number is the ancestor of another.
-    const NodeId first_leaf = std::bit_ceil(region_count);
+    const std::size_t first_leaf = std::bit_ceil(region_count);
     outline_.vertices = vertex_count_of(mesh);
     outline_.order = mesh.quadratic_tets.empty() ? 1 : 2;
     outline_.edge_nodes = mesh.edge_nodes;
@@ -54,7 +54,7 @@ RegionsAsParts::RegionsAsParts(const MeshArrays& mesh) : mesh_(mesh) {
     std::vector<SharedVertices::Incidence> held;
     std::vector<NodeId> ids;
     for (std::size_t r = 0; r < region_count; ++r) {
-        part_of_region_.push_back(tets[r] > 0 ? first_leaf + static_cast<NodeId>(r) : -1);
+        part_of_region_.push_back(tets[r] > 0 ? NodeId(first_leaf + r) : NodeId::none());
         if (tets[r] == 0) continue;
         const PartIndex index(ids.size());
         ids.push_back(part_of_region_[RegionIndex(r)]);
@@ -64,11 +64,11 @@ RegionsAsParts::RegionsAsParts(const MeshArrays& mesh) : mesh_(mesh) {
     }
     for (const auto& [behind, in_front] : mesh.sides) {
         const NodeId here = part_of_region_[RegionIndex(behind)];
-        const NodeId beyond = in_front < 0 ? -1 : part_of_region_[RegionIndex(in_front)];
+        const NodeId beyond = in_front < 0 ? NodeId::none() : part_of_region_[RegionIndex(in_front)];
         const bool is_listed_here = is_listed_triangle(0, here, beyond);
         PartExtent& own = outline_.parts[outline_.index_of(here)];
         ++(is_listed_here ? own.patch_facets : own.interface_facets);
-        if (beyond < 0) continue;
+        if (!beyond.is_valid()) continue;
         PartExtent& other = outline_.parts[outline_.index_of(beyond)];
         ++(is_listed_here ? other.interface_facets : other.patch_facets);
     }
@@ -128,7 +128,7 @@ Part RegionsAsParts::load(PartIndex index) const {
             for (std::size_t i = 0; i < 3; ++i) facet[i] = place[corners[i]];
             part.patch.push_back(mesh_.patch[f]);
             part.facet.push_back(f);
-            part.neighbour.push_back(beyond < 0 ? -1 : part_of_region_[RegionIndex(beyond)]);
+            part.neighbour.push_back(beyond < 0 ? NodeId::none() : part_of_region_[RegionIndex(beyond)]);
         }
     part.tet_at_facet = tets_at_facets(part.mesh, part.facets);
     part.shared = shared_.groups_of(index, std::span(part.global_id).first(part.mesh.boundary_vertex_count));

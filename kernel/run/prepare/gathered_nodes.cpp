@@ -45,7 +45,7 @@ std::vector<TreeNode> merge_nodes(const std::vector<NodesOfRank>& gathered) {
                     fmt::format("Rank {} on {} and rank {} on {} have cut node {} of the tree differently, so that "
                                 "their parts would not fit. Use hosts with the same processors, system libraries and "
                                 "build of Kerf.",
-                                first, gathered[first].host, second, gathered[second].host, node));
+                                first, gathered[first].host, second, gathered[second].host, node.value()));
     }
     std::vector<TreeNode> all;
     for (const auto& [id, first] : found) all.push_back(*first.node);

@@ -40,8 +40,8 @@ SurfaceArrays with_input_keys(Soup soup) {
     SurfaceArrays arrays;
     arrays.vertex_key.resize(soup.vertices.size());
     arrays.facet_key.resize(soup.facets.size());
-    std::iota(arrays.vertex_key.begin(), arrays.vertex_key.end(), make_key(0, 0));
-    std::iota(arrays.facet_key.begin(), arrays.facet_key.end(), make_key(0, 0));
+    std::iota(arrays.vertex_key.begin(), arrays.vertex_key.end(), make_key(input_node, 0));
+    std::iota(arrays.facet_key.begin(), arrays.facet_key.end(), make_key(input_node, 0));
     arrays.vertices = std::move(soup.vertices);
     arrays.facets = std::move(soup.facets);
     arrays.patch = std::move(soup.patch);

@@ -64,13 +64,13 @@ std::vector<ToldSide> in_order_of_names(SidesOfRanks told) {
 // Fills the neighbour of each side, -1 if it has none, and returns how many facets do not match.
 std::int64_t match(SidesOfRanks told, NeighboursOfRanks& neighbours) {
     neighbours.resize(told.size());
-    for (std::size_t r = 0; r < told.size(); ++r) neighbours[r].assign(told[r].size(), -1);
+    for (std::size_t r = 0; r < told.size(); ++r) neighbours[r].assign(told[r].size(), NodeId::none());
     const std::vector<ToldSide> sides = in_order_of_names(std::move(told));
     std::int64_t unmatched = 0;
     for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
         last = std::find_if(first, sides.end(), [&](const ToldSide& s) { return s.name() != first->name(); });
         for (auto side = first; side != last; ++side)
-            for (auto other = last; other != first && neighbours[side->rank][side->place] < 0; --other)
+            for (auto other = last; other != first && !neighbours[side->rank][side->place].is_valid(); --other)
                 if ((other - 1)->leaf != side->leaf) neighbours[side->rank][side->place] = (other - 1)->leaf;
         const auto are_opposite = [](const ToldSide& a, const ToldSide& b) {
             return a.leaf != b.leaf && a.is_reversed != b.is_reversed;
@@ -95,7 +95,7 @@ InterfaceMatch::InterfaceMatch(Communicator& ranks, const std::vector<Leaf>& lea
     NeighboursOfRanks found;
     unmatched_ = sum_of(ranks, match(exchange_items(ranks, std::move(told)), found));
     found = exchange_items(ranks, std::move(found));
-    for (const Leaf& leaf : leaves) neighbours_.emplace_back(leaf.surface.facets.size(), -1);
+    for (const Leaf& leaf : leaves) neighbours_.emplace_back(leaf.surface.facets.size(), NodeId::none());
     std::vector<std::size_t> next(found.size(), 0);  // answers come in the order of the sides that were told
     for_each_shared_facet(leaves, sides, [&](std::size_t i, std::size_t f) {
         const std::size_t owner = owner_of(leaves[i].surface, f);

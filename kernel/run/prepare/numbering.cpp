@@ -7,7 +7,7 @@
 namespace kerf {
 
 VertexNumbering::VertexNumbering(std::int64_t input_vertices, std::span<const TreeNode> nodes)
-    : offsets_{{0, 0}}, end_(input_vertices) {
+    : offsets_{{input_node, 0}}, end_(input_vertices) {
     const auto by_number = [](const TreeNode& a, const TreeNode& b) { return a.id < b.id; };
     KERF_CHECK(input_vertices >= 0 && std::is_sorted(nodes.begin(), nodes.end(), by_number));
     for (const TreeNode& node : nodes) {

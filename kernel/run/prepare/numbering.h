@@ -28,7 +28,7 @@ class VertexNumbering {
         NodeId node;
         std::int64_t first;
     };
-    std::vector<Offset> offsets_;  // ascending by node; node 0 is the input
+    std::vector<Offset> offsets_;  // ascending by node; the first is input_node
     std::int64_t end_ = 0;
 };
 

@@ -47,7 +47,7 @@ std::string first_parts_text(const RunReport& report, const std::function<std::s
     std::vector<std::string> all;
     for (const PartReport& part : report.parts)
         if (const std::string text = part.result.code == 0 ? text_of(part) : ""; !text.empty())
-            all.push_back(fmt::format("part {}: {}", part.id, text));
+            all.push_back(fmt::format("part {}: {}", part.id.value(), text));
     const auto end = all.begin() + std::min(limit, all.size());
     const std::string more = all.size() > limit ? fmt::format("; and {} more", all.size() - limit) : "";
     return fmt::format("{}{}", fmt::join(all.begin(), end, "; "), more);

@@ -18,7 +18,7 @@ namespace kerf {
 
 /// One part of the run: a leaf of the tree, and its outcome.
 struct PartReport : PartOutcome {
-    NodeId id = 1;
+    NodeId id = root_node;
     std::int32_t rank = 0;  ///< rank that meshed it; before that, the rank that cut it
     bool resumed = false;   ///< true: an interrupted run had finished it
     double load = 0;        ///< predicted work, in units of LoadModel

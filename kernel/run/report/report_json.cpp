@@ -117,8 +117,8 @@ Json options_json(RunRequest request) {
 
 Json node_json(const TreeNode& node) {
     Json json = {{"id", node.id},
-                 {"parent", node.id / 2},
-                 {"children", node.is_divided() ? Json{2 * node.id, 2 * node.id + 1} : Json::array()},
+                 {"parent", parent_of(node.id)},
+                 {"children", node.is_divided() ? Json(halves_of(node.id)) : Json::array()},
                  {"level", level_of(node.id)},
                  {"leaves", node.leaves},
                  {"vertices", node.vertices},

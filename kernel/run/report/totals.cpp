@@ -24,7 +24,7 @@ namespace {
 // beside its facet, once for each level of the tree.
 double error_of_splits(const RunReport& report) {
     if (report.cut.split_facets == 0) return 0;
-    NodeId last = 1;
+    NodeId last = root_node;
     for (const PartReport& part : report.parts) last = std::max(last, part.id);
     return (level_of(last) + 1) * 16 * 0x1p-53 * report.input.largest_coordinate * report.input.area;
 }
@@ -124,7 +124,7 @@ void add_up_parts(RunReport& report) {
             ++report.mesh.parts_by_way[part.result.way()];
             report.mesh.parts_by_tetgen += part.result.is_by_tetgen();
         }
-        hashes.push_back({part.id, part.result.hash});
+        hashes.push_back({part.id.value(), part.result.hash});
     }
     if (report.request.volume) report.mesh.hash = hash_of_parts(hashes);
     report.verification = verify_parts(report);

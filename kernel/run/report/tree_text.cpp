@@ -4,7 +4,6 @@
 #include "run/report/tree_text.h"
 
 #include <algorithm>
-#include <bit>
 
 #include <fmt/format.h>
 
@@ -31,10 +30,11 @@ constexpr const char* level_legend =
 std::string percent(double part, double whole) { return fmt::format("{:.2f}", 100 * part / whole); }
 
 std::string node_line(const TreeNode& node, double volume) {
-    const std::string source = node.id == 1 ? "-" : std::to_string(node.id / 2);
-    const std::string products = node.is_divided() ? fmt::format("{} {}", 2 * node.id, 2 * node.id + 1) : "part";
-    std::string line = fmt::format("{:>5} {:>6} {:>6} {:>9} {:>8} {:>8} {:>6}", level_of(node.id), node.id, source,
-                                   products, node.facets, node.vertices, percent(node.mass.volume, volume));
+    const std::string source = node.id == root_node ? "-" : std::to_string(parent_of(node.id).value());
+    const std::string products =
+        node.is_divided() ? fmt::format("{} {}", child_of(node.id, 0).value(), child_of(node.id, 1).value()) : "part";
+    std::string line = fmt::format("{:>5} {:>6} {:>6} {:>9} {:>8} {:>8} {:>6}", level_of(node.id), node.id.value(),
+                                   source, products, node.facets, node.vertices, percent(node.mass.volume, volume));
     if (node.regions > 1) line += fmt::format("  {} regions", node.regions);
     if (node.cut_tried) line += fmt::format("  {:<12} {:>5}", in_words(name(node.strategy)), node.tries);
     if (node.cut_made)
@@ -102,8 +102,6 @@ std::string lines_of_levels(std::span<const TreeNode> nodes) {
 }
 
 }  // namespace
-
-int level_of(NodeId node) { return std::bit_width(static_cast<std::uint32_t>(node)) - 1; }
 
 std::string tree_text(std::span<const TreeNode> nodes, bool every_node) {
     const auto by_number = [](const TreeNode& a, const TreeNode& b) { return a.id < b.id; };

@@ -12,9 +12,6 @@ namespace kerf {
 /// Above this number of parts the tree is printed level by level.
 inline constexpr std::ptrdiff_t most_parts_of_node_lines = 32;
 
-/// Returns the number of cuts between the root and a node.
-int level_of(NodeId node);
-
 /// Returns a line for each node in the order of `nodes`: the node that it was cut from (source) and those that it was
 /// cut into (products), its size, the way in which it was cut and the quality of the cut. Above
 /// most_parts_of_node_lines parts, unless `every_node` is set, a line for each level instead. A legend ends it. No line

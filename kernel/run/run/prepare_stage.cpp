@@ -49,7 +49,7 @@ PartReport describe_part(const PartJob& job, double volume, int rank, double hal
         const std::vector<Vec3>& p = job.surface.vertices;
         const double area = triangle_area(p, t);
         const Vec3 centroid = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
-        if (job.neighbour[f] >= 0) part.neighbours.push_back(job.neighbour[f]);
+        if (job.neighbour[f].is_valid()) part.neighbours.push_back(job.neighbour[f]);
         if (is_of_input(job.surface.facet_key[f])) {
             part.walls_of_others += !is_listed_triangle(job.surface.patch[f], job.part, job.neighbour[f]);
             part.tets_at_facets +=

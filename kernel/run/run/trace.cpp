@@ -62,7 +62,7 @@ void check(const TraceHeader& header, std::span<const char> record, const std::s
 
 // The first node of each region; all ranks have the nodes above the regions that they own.
 std::vector<NodeId> roots_of_regions(Communicator& ranks, const std::vector<TreeNode>& own, std::size_t regions) {
-    std::vector<NodeId> roots(regions, std::numeric_limits<NodeId>::max());
+    std::vector<NodeId> roots(regions, NodeId(std::numeric_limits<std::int32_t>::max()));
     for (const TreeNode& node : own)
         if (NodeId& root = roots[node.region.value()]; node.regions == 1) root = std::min(root, node.id);
     for (const std::vector<NodeId>& of_rank : all_gather(ranks, roots))
@@ -78,7 +78,7 @@ const Cut* Trace::find(NodeId node) const {
 }
 
 std::optional<Surface> Trace::root_surface(NodeId node) const {
-    if (region_roots.empty()) return node == 1 ? std::optional(Surface(surface)) : std::nullopt;
+    if (region_roots.empty()) return node == root_node ? std::optional(Surface(surface)) : std::nullopt;
     const auto root = std::find(region_roots.begin(), region_roots.end(), node);
     if (root == region_roots.end()) return std::nullopt;
     return Complex(surface, sides, region_names).surface_of(RegionIndex(root - region_roots.begin()));
@@ -113,14 +113,14 @@ Surface replay(const Trace& trace, NodeId node) {
     if (const Cut* straight = trace.find(node); straight && !straight->split_parent.facets.empty())
         return separated_surface(straight->split_parent);
     if (std::optional<Surface> root = trace.root_surface(node)) return *std::move(root);
-    const Cut* cut = trace.find(node / 2);
+    const Cut* cut = trace.find(parent_of(node));
     if (!cut || !cut->made())
         throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {} with a surface. Its root is 1, the "
                                                   "children of a node i that was cut, or that holds several regions, "
                                                   "are 2i and 2i+1.",
-                                                  trace.input, node));
-    const Surface parent = replay(trace, node / 2);
-    return separated_surface(split(parent, cut->side, cut->interface, cut->node)[node % 2].arrays);
+                                                  trace.input, node.value()));
+    const Surface parent = replay(trace, parent_of(node));
+    return separated_surface(split(parent, cut->side, cut->interface, cut->node)[side_of(node)].arrays);
 }
 
 void write_trace(const std::string& path, const Trace& trace) {

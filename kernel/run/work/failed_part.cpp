@@ -24,8 +24,8 @@ std::string place_of(const SurfaceArrays& surface) {
 
 }  // namespace
 
-void write_failed_part(const std::string& folder, int leaf, const SurfaceArrays& surface, const MesherOptions& mesher,
-                       const std::string& reason) {
+void write_failed_part(const std::string& folder, NodeId leaf, const SurfaceArrays& surface,
+                       const MesherOptions& mesher, const std::string& reason) {
     namespace fs = std::filesystem;
     const fs::path text = fs::path(folder) / failed_part_file_name(leaf), place = text.parent_path();
     std::error_code error;

@@ -52,12 +52,12 @@ std::string without_volume(std::int64_t count) {
         count == 1 ? "1 tetrahedron has" : fmt::format("{} tetrahedra have", count));
 }
 
-constexpr NodeId cut_node = 1;
+constexpr NodeId cut_node = root_node;
 
 // Returns the surface with its vertices and facets named by their numbers, so that those of the cut are told from them.
 SurfaceArrays renamed(SurfaceArrays arrays) {
-    for (std::int32_t v = 0; v < count_of(arrays.vertices); ++v) arrays.vertex_key[v] = make_key(0, v);
-    for (std::int32_t f = 0; f < count_of(arrays.facets); ++f) arrays.facet_key[f] = make_key(0, f);
+    for (std::int32_t v = 0; v < count_of(arrays.vertices); ++v) arrays.vertex_key[v] = make_key(input_node, v);
+    for (std::int32_t f = 0; f < count_of(arrays.facets); ++f) arrays.facet_key[f] = make_key(input_node, f);
     return arrays;
 }
 

@@ -17,7 +17,7 @@ namespace kerf {
 
 /// The facts about a part before it is meshed, on which alone the mesh depends.
 struct PartJob {
-    NodeId part = 1;
+    NodeId part = root_node;
     SurfaceArrays surface;  ///< closed; as mesh_volume() takes it: may touch itself at vertices and along edges
     std::vector<std::int64_t> boundary_id;       ///< #V; global numbers
     std::vector<NodeId> neighbour;               ///< #F; the part on the other side of an interface facet, else -1

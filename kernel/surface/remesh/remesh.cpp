@@ -84,7 +84,7 @@ FinerShares finer_shares(const SheetMesh& mesh) {
 // Joins the copies at seams, and makes the numbers of vertices their keys.
 SurfaceArrays with_seams_joined(SurfaceArrays sheets) {
     SurfaceArrays joined = joined_by_key(std::move(sheets));
-    for (std::int32_t v = 0; v < count_of(joined.vertices); ++v) joined.vertex_key[v] = make_key(0, v);
+    for (std::int32_t v = 0; v < count_of(joined.vertices); ++v) joined.vertex_key[v] = make_key(input_node, v);
     return joined;
 }
 

@@ -21,8 +21,7 @@ class RegionSizes {
     const Array<RegionIndex, double>& max_volumes() const { return max_volumes_; }
     /// Returns the field of a region; `all` is that of regions without a size of their own.
     SizeField of(RegionIndex region, const SizeField& all) const {
-        const bool has_own =
-            region.is_valid() && region < RegionIndex(max_volumes_.size()) && max_volumes_[region] > 0;
+        const bool has_own = region.is_valid() && region < RegionIndex(max_volumes_.size()) && max_volumes_[region] > 0;
         return has_own ? all.with_constant(max_volumes_[region]) : all;
     }
 

@@ -81,9 +81,9 @@ class MaterialReader {
         if (!list || list->empty()) table_.refuse(node, "parts is no list of numbers of parts.");
         for (const toml::node& item : *list) {
             const auto number = item.value_exact<std::int64_t>();
-            if (!number || *number < 1 || *number > std::numeric_limits<NodeId>::max())
+            if (!number || *number < 1 || *number > std::numeric_limits<std::int32_t>::max())
                 table_.refuse(item, "parts is no list of numbers of parts.");
-            parts.push_back(*number);
+            parts.emplace_back(*number);
         }
         return parts;
     }

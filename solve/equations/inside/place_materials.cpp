@@ -122,9 +122,10 @@ void MaterialPlacer::place_material(const MaterialUse& use, MaterialPlaces& plac
     const std::string who = fmt::format("Material '{}'", use.material.name);
     for (const NodeId id : use.parts) {
         if (std::none_of(outline_.parts.begin(), outline_.parts.end(), [&](const PartExtent& e) { return e.id == id; }))
-            throw Error(ErrorCode::usage, fmt::format("{} names part {}, which this mesh does not have.", who, id));
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} names part {}, which this mesh does not have.", who, id.value()));
         if (!places.of_part.emplace(id, number).second)
-            throw Error(ErrorCode::usage, fmt::format("Part {} has two materials.", id));
+            throw Error(ErrorCode::usage, fmt::format("Part {} has two materials.", id.value()));
     }
     if (!use.patches.empty()) {
         const std::vector<char> here = bodies_at(use.patches, who);

@@ -18,7 +18,7 @@
 namespace kerf {
 namespace {
 
-constexpr NodeId cut_node = 5;
+constexpr NodeId cut_node(5);
 
 // A body, its plane at height z, and the interface there.
 struct Section {

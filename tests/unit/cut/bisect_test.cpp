@@ -27,7 +27,7 @@ class Bisections : public testing::TestWithParam<std::string> {
     Bisections() : surface_(test::asset_surface(GetParam())), mass_(mass_properties(surface_)) {}
 
     Bisection cut(double fraction, const CutOptions& options, bool record = false) const {
-        return bisect(surface_, mass_, 3, {fraction}, options, record);
+        return bisect(surface_, mass_, NodeId(3), {fraction}, options, record);
     }
     void expect_valid(const Bisection& result) const;
 
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Assets, Bisections, testing::ValuesIn(test::asset_names
 void Bisections::expect_valid(const Bisection& result) const {
     const Cut& cut = result.cut;
     ASSERT_TRUE(cut.made());
-    EXPECT_EQ(cut.node, 3);
+    EXPECT_EQ(cut.node, NodeId(3));
     double volume = 0;
     std::int64_t facets = 0;
     for (const Surface& half : result.halves) {
@@ -67,7 +67,7 @@ TEST(Bisect, IsTheSameOnAnyNumberOfThreads) {
         options.size = SizeField(max_volume);
         for (const int threads : {1, 2, 7}) {
             set_thread_limit(threads);
-            const Bisection result = bisect(surface, mass_properties(surface), 1, {0.4}, options, false);
+            const Bisection result = bisect(surface, mass_properties(surface), root_node, {0.4}, options, false);
             ASSERT_TRUE(result.cut.made());
             hashes.push_back(result.cut.hash);
             EXPECT_EQ(hashes.back(), hashes[hashes.size() < 4 ? 0 : 3]) << threads;
@@ -127,7 +127,7 @@ TEST(Bisect, GoesAgainstTheGrainOfEdges) {
         const Surface surface = test::to_surface(soup);
         CutOptions across_z;
         across_z.axis = 2;
-        const Cut cut = bisect(surface, mass_properties(surface), 1, {0.5}, across_z, false).cut;
+        const Cut cut = bisect(surface, mass_properties(surface), root_node, {0.5}, across_z, false).cut;
         EXPECT_TRUE(cut.strategy == CutStrategy::first_try || cut.strategy == CutStrategy::local_repair)
             << name(cut.strategy);
         EXPECT_LE(cut.tries.size(), 3U);
@@ -184,7 +184,7 @@ TEST_P(Bisections, RecordChangesNothingElse) {
 
 TEST(Bisect, BodyThatCannotBeCutStaysWhole) {
     const Surface tetrahedron(test::to_arrays(test::tetrahedron()));
-    const Bisection result = bisect(tetrahedron, mass_properties(tetrahedron), 1, {}, {}, false);
+    const Bisection result = bisect(tetrahedron, mass_properties(tetrahedron), root_node, {}, {}, false);
     EXPECT_EQ(result.cut.strategy, CutStrategy::whole);
     EXPECT_FALSE(result.cut.tries.empty());
     for (const CutTry& attempt : result.cut.tries) EXPECT_NE(attempt.refusal, Refusal::none);
@@ -197,7 +197,7 @@ TEST(Bisect, PlaneInAGapThatTouchesABodyParts) {
     CutOptions options;
     options.criterion = Criterion::equidistant;
     options.axis = 0;
-    const Bisection result = bisect(surface, mass_properties(surface), 1, {}, options, false);
+    const Bisection result = bisect(surface, mass_properties(surface), root_node, {}, options, false);
     EXPECT_EQ(result.cut.strategy, CutStrategy::first_try);
     EXPECT_TRUE(result.cut.loops.empty());
     EXPECT_DOUBLE_EQ(enclosed_volume(result.halves[0]), 1);
@@ -237,7 +237,7 @@ class OrderChecker : public CutListener {
  public:
     void on_cut(const Surface&, const Cut& cut) override {
         EXPECT_EQ(++inside_, 1);
-        EXPECT_TRUE(cut.node == 1 || std::find(nodes.begin(), nodes.end(), cut.node / 2) != nodes.end());
+        EXPECT_TRUE(cut.node == root_node || std::find(nodes.begin(), nodes.end(), parent_of(cut.node)) != nodes.end());
         nodes.push_back(cut.node);
         --inside_;
     }
@@ -270,7 +270,7 @@ TEST(Decompose, ThreadsChangeNothing) {
 TEST(Decompose, ErrorsOfListenersReachTheCaller) {
     class Thrower : public CutListener {
         void on_cut(const Surface&, const Cut& cut) override {
-            if (cut.node == 2) throw Error(ErrorCode::cancelled, "Enough.");
+            if (cut.node == NodeId(2)) throw Error(ErrorCode::cancelled, "Enough.");
         }
     } thrower;
     DecomposeOptions options;
@@ -288,9 +288,9 @@ TEST(Decompose, ChildrenAreNumberedAsInABinaryTree) {
         const bool leaf = std::any_of(result.leaves.begin(), result.leaves.end(),
                                       [&](const Leaf& l) { return l.id == tree_node.id; });
         EXPECT_NE(leaf, tree_node.cut_made);
-        if (tree_node.id == 1) continue;
+        if (tree_node.id == root_node) continue;
         EXPECT_TRUE(std::any_of(result.nodes.begin(), result.nodes.end(), [&](const TreeNode& parent) {
-            return parent.id == tree_node.id / 2 && parent.cut_made && parent.leaves > tree_node.leaves;
+            return parent.id == parent_of(tree_node.id) && parent.cut_made && parent.leaves > tree_node.leaves;
         }));
     }
 }

@@ -151,7 +151,7 @@ class SplitShape : public testing::TestWithParam<NamedShape> {
             for (int i = 0; i < 8; ++i) {
                 const double height = std::uniform_real_distribution(box_.min()[axis], box_.max()[axis])(random);
                 SCOPED_TRACE(testing::Message() << "seed 1, axis " << axis << ", height " << height);
-                const std::optional<PlaneSplit> split = split_at_plane(surface_, axis, height, 5);
+                const std::optional<PlaneSplit> split = split_at_plane(surface_, axis, height, NodeId(5));
                 ASSERT_TRUE(split.has_value());
                 body(*split, axis, height);
             }
@@ -190,13 +190,13 @@ TEST_P(SplitShape, EveryCrossedEdgeHasOneNewVertexOnThePlane) {
             divided.insert({Vertex(edge.below), Vertex(edge.above)});
             EXPECT_EQ(edge.vertex, static_cast<std::int32_t>(old_count + i));
             EXPECT_EQ(split.arrays.vertices[edge.vertex][axis], height);
-            EXPECT_EQ(split.arrays.vertex_key[edge.vertex], make_key(5, static_cast<std::int32_t>(i)));
+            EXPECT_EQ(split.arrays.vertex_key[edge.vertex], make_key(NodeId(5), static_cast<std::int32_t>(i)));
         }
         EXPECT_EQ(divided, crossed);
         EXPECT_EQ(divided.size(), split.edges.size());
         for (std::size_t v = 0; v < old_count; ++v) {
             EXPECT_EQ(split.arrays.vertices[v], surface_.point(Vertex(v)));
-            EXPECT_EQ(key_node(split.arrays.vertex_key[v]), 0);
+            EXPECT_EQ(key_node(split.arrays.vertex_key[v]), input_node);
         }
     });
 }
@@ -224,7 +224,7 @@ TEST_P(SplitShape, PiecesAreTheirFacetsAndLieOnTheirSide) {
 TEST_P(SplitShape, PlaneThroughAVertexIsRefused) {
     for (int axis = 0; axis < 3; ++axis)
         for (std::int32_t v = 0; v < surface_.vertex_count(); v += 7)
-            EXPECT_FALSE(split_at_plane(surface_, axis, surface_.point(Vertex(v))[axis], 1).has_value());
+            EXPECT_FALSE(split_at_plane(surface_, axis, surface_.point(Vertex(v))[axis], root_node).has_value());
 }
 
 // The heights between which the load is as wanted, and `margin` beyond: a plane stays clear of the vertex that ends its
@@ -245,7 +245,7 @@ TEST_P(SplitShape, PlanesStayClearOfVerticesAndInsideOfTheLoadWindow) {
             const std::vector<StraightPlane> planes = straight_planes(surface_, fraction, options);
             ASSERT_FALSE(planes.empty());
             EXPECT_LE(planes.size(), 12u);
-            EXPECT_TRUE(split_at_plane(surface_, planes[0].axis, planes[0].height, 1).has_value());
+            EXPECT_TRUE(split_at_plane(surface_, planes[0].axis, planes[0].height, root_node).has_value());
             for (const auto& [axis, height] : planes) {
                 EXPECT_TRUE(options.axis < 0 || axis == options.axis);
                 for (const Vec3& p : GetParam().soup.vertices) EXPECT_NE(p[axis], height);

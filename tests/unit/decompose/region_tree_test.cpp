@@ -25,7 +25,7 @@ void visit(const RegionTree& tree, const RegionTree::Node& node, std::vector<std
         return;
     }
     const auto [lower, upper] = tree.halves(node);
-    EXPECT_EQ(lower.id, 2 * node.id);
+    EXPECT_EQ(lower.id, child_of(node.id, 0));
     EXPECT_EQ(tree.leaves(lower) + tree.leaves(upper), tree.leaves(node));
     visit(tree, lower, leaves);
     visit(tree, upper, leaves);

@@ -39,15 +39,15 @@ INSTANTIATE_TEST_SUITE_P(Parts, StraightDivision, testing::ValuesIn(parts()),
                          [](const auto& param) { return param.param.name; });
 
 TEST(TreeNodes, AreNumberedAsFarAsThereAreNumbers) {
-    NodeId node = 1;
+    NodeId node = root_node;
     for (int depth = 0; depth < 30; ++depth) {
         const auto [below, above] = children_of(node);
-        EXPECT_EQ(below / 2, node);
-        EXPECT_EQ(above, below + 1);
+        EXPECT_EQ(parent_of(below), node);
+        EXPECT_EQ(above, sibling_of(below));
         node = above;
     }
-    EXPECT_EQ(node, std::numeric_limits<NodeId>::max());
-    for (const NodeId deepest : {node, NodeId{1} << 30}) {
+    EXPECT_EQ(node.value(), std::numeric_limits<std::int32_t>::max());
+    for (const NodeId deepest : {node, NodeId(1 << 30)}) {
         try {
             children_of(deepest);
             FAIL() << "no error";

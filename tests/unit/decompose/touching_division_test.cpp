@@ -123,11 +123,11 @@ TEST_P(TouchingDivision, PassesNoPlaceWhereTheBodyTouchesItself) {
 
 TEST(SplitAtPlane, RefusesToCrossAnEdgeWhereTheBodyTouchesItself) {
     const Surface cubes = divided_body("cubes", {{0, 0, 0}, {1, 1, 0}}, 1).surface();
-    EXPECT_FALSE(split_at_plane(cubes, 2, 0.5, 1));
-    EXPECT_TRUE(split_at_plane(cubes, 0, 0.5, 1));
+    EXPECT_FALSE(split_at_plane(cubes, 2, 0.5, root_node));
+    EXPECT_TRUE(split_at_plane(cubes, 0, 0.5, root_node));
     const Surface notch = divided_body("notch", test::notched_voxels(), 1).surface();
-    EXPECT_FALSE(split_at_plane(notch, 2, 1.5, 1));
-    EXPECT_TRUE(split_at_plane(notch, 2, 0.5, 1));
+    EXPECT_FALSE(split_at_plane(notch, 2, 1.5, root_node));
+    EXPECT_TRUE(split_at_plane(notch, 2, 0.5, root_node));
 }
 
 }  // namespace

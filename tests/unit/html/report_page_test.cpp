@@ -49,7 +49,7 @@ Part box_of_squares(NodeId id, NodeId neighbour, double from, double to, double 
                     for (const Triangle& t : {Triangle{c[0], c[1], c[2]}, Triangle{c[0], c[2], c[3]}}) {
                         part.facets.push_back(end == 1 ? t : Triangle{t[0], t[2], t[1]});
                         part.patch.push_back(is_shared ? -1 : 2 * axis + end);
-                        part.neighbour.push_back(is_shared ? neighbour : -1);
+                        part.neighbour.push_back(is_shared ? neighbour : NodeId::none());
                     }
                 }
     part.mesh.boundary_vertex_count = static_cast<std::int32_t>(part.mesh.vertices.size());
@@ -64,8 +64,8 @@ struct TwoParts {
         const int squares = std::uniform_int_distribution(1, 24)(random);
         const double middle = std::uniform_real_distribution(0.2, 0.8)(random);
         const double bend = std::uniform_real_distribution(0.0, 0.1)(random);
-        first = box_of_squares(2, 3, 0, middle, middle, squares, bend);
-        second = box_of_squares(3, 2, middle, 1, middle, squares, bend);
+        first = box_of_squares(NodeId(2), NodeId(3), 0, middle, middle, squares, bend);
+        second = box_of_squares(NodeId(3), NodeId(2), middle, 1, middle, squares, bend);
     }
     Box box() const {
         Box all = box_around(first.mesh.vertices);
@@ -125,7 +125,8 @@ TEST(PageSurface, ObeysItsLimitAndInterfacesFitHoweverCoarse) {
                 EXPECT_TRUE(std::is_sorted(part.triangles.begin(), part.triangles.end()));
             }
             EXPECT_EQ(counted, surface.triangles());
-            EXPECT_EQ(places(surface, surface.parts()[0], 3, false), places(surface, surface.parts()[1], 2, true));
+            EXPECT_EQ(places(surface, surface.parts()[0], NodeId(3), false),
+                      places(surface, surface.parts()[1], NodeId(2), true));
         }
     EXPECT_GT(coarser, 20);
 }

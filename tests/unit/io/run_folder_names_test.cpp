@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Names of a part in a run and while it is under way, relative to the partial folder.
-std::vector<std::string> names_of(int leaf) {
+std::vector<std::string> names_of(NodeId leaf) {
     return {"parts/" + stored_part_file_name(leaf),
             "parts/" + part_file_name(leaf),
             "parts/" + part_surface_file_name(leaf),
@@ -34,7 +34,7 @@ std::vector<std::string> names_of(int leaf) {
 // A run of up to 1,024 parts has leaves below 2,048.
 TEST(RunFolderNames, OfAThousandPartsLieInOneFolder) {
     for (int leaf = 1; leaf < 2048; ++leaf)
-        for (const std::string& name : names_of(leaf))
+        for (const std::string& name : names_of(NodeId(leaf)))
             EXPECT_EQ(std::count(name.begin(), name.end(), '/'), name.starts_with("work/") ? 2 : 1) << name;
 }
 
@@ -42,7 +42,7 @@ TEST(RunFolderNames, OfAThousandPartsLieInOneFolder) {
 TEST(RunFolderNames, NoFolderIsNamedAsAFileBesideIt) {
     std::set<std::string> names;
     for (int leaf = 1; leaf < 9000; ++leaf)
-        for (const std::string& name : names_of(leaf)) names.insert(name);
+        for (const std::string& name : names_of(NodeId(leaf))) names.insert(name);
     for (const std::string& name : names) EXPECT_FALSE(names.contains(fs::path(name).parent_path())) << name;
 }
 
@@ -51,7 +51,7 @@ TEST(RunFolderNames, OfThousandsOfPartsNoFolderHoldsMoreThanAThousandNames) {
         std::map<fs::path, int> count;
         std::set<std::string> all;
         for (int leaf = parts; leaf < 2 * parts; ++leaf) {
-            for (const std::string& name : names_of(leaf)) {
+            for (const std::string& name : names_of(NodeId(leaf))) {
                 EXPECT_TRUE(is_named_like_run_file(name)) << name;
                 ++count[fs::path(name).parent_path()];
                 all.insert(name);
@@ -82,14 +82,14 @@ void write_run(const RunFolder& folder, int exit_code, const std::vector<std::st
 TEST(RunFolderOfThousands, WaitsForTheNextRunAndLeavesNothing) {
     const test::TemporaryFolder temporary;
     const std::string path = temporary.file("run");
-    const std::vector<int> leaves = {8, 4123, 5000};
+    const std::vector<NodeId> leaves = {NodeId(8), NodeId(4123), NodeId(5000)};
     std::vector<std::string> parts;
-    for (const int leaf : leaves) parts.push_back("parts/" + stored_part_file_name(leaf));
+    for (const NodeId leaf : leaves) parts.push_back("parts/" + stored_part_file_name(leaf));
     {
         RunFolder folder = RunFolder::create(path);
         folder.make_room(leaves);
-        for (const int leaf : leaves) write_mark(folder.journal_file(leaf), "finished");
-        for (const int leaf : leaves) write_mark(folder.begun_file(leaf), "");
+        for (const NodeId leaf : leaves) write_mark(folder.journal_file(leaf), "finished");
+        for (const NodeId leaf : leaves) write_mark(folder.begun_file(leaf), "");
         write_mark(folder.saved_run_file(), "options");
         write_run(folder, 4, parts);
         folder.commit(false);
@@ -99,9 +99,9 @@ TEST(RunFolderOfThousands, WaitsForTheNextRunAndLeavesNothing) {
     {
         RunFolder folder = RunFolder::create(path, [](const std::string&) { return true; });
         EXPECT_EQ(folder.finished_parts(), 3u);
-        folder.keep_only({4123});
+        folder.keep_only({NodeId(4123)});
         EXPECT_EQ(folder.finished_parts(), 1u);
-        EXPECT_EQ(test::bytes_of_file(folder.stored_part_file(4123)), "failed");
+        EXPECT_EQ(test::bytes_of_file(folder.stored_part_file(NodeId(4123))), "failed");
         EXPECT_FALSE(fs::exists(folder.file("parts/5000")));
         write_run(folder, 0, {parts[1]});
         folder.commit(true);

@@ -193,9 +193,9 @@ TEST_F(RunFolderTest, FinishedPartsOfAFailedRunAreTakenOver) {
         {
             RunFolder folder = RunFolder::create(path("run"));
             fill(folder, "failed", 4);
-            put(folder.journal_file(8), "finished");
+            put(folder.journal_file(NodeId(8)), "finished");
             put(folder.saved_run_file(), "options");
-            put(folder.job_file(9), "waits");
+            put(folder.job_file(NodeId(9)), "waits");
             const std::string place = folder.commit(false);
             EXPECT_EQ(RunFolder::saved_run_file(path("run")), place + "/work/run.json");
             EXPECT_FALSE(fs::exists(place + "/work/jobs"));
@@ -208,7 +208,7 @@ TEST_F(RunFolderTest, FinishedPartsOfAFailedRunAreTakenOver) {
         expect_failed_run(place);
         RunFolder folder = RunFolder::create(path("run"), options_are("options"));
         EXPECT_EQ(folder.finished_parts(), 1u);
-        EXPECT_EQ(get(folder.stored_part_file(8)), "failed");
+        EXPECT_EQ(get(folder.stored_part_file(NodeId(8))), "failed");
         EXPECT_EQ(get(place + "/report.json").substr(0, 1), "{") << "until the next run is complete";
         fill(folder, "valid");
         folder.commit(true);
@@ -264,7 +264,7 @@ TEST_F(RunFolderTest, WhatOthersPutIntoThePartialFolderStays) {
         RunFolder folder = RunFolder::create(path("run"));
         fill(folder, "a");
         put(folder.file("parts/view.pvsm"), "an hour of work");
-        folder.keep_only({8});
+        folder.keep_only({NodeId(8)});
         folder.commit(true);
     }
     EXPECT_EQ(get(path("run/parts/view.pvsm")), "an hour of work");
@@ -285,7 +285,7 @@ TEST_F(RunFolderTest, OneRunAtATimeWrites) {
         const std::string message = test::io_error([&] { RunFolder::create(path("run")); });
         EXPECT_NE(message.find("Another run (process " + std::to_string(::getpid())), message.npos) << message;
         run(path("other"), "a");
-        EXPECT_EQ(get(first.stored_part_file(8)), "first") << "the refused run has changed nothing";
+        EXPECT_EQ(get(first.stored_part_file(NodeId(8))), "first") << "the refused run has changed nothing";
     }
     run(path("run"), "new");
     expect_run(path("run"), "new");
@@ -296,22 +296,23 @@ TEST_F(RunFolderTest, PartsAndJournalOfAnInterruptedRunWaitForTheNext) {
     {
         RunFolder folder = RunFolder::create(path("run"));
         fill(folder, "a");
-        for (const int leaf : {8, 9}) put(folder.journal_file(leaf), "finished");
-        put(folder.stored_part_file(9), "part 9");
-        put(folder.part_surface_file(8), "surface");
-        put(folder.job_file(10), "waits");
+        for (const NodeId leaf : {NodeId(8), NodeId(9)}) put(folder.journal_file(leaf), "finished");
+        put(folder.stored_part_file(NodeId(9)), "part 9");
+        put(folder.part_surface_file(NodeId(8)), "surface");
+        put(folder.job_file(NodeId(10)), "waits");
         folder.keep();
     }
     EXPECT_FALSE(fs::exists(path("run")));
     { RunFolder::create(path("run")); }  // a run that ends before it begins loses nothing
     RunFolder folder = RunFolder::create(path("run"));
     EXPECT_EQ(folder.finished_parts(), 2u);
-    EXPECT_FALSE(fs::exists(folder.job_file(10)));
+    EXPECT_FALSE(fs::exists(folder.job_file(NodeId(10))));
     EXPECT_FALSE(fs::exists(folder.file("report.json")));
-    folder.keep_only({8, 10});
-    EXPECT_EQ(get(folder.stored_part_file(8)), "a");
-    EXPECT_EQ(get(folder.journal_file(8)), "finished");
-    for (const std::string& stale : {folder.stored_part_file(9), folder.journal_file(9), folder.part_surface_file(8)})
+    folder.keep_only({NodeId(8), NodeId(10)});
+    EXPECT_EQ(get(folder.stored_part_file(NodeId(8))), "a");
+    EXPECT_EQ(get(folder.journal_file(NodeId(8))), "finished");
+    for (const std::string& stale :
+         {folder.stored_part_file(NodeId(9)), folder.journal_file(NodeId(9)), folder.part_surface_file(NodeId(8))})
         EXPECT_FALSE(fs::exists(stale)) << stale;
     fill(folder, "b");
     folder.commit(true);
@@ -339,8 +340,8 @@ TEST_F(RunFolderTest, OtherRanksWriteIntoTheSameFolder) {
     fill(root, "a");
     {
         RunFolder other = RunFolder::join(root.partial_path());
-        EXPECT_EQ(other.stored_part_file(9), root.stored_part_file(9));
-        put(other.stored_part_file(9), "from another rank");
+        EXPECT_EQ(other.stored_part_file(NodeId(9)), root.stored_part_file(NodeId(9)));
+        put(other.stored_part_file(NodeId(9)), "from another rank");
         EXPECT_THROW(other.commit(true), Error);
     }
     root.commit(true);
@@ -385,9 +386,9 @@ TEST_F(RunFolderTest, SaysThatPermissionsForbidIt) {
 }
 
 TEST_F(RunFolderTest, NamesPartsByFourDigitsAtLeast) {
-    EXPECT_EQ(part_file_name(8), "part_0008.vtu");
-    EXPECT_EQ(part_file_name(12345), "12200/part_12345.vtu");
-    EXPECT_EQ(part_surface_file_name(8), "part_0008.surface.vtu");
+    EXPECT_EQ(part_file_name(NodeId(8)), "part_0008.vtu");
+    EXPECT_EQ(part_file_name(NodeId(12345)), "12200/part_12345.vtu");
+    EXPECT_EQ(part_surface_file_name(NodeId(8)), "part_0008.surface.vtu");
 }
 
 }  // namespace

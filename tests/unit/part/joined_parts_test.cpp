@@ -12,7 +12,7 @@ namespace {
 class FourParts : public PartSource {
  public:
     explicit FourParts(std::int64_t tets) {
-        for (NodeId id = 4; id < 8; ++id) outline_.parts.push_back({id, 3, tets, 1, 0});
+        for (NodeId id(4); id < NodeId(8); ++id) outline_.parts.push_back({id, 3, tets, 1, 0});
     }
     const MeshOutline& outline() const override { return outline_; }
     Part load(PartIndex index) const override {
@@ -22,7 +22,7 @@ class FourParts : public PartSource {
         part.mesh.vertices = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
         part.facets = {{0, 1, 2}};
         part.patch = {0};
-        part.neighbour = {-1};
+        part.neighbour = {NodeId::none()};
         return part;
     }
     mutable int loaded = 0;

@@ -92,7 +92,7 @@ TEST(GatherNodes, TellsWhichRankHasCutOtherwise) {
             ++shared;
             const std::string words = "Rank " + std::to_string(first->second) + " on " + host_of(first->second) +
                                       " and rank " + std::to_string(rank) + " on " + host_of(rank) + " have cut node " +
-                                      std::to_string(id) + " ";
+                                      std::to_string(id.value()) + " ";
             for (const auto& change : changes) {
                 auto unlike = nodes;
                 change(unlike[rank][i]);
@@ -120,7 +120,7 @@ TEST(CutHash, TellsTheLastBitOfACut) {
         for (const auto& [id, hash] : first)
             if (hash != FileHash{0, 0}) of_cuts.insert(hash);
         EXPECT_EQ(of_cuts.size(), 4u);
-        for (const auto& [id, hash] : other) EXPECT_FALSE(of_cuts.contains(hash)) << "node " << id;
+        for (const auto& [id, hash] : other) EXPECT_FALSE(of_cuts.contains(hash)) << "node " << id.value();
     }
 }
 
@@ -134,8 +134,8 @@ TEST(InterfaceMatch, BothSidesNameEachOther) {
         const Leaf& leaf = five.leaves[i];
         const std::vector<NodeId>& neighbours = match.neighbours(i);
         for (std::size_t f = 0; f < neighbours.size(); ++f) {
-            EXPECT_EQ(neighbours[f] == -1, key_node(leaf.surface.facet_key[f]) == 0);
-            if (neighbours[f] >= 0) sides[leaf.surface.facet_key[f]].insert({leaf.id, neighbours[f]});
+            EXPECT_EQ(neighbours[f] == NodeId::none(), key_node(leaf.surface.facet_key[f]) == input_node);
+            if (neighbours[f].is_valid()) sides[leaf.surface.facet_key[f]].insert({leaf.id, neighbours[f]});
         }
     }
     EXPECT_FALSE(sides.empty());
@@ -330,7 +330,7 @@ TEST(VertexNumbering, IsDenseOverInputAndCuts) {
         const std::vector<std::int64_t> ids = numbering.global_ids(leaf.surface.vertex_key);
         for (std::size_t v = 0; v < ids.size(); ++v) {
             const Key key = leaf.surface.vertex_key[v];
-            EXPECT_TRUE(key_node(key) != 0 || ids[v] == key_index(key));
+            EXPECT_TRUE(key_node(key) != input_node || ids[v] == key_index(key));
             EXPECT_EQ(number_of.emplace(key, ids[v]).first->second, ids[v]);
             numbers.insert(ids[v]);
         }
@@ -343,11 +343,12 @@ TEST(VertexNumbering, IsDenseOverInputAndCuts) {
 
 TEST(VertexNumbering, SkipsNodesWithoutACut) {
     std::vector<TreeNode> nodes(4);
-    for (int i = 0; i < 4; ++i) nodes[i].id = i + 1, nodes[i].interface_vertices = 10, nodes[i].cut_made = i % 2 == 0;
+    for (int i = 0; i < 4; ++i)
+        nodes[i].id = NodeId(i + 1), nodes[i].interface_vertices = 10, nodes[i].cut_made = i % 2 == 0;
     const VertexNumbering numbering(100, nodes);
-    EXPECT_EQ(numbering.global_id(make_key(0, 99)), 99);
-    EXPECT_EQ(numbering.global_id(make_key(1, 3)), 103);
-    EXPECT_EQ(numbering.global_id(make_key(3, 3)), 113);
+    EXPECT_EQ(numbering.global_id(make_key(input_node, 99)), 99);
+    EXPECT_EQ(numbering.global_id(make_key(NodeId(1), 3)), 103);
+    EXPECT_EQ(numbering.global_id(make_key(NodeId(3), 3)), 113);
     EXPECT_EQ(numbering.surface_vertices(), 120);
 }
 

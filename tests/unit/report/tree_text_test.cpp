@@ -30,7 +30,7 @@ TreeNode random_node(NodeId id, bool cut, std::mt19937& random) {
     node.id = id;
     node.facets = static_cast<std::int32_t>(1 + random() % 9999999);
     node.vertices = node.facets / 2;
-    node.mass.volume = id == 1 ? 1e6 : 1 + static_cast<double>(random() % 999999);
+    node.mass.volume = id == root_node ? 1e6 : 1 + static_cast<double>(random() % 999999);
     node.cut_tried = cut || random() % 4 == 0;
     node.cut_made = cut;
     node.strategy =
@@ -45,7 +45,7 @@ TreeNode random_node(NodeId id, bool cut, std::mt19937& random) {
 // A complete tree: `parts` leaves, numbers ascending.
 std::vector<TreeNode> random_tree(std::int32_t parts, std::mt19937& random) {
     std::vector<TreeNode> nodes;
-    for (NodeId id = 1; id < 2 * parts; ++id) nodes.push_back(random_node(id, id < parts, random));
+    for (std::int32_t id = 1; id < 2 * parts; ++id) nodes.push_back(random_node(NodeId(id), id < parts, random));
     return nodes;
 }
 
@@ -69,10 +69,10 @@ TEST(TreeText, LinesNameSourceAndProducts) {
     for (const TreeNode& node : random_tree(9, random)) {
         const std::vector<TreeNode> nodes = {node};
         const std::vector<std::string> found = words(rows(tree_text(nodes, true)).at(0));
-        EXPECT_EQ(found[0], std::to_string(std::bit_width(static_cast<unsigned>(node.id)) - 1));
-        EXPECT_EQ(found[1], std::to_string(node.id));
-        EXPECT_EQ(found[2], node.id == 1 ? "-" : std::to_string(node.id / 2));
-        EXPECT_EQ(found[3], node.cut_made ? std::to_string(2 * node.id) : "part");
+        EXPECT_EQ(found[0], std::to_string(std::bit_width(static_cast<unsigned>(node.id.value())) - 1));
+        EXPECT_EQ(found[1], std::to_string(node.id.value()));
+        EXPECT_EQ(found[2], node.id == root_node ? "-" : std::to_string(parent_of(node.id).value()));
+        EXPECT_EQ(found[3], node.cut_made ? std::to_string(child_of(node.id, 0).value()) : "part");
         EXPECT_EQ(found[node.cut_made ? 7 : 6], "100.00") << "of the first node, which is the whole body";
         const bool two_words = node.cut_tried && in_words(name(node.strategy)).find(' ') != std::string::npos;
         EXPECT_EQ(found.size(), (node.cut_made ? 13u : node.cut_tried ? 9u : 7u) + (two_words ? 1 : 0));

@@ -134,7 +134,7 @@ std::vector<Misuse> misuses() {
          [] {
              write_stl("", {Vec3::Zero()}, {{0, 1, 2}});
          }},
-        {"numbering.cpp:[0-9]+: .*node", [] { VertexNumbering(8, {}).global_id(make_key(1, 0)); }},
+        {"numbering.cpp:[0-9]+: .*node", [] { VertexNumbering(8, {}).global_id(make_key(NodeId(1), 0)); }},
     };
 }
 

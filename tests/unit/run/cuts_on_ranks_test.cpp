@@ -114,7 +114,7 @@ class Disturber : public CutListener {
         if (cut.node == failing_node) throw Error(ErrorCode::io, "The disk is full.");
     }
     bool cancelled() const override { return wants_end; }
-    NodeId failing_node = 0;
+    NodeId failing_node = no_node;
     std::atomic<bool> wants_end = false;
 };
 
@@ -141,16 +141,16 @@ std::vector<ErrorCode> codes_of(int size, const Complex& complex, NodeId failing
 TEST(CutsOnRanks, AFailureAtAnyLevelEndsAll) {
     const Complex complex(test::asset_surface("cylinder"));
     for (const int size : rank_counts)
-        for (const NodeId node : {1, 2, 3, 5, 7})
+        for (const NodeId node : {root_node, NodeId(2), NodeId(3), NodeId(5), NodeId(7)})
             EXPECT_EQ(codes_of(size, complex, node, -1), std::vector<ErrorCode>(size, ErrorCode::io))
-                << size << " ranks, node " << node;
+                << size << " ranks, node " << node.value();
 }
 
 TEST(CutsOnRanks, AnyRankCanEndAll) {
     const Complex complex(test::asset_surface("cylinder"));
     for (const int size : {2, 5, 12})
         for (const int rank : {0, 1, size - 1})
-            EXPECT_EQ(codes_of(size, complex, 0, rank), std::vector<ErrorCode>(size, ErrorCode::cancelled))
+            EXPECT_EQ(codes_of(size, complex, no_node, rank), std::vector<ErrorCode>(size, ErrorCode::cancelled))
                 << size << " ranks, " << rank << " is stopped";
 }
 
@@ -179,14 +179,14 @@ TEST(CutsOnRanks, ARankThatCannotTellEndsAll) {
     for (const int size : {2, 5})
         for (const int rank : {0, 1, size - 1})
             for (int good_posts = 0; good_posts < size; ++good_posts)
-                for (const NodeId node : {0, 1, 2}) {
+                for (const NodeId node : {no_node, root_node, NodeId(2)}) {
                     const std::vector<int> codes = codes_with(size, complex, node, [&](Communicator& ranks) {
                         return test::FailingPosts(ranks, ranks.rank() == rank ? good_posts : 1000);
                     });
                     SCOPED_TRACE(testing::Message() << size << " ranks, " << rank << " fails after " << good_posts
-                                                    << " posts, node " << node);
+                                                    << " posts, node " << node.value());
                     EXPECT_EQ(codes, std::vector<int>(codes.size(), codes[0]));
-                    EXPECT_TRUE(codes[0] != 0 || (node == 0 && good_posts > 0));
+                    EXPECT_TRUE(codes[0] != 0 || (node == no_node && good_posts > 0));
                 }
 }
 
@@ -198,7 +198,7 @@ TEST(CutsOnRanks, AFailureAtTheEndIsThatOfAll) {
     };
     const Complex complex(test::asset_surface("cylinder"));
     for (const int size : {2, 5})
-        EXPECT_EQ(codes_with(size, complex, 0,
+        EXPECT_EQ(codes_with(size, complex, no_node,
                              [&](Communicator& ranks) {
                                  const bool is_last = ranks.rank() == size - 1;
                                  return test::FailingPoll(ranks,

@@ -54,7 +54,7 @@ std::vector<PartReport> random_parts(unsigned seed) {
     std::mt19937 random(seed);
     std::vector<PartReport> parts(std::uniform_int_distribution<std::size_t>(1, 40)(random));
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        parts[i].id = static_cast<NodeId>(parts.size() + i);
+        parts[i].id = NodeId(parts.size() + i);
         parts[i].surface_facets = std::uniform_int_distribution<std::int64_t>(100, 3'000'000)(random);
         parts[i].tets_at_facets =
             std::uniform_real_distribution<double>(0.5, 3)(random) * static_cast<double>(parts[i].surface_facets);
@@ -102,7 +102,7 @@ TEST(PlanText, SaysWhatTheForecastsOfItsPartsAddUpTo) {
         ASSERT_EQ(table.size(), 2 + parts.size());
         EXPECT_EQ(table[0], plan[0]);
         for (std::size_t i = 0; i < parts.size(); ++i)
-            for (const std::string& words : {std::to_string(parts[i].id), fmt::format("{:.0f}", each[i].tets)})
+            for (const std::string& words : {std::to_string(parts[i].id.value()), fmt::format("{:.0f}", each[i].tets)})
                 EXPECT_TRUE(holds_words(table[2 + i], words)) << words << " in " << table[2 + i];
     }
 }

@@ -42,9 +42,9 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SurfaceLaws, testing::Range(0, 6));
 TEST_P(SurfaceLaws, KeepsNumbersCoordinatesKeysAndPatches) {
     SurfaceArrays arrays = to_arrays(soup_);
     for (std::size_t v = 0; v < arrays.vertex_key.size(); ++v)
-        arrays.vertex_key[v] = make_key(3, 7 * static_cast<std::int32_t>(v));
+        arrays.vertex_key[v] = make_key(NodeId(3), 7 * static_cast<std::int32_t>(v));
     for (std::size_t f = 0; f < arrays.facet_key.size(); ++f) {
-        arrays.facet_key[f] = make_key(5, 9 * static_cast<std::int32_t>(f));
+        arrays.facet_key[f] = make_key(NodeId(5), 9 * static_cast<std::int32_t>(f));
         arrays.patch[f] = static_cast<std::int32_t>(f % 3) - 1;
     }
     const Surface surface(arrays);

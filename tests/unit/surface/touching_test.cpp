@@ -285,7 +285,7 @@ TEST(JoinedByKey, KeepsTheFirstOfEachKey) {
 TEST(CopiedVertices, AreFoundForKeysOfAnySize) {
     for (const std::int32_t factor : {1, 100000000}) {
         SurfaceArrays arrays = test::to_arrays(test::join(test::tetrahedron(), test::tetrahedron()));
-        for (std::int32_t v = 0; v < 8; ++v) arrays.vertex_key[v] = make_key(v % 3, factor * v);
+        for (std::int32_t v = 0; v < 8; ++v) arrays.vertex_key[v] = make_key(NodeId(v % 3), factor * v);
         EXPECT_TRUE(copied_vertices(Surface(arrays)).empty());
         arrays.vertex_key[6] = arrays.vertex_key[1];
         EXPECT_EQ(copied_vertices(Surface(arrays)), (std::vector<char>{0, 1, 0, 0, 0, 0, 1, 0}));

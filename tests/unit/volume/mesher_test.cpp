@@ -181,7 +181,7 @@ TEST_P(EachMesher, KeepsVerticesWithoutFacetsAndTheirNumbers) {
     surface.vertices.insert(surface.vertices.begin(), Vec3(0.4, 0.3, 0.2));
     for (Triangle& t : surface.facets)
         for (std::int32_t& v : t) ++v;
-    surface.vertex_key.push_back(make_key(0, static_cast<std::int32_t>(surface.vertex_key.size())));
+    surface.vertex_key.push_back(make_key(input_node, static_cast<std::int32_t>(surface.vertex_key.size())));
     for (const std::uint32_t seed : {0u, 1u}) {
         SCOPED_TRACE(seed);
         MesherOptions options = of_this_mesher();

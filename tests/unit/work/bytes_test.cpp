@@ -46,8 +46,8 @@ Outer sample() {
 PartJob job() {
     PartJob job;
     job.surface = test::to_arrays(test::icosphere(1));
-    job.part = 9;
-    job.neighbour.assign(job.surface.facets.size(), -1);
+    job.part = NodeId(9);
+    job.neighbour.assign(job.surface.facets.size(), NodeId::none());
     job.patch_names = {"sphere"};
     job.length_scale = 0.25;
     return job;

@@ -31,7 +31,7 @@ PartJob job_of(const Soup& soup) {
     PartJob job;
     job.surface = test::to_arrays(soup);
     job.boundary_id.assign(job.surface.vertices.size(), 0);
-    job.neighbour.assign(job.surface.facets.size(), -1);
+    job.neighbour.assign(job.surface.facets.size(), NodeId::none());
     job.length_scale = 1;
     return job;
 }
@@ -163,11 +163,11 @@ TEST(PartJob, IsStoredAgainAsItWasFromItsPartFile) {
     PartJob job = job_of(test::box());
     job.patch_names = {"a", "b"};
     for (std::size_t v = 0; v < job.boundary_id.size(); ++v) job.boundary_id[v] = static_cast<std::int64_t>(v * v);
-    job.neighbour[1] = 7;
-    job.surface.facet_key[1] = make_key(3, 5);
+    job.neighbour[1] = NodeId(7);
+    job.surface.facet_key[1] = make_key(NodeId(3), 5);
     job.surface.patch[1] = -1;
-    job.shared = {{{1, 7}, {0, 1, 2}}};
-    job.shared_edges = {{{1, 7}, {{0, 1}}}};
+    job.shared = {{{root_node, NodeId(7)}, {0, 1, 2}}};
+    job.shared_edges = {{{root_node, NodeId(7)}, {{0, 1}}}};
     const std::string stored = folder.file("part"), again = folder.file("again"), vtu = folder.file("vtu");
     const PartResult result = run_part_job(job, call, stored);
     ASSERT_EQ(result.code, 0) << result.message;
@@ -317,7 +317,7 @@ TEST(ReportOfParts, AddsUpWaysAndRecoveries) {
     const auto set = [&](std::size_t i, const char* mesher, const std::string& strategy,
                          const FacetRecoveryCounts& recovery) {
         PartReport& part = report.parts[i];
-        part.id = static_cast<NodeId>(8 + i);
+        part.id = NodeId(8 + i);
         part.result.mesher = mesher;
         part.result.strategy = strategy;
         part.result.recovery = recovery;
@@ -387,7 +387,7 @@ TEST(FailedPart, IsKeptWithTheCommandThatRepeatsIt) {
         MesherOptions mesher;
         mesher.name = "tetgen";
         mesher.size = size;
-        write_failed_part(folder.file("failed"), 3, surface, mesher, "It hangs.");
+        write_failed_part(folder.file("failed"), NodeId(3), surface, mesher, "It hangs.");
         return test::bytes_of_file(folder.file("failed/part_0003.txt"));
     };
     const auto has = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
@@ -399,7 +399,7 @@ TEST(FailedPart, IsKeptWithTheCommandThatRepeatsIt) {
     EXPECT_TRUE(has(constant, "a0.5 part_0003.smesh") && !has(constant, "leaves them out"));
     EXPECT_TRUE(!has(varying, "a0.5") && has(varying, "leaves them out"));
     EXPECT_TRUE(has(plain, "paraview ../parts/part_0003.surface.vtu"));
-    write_failed_part(folder.file("failed"), 4123, surface, {}, "It hangs.");
+    write_failed_part(folder.file("failed"), NodeId(4123), surface, {}, "It hangs.");
     EXPECT_TRUE(has(test::bytes_of_file(folder.file("failed/4000/part_4123.txt")),
                     "paraview ../../parts/4000/part_4123.surface.vtu"));
 }

@@ -91,10 +91,10 @@ void DocumentLoader::show_files(const std::shared_ptr<const InputFiles>& files,
     document.notes = files->soup.notes;
     set_input(files->soup, document);
     document.options.input = fs::absolute(document.path).lexically_normal().string();
-    TreeRow& root = document.tree.at(1);
+    TreeRow& root = document.tree.at(root_node);
     root.vertices = document.input_vertices;
     root.facets = document.input_facets;
-    shown_.store.insert({Store::Kind::surface, 1}, surface, bytes_of(*surface));
+    shown_.store.insert({Store::Kind::surface, root_node}, surface, bytes_of(*surface));
     repairs_.begin(files);
 }
 

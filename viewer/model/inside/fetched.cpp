@@ -44,7 +44,7 @@ bool can_be_fetched(ColorBy color) { return is_measure(color) || is_kind(color);
 
 // Depth first, parents before children.
 void sort_depth_first(std::vector<NodeId>& nodes) {
-    const auto path = [](NodeId node) { return std::pair(node << (30 - level_of(node)), level_of(node)); };
+    const auto path = [](NodeId node) { return std::pair(node.value() << (30 - level_of(node)), level_of(node)); };
     std::sort(nodes.begin(), nodes.end(), [&](NodeId a, NodeId b) { return path(a) < path(b); });
 }
 
@@ -154,7 +154,7 @@ std::shared_ptr<const NodeSurface> Fetched::surface(NodeId node) {
         return fetch<NodeSurface>(
             key, [folder = document.folder, node, parts] { return join_part_surfaces(folder, node, parts); });
     }
-    if (!document.soup || node != 1) return nullptr;
+    if (!document.soup || node != root_node) return nullptr;
     return fetch<NodeSurface>(key, [soup = document.soup] { return node_surface_of(*soup); });
 }
 
@@ -190,7 +190,7 @@ std::shared_ptr<const SurfaceValues> Fetched::values_on(const std::shared_ptr<co
     if (!surface || !is_of_surface(color) || why_without_values(document, color)) return nullptr;
     const Store::Key key{.kind = Store::Kind::on_surface, .color = color, .of = surface.get()};
     if (auto found = kept<SurfaceValues>(key)) return found;
-    const auto whole = this->surface(1);
+    const auto whole = this->surface(root_node);
     if (!whole) return nullptr;
     if (color == ColorBy::deviation) {
         const auto other = compared_with(surface, whole);
@@ -246,13 +246,13 @@ std::shared_ptr<const std::vector<float>> Fetched::facet_values(NodeId part, Col
 std::shared_ptr<const std::vector<WorstCell>> Fetched::worst_cells(ColorBy color, std::size_t count) {
     if (!is_measure(color)) return nullptr;
     std::vector<NodeId> parts;
-    for (const NodeId part : shown_.document.tree.parts_below(1))
+    for (const NodeId part : shown_.document.tree.parts_below(root_node))
         if (is_meshed(part)) parts.push_back(part);
-    const NodeId all = count_of(parts);
-    const auto key_of = [&](NodeId parts_read) {
-        return Store::Key{Store::Kind::worst_cells, parts_read, color, count};
+    const std::int32_t all = count_of(parts);
+    const auto key_of = [&](std::int32_t parts_read) {
+        return Store::Key{Store::Kind::worst_cells, NodeId(parts_read), color, count};
     };
-    NodeId known = all;
+    std::int32_t known = all;
     while (known > 0 && !shown_.store.holds(key_of(known))) --known;
     const auto found = known > 0 ? kept<std::vector<WorstCell>>(key_of(known)) : nullptr;
     const bool is_enough = shown_.document.progress.running && 4 * all < 5 * known;
@@ -306,7 +306,7 @@ void Fetched::use_trace(std::shared_ptr<const Trace> trace) {
     note_remeshing(trace->remeshed, document);
     shown_.replayer = std::make_shared<Replayer>(std::move(trace), replayer_bytes);
     shown_.store.erase_if([](const Store::Key& key) {
-        return (key.kind == Store::Kind::surface && key.node > 0) || key.kind == Store::Kind::on_surface;
+        return (key.kind == Store::Kind::surface && key.node > no_node) || key.kind == Store::Kind::on_surface;
     });
     describe_cuts(document);
     prefetch_surfaces();

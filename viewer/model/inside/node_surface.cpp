@@ -25,7 +25,7 @@ NodeSurface node_surface_of(const Soup& soup) {
     result.vertices = soup.vertices;
     result.facets = soup.facets;
     result.patch = soup.patch;
-    result.interface_of.assign(soup.facets.size(), 0);
+    result.interface_of.assign(soup.facets.size(), no_node);
     result.facet_number.resize(soup.facets.size());
     std::iota(result.facet_number.begin(), result.facet_number.end(), 0);
     result.vertex_number.resize(soup.vertices.size());

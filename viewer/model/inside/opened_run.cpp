@@ -46,13 +46,14 @@ std::string take_files(RunRequest& options, const std::string& folder) {
     return trace;
 }
 
-// The number between a prefix and an ending; 0 if the name is another one.
+// The number between a prefix and an ending; no_node if the name is another one.
 NodeId number_in(const std::string& name, std::string_view prefix, std::string_view ending) {
-    NodeId number = 0;
-    if (!name.starts_with(prefix) || !name.ends_with(ending) || name.size() < prefix.size() + ending.size()) return 0;
+    std::int32_t number = 0;
+    if (!name.starts_with(prefix) || !name.ends_with(ending) || name.size() < prefix.size() + ending.size())
+        return no_node;
     const char* end = name.data() + name.size() - ending.size();
     const auto [stop, error] = std::from_chars(name.data() + prefix.size(), end, number);
-    return error == std::errc() && stop == end && number > 0 ? number : 0;
+    return error == std::errc() && stop == end && number > 0 ? NodeId(number) : no_node;
 }
 
 // Large runs have folders below, which are searched, too.
@@ -62,7 +63,7 @@ std::set<NodeId> numbers_in(const fs::path& folder, std::string_view prefix, std
     for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         std::error_code ignored;
         const NodeId number = number_in(entry->path().filename(), prefix, ending);
-        if (number && !entry->is_directory(ignored)) numbers.insert(number);
+        if (number != no_node && !entry->is_directory(ignored)) numbers.insert(number);
     }
     return numbers;
 }
@@ -108,7 +109,7 @@ OpenedRun read_run(const std::string& path) {
     run.report = read_report(folder);
     run.report.options.input = existing_path(run.report.options.input, folder);
     run.trace = take_files(run.report.options, folder);
-    const std::vector<NodeId> parts = run.report.tree.parts_below(1);
+    const std::vector<NodeId> parts = run.report.tree.parts_below(root_node);
     run.box = box_of_parts(folder, parts);
     if (const std::size_t count = run.report.region_names.size(); count > 0)
         run.region_places = region_places(folder, run.report.tree, count);
@@ -190,7 +191,7 @@ void complete_from_report(OpenedRun run, Shown& shown) {
     document.patch_names = run.patch_names;
     document.input_facets = report.input_facets;
     document.input_vertices = report.input_vertices;
-    const std::vector<NodeId> parts = document.tree.parts_below(1);
+    const std::vector<NodeId> parts = document.tree.parts_below(root_node);
     shown.folder_parts = {parts.begin(), parts.end()};
     Progress& progress = document.progress;
     progress.parts = std::ssize(parts);

@@ -34,7 +34,7 @@ namespace {
 std::vector<char> tets_at_interfaces(const Part& file) {
     std::vector<char> is_on_interface(file.mesh.vertices.size(), 0);
     for (std::size_t f = 0; f < file.facets.size(); ++f)
-        if (file.neighbour[f] >= 0)
+        if (file.is_interface(f))
             for (const std::int32_t v : file.facets[f]) is_on_interface[v] = 1;
     std::vector<char> at_interface;
     at_interface.reserve(file.mesh.tets.size());
@@ -108,7 +108,10 @@ Part read_checked_surface(const std::string& folder, NodeId part) {
 std::string part_file_of(const std::string& folder, NodeId part) { return path_of_part(folder, part); }
 
 NodeId common_ancestor(NodeId a, NodeId b) {
-    while (a != b) (a > b ? a : b) /= 2;
+    while (a != b) {
+        NodeId& lower = a > b ? a : b;
+        lower = parent_of(lower);
+    }
     return a;
 }
 
@@ -119,7 +122,7 @@ NodeSurface read_part_surface(const std::string& folder, NodeId part, std::vecto
     surface.interface_of.reserve(file.facets.size());
     for (std::size_t f = 0; f < file.neighbour.size(); ++f)
         surface.interface_of.push_back(
-            !file.is_interface(f) || file.is_wall(f) ? 0 : common_ancestor(part, file.neighbour[f]));
+            !file.is_interface(f) || file.is_wall(f) ? no_node : common_ancestor(part, file.neighbour[f]));
     surface.vertices = std::move(file.mesh.vertices);
     surface.facets = std::move(file.facets);
     surface.patch = std::move(file.patch);
@@ -152,7 +155,7 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
         const std::shared_ptr<const NodeSurface> part =
             at_hand ? at_hand : std::make_shared<const NodeSurface>(read_part_surface(folder, id));
         for (std::size_t f = 0; f < part->facets.size(); ++f) {
-            if (part->neighbour[f] >= 0 && lies_below(part->neighbour[f], node)) continue;
+            if (part->neighbour[f].is_valid() && lies_below(part->neighbour[f], node)) continue;
             const Triangle& t = part->facets[f];
             whole.facets.push_back({vertex(*part, t[0]), vertex(*part, t[1]), vertex(*part, t[2])});
             whole.patch.push_back(part->patch[f]);

@@ -37,7 +37,7 @@ NodeSurface join_part_surfaces(const std::string& folder, NodeId node, const std
 /// The place of a part's files, and facts of the part that they do not tell.
 struct PartSource {
     std::string folder;
-    NodeId part = 1;
+    NodeId part = root_node;
     std::int64_t core_tets = 0;  ///< Filling::core_tets
     std::string nodes = {};      ///< the folder whose files have nodes on edges: `folder`, or a solution. Empty: none
 };

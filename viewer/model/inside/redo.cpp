@@ -44,8 +44,8 @@ Leaf with_own_keys(const Surface& surface, NodeId node) {
     Leaf leaf;
     leaf.id = node;
     leaf.surface = surface.arrays();
-    std::iota(leaf.surface.vertex_key.begin(), leaf.surface.vertex_key.end(), make_key(0, 0));
-    std::iota(leaf.surface.facet_key.begin(), leaf.surface.facet_key.end(), make_key(0, 0));
+    std::iota(leaf.surface.vertex_key.begin(), leaf.surface.vertex_key.end(), make_key(input_node, 0));
+    std::iota(leaf.surface.facet_key.begin(), leaf.surface.facet_key.end(), make_key(input_node, 0));
     return leaf;
 }
 
@@ -116,7 +116,7 @@ MadeCut make_cut(const Surface& surface, NodeId node, const CutPlace& place, con
         Bisection bisection = bisect(surface, mass_properties(surface), node, place, options.cut, true);
         made.cut = std::move(bisection.cut);
         if (made.cut.made()) {
-            for (const int i : {0, 1}) made.halves.push_back(row_of(2 * node + i, bisection.halves[i]));
+            for (const int i : {0, 1}) made.halves.push_back(row_of(child_of(node, i), bisection.halves[i]));
             return made;
         }
     }
@@ -156,8 +156,7 @@ RedoneCut redo_cut(Replayer& replayer, NodeId node, RunRequest options, const st
     redone.replayer = std::make_shared<Replayer>(replayer, trace, node);
 
     if (is_made && made.halves.empty())  // of a straight cut the kernel gives no halves
-        for (const NodeId half : {2 * node, 2 * node + 1})
-            made.halves.push_back(row_of(half, *redone.replayer->surface(half)));
+        for (const NodeId half : halves_of(node)) made.halves.push_back(row_of(half, *redone.replayer->surface(half)));
     redone.rows.insert(redone.rows.end(), made.halves.begin(), made.halves.end());
     return redone;
 }

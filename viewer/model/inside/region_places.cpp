@@ -77,11 +77,11 @@ Array<RegionIndex, RegionPlace> region_places(const Trace& trace) {
 
 Array<RegionIndex, RegionPlace> region_places(const std::string& folder, const Tree& tree, std::size_t count) {
     RegionSurvey survey(count);
-    for (const NodeId part : tree.parts_below(1)) {
+    for (const NodeId part : tree.parts_below(root_node)) {
         const NodeSurface surface = read_part_surface(folder, part);
         const RegionIndex region = tree.find(part)->region;
         for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-            const TreeRow* neighbour = surface.neighbour[f] >= 0 ? tree.find(surface.neighbour[f]) : nullptr;
+            const TreeRow* neighbour = surface.neighbour[f].is_valid() ? tree.find(surface.neighbour[f]) : nullptr;
             if (neighbour && neighbour->region == region) continue;  // a cut has made it
             survey.add(region, neighbour ? neighbour->region : RegionIndex::none(), surface.vertices,
                        surface.facets[f]);

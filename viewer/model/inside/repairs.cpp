@@ -85,12 +85,12 @@ void Repairs::show_checked() {
     std::erase(document_.notes, shown_note_);
     shown_note_ = state.note;
     if (!state.note.empty() && !is_set(document_.options, *advised_option(state.note))) add_note(state.note, document_);
-    const TreeRow* uncut = document_.tree.find(1);
+    const TreeRow* uncut = document_.tree.find(root_node);
     if (document_.trace || !document_.folder.empty() || !uncut || !uncut->leaf()) return;
     show_its_surface();
     if (!state.oriented) return;
     const OrientedSurface& oriented = *state.oriented;
-    TreeRow& root = document_.tree.at(1);  // the tree may be a new one
+    TreeRow& root = document_.tree.at(root_node);  // the tree may be a new one
     root.vertices = oriented.vertices;
     root.facets = oriented.facets;
     root.volume = document_.volume = oriented.volume;
@@ -102,7 +102,7 @@ void Repairs::show_its_surface() {
     const CheckedSurface& state = history_.shown();
     const bool is_as_read = document_.soup.get() == &files_->soup;
     if (!state.surface && is_as_read) return;
-    const Store::Key key{Store::Kind::surface, 1};
+    const Store::Key key{Store::Kind::surface, root_node};
     if (state.surface) {
         document_.soup = {state.checked, &state.checked->soup};
         pair_.now.store.insert(key, state.surface, bytes_of(*state.surface));
@@ -115,7 +115,7 @@ void Repairs::show_its_surface() {
     document_.volume = 0;
     document_.region_names.clear();
     document_.tree = {};
-    TreeRow& root = document_.tree.at(1);
+    TreeRow& root = document_.tree.at(root_node);
     root.vertices = document_.input_vertices;
     root.facets = document_.input_facets;
 }
@@ -191,7 +191,7 @@ void Repairs::show_surface_again() {
     surface.notes = files_->soup.notes;
     set_input(files_->soup, surface);
     surface.soup = {files_, &files_->soup};
-    surface.tree.at(1).facets = surface.input_facets;
+    surface.tree.at(root_node).facets = surface.input_facets;
     document_ = std::move(surface);
 }
 

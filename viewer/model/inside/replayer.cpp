@@ -75,15 +75,15 @@ std::shared_ptr<const Surface> Replayer::uncut_surface(NodeId node) {
         auto root = std::make_shared<const Surface>(*std::move(first));
         return is_its_own ? keep(node, root) : root;
     }
-    const Cut* parent_cut = trace_->find(node / 2);
+    const Cut* parent_cut = trace_->find(parent_of(node));
     if (!parent_cut || !parent_cut->made())
-        throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {}.", trace_->input, node));
-    const std::shared_ptr<const Surface> parent = surface(node / 2);
-    std::array<Half, 2> halves = split(*parent, parent_cut->side, parent_cut->interface, node / 2);
-    const NodeId sibling = node ^ 1;
+        throw Error(ErrorCode::usage, fmt::format("The tree of {} has no node {}.", trace_->input, node.value()));
+    const std::shared_ptr<const Surface> parent = surface(parent_of(node));
+    std::array<Half, 2> halves = split(*parent, parent_cut->side, parent_cut->interface, parent_of(node));
+    const NodeId sibling = sibling_of(node);
     if (!splits_facets(trace_->find(sibling)) && !places_.contains(sibling))
-        keep(sibling, build(std::move(halves[sibling % 2])));
-    auto made = build(std::move(halves[node % 2]));
+        keep(sibling, build(std::move(halves[side_of(sibling)])));
+    auto made = build(std::move(halves[side_of(node)]));
     return is_its_own ? keep(node, made) : made;
 }
 

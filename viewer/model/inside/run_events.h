@@ -13,7 +13,7 @@ namespace kerf::view {
 struct RunEvent {
     enum class Kind { run, stage, parts, part, end, other };
     struct Part {
-        NodeId id = 0;
+        NodeId id = no_node;
         NodeState state = NodeState::waiting;
         double load = -1, volume = -1, seconds = -1;
         std::int64_t facets = -1, tets = -1;

@@ -141,7 +141,7 @@ void RunFollower::show_input() {
             document_.box = box;
             document_.patch_colours = soup->patch_colours;
             set_input(*soup, document_);
-            document_.tree.at(1);
+            document_.tree.at(root_node);
         };
     };
     background_.post(background_.open, read, [](const Error&) {});  // the run itself tells the error
@@ -184,7 +184,7 @@ void RunFollower::show_run_under_way(std::shared_ptr<const Trace> trace) {
         document_.tree = tree_of(*trace);
     }
     for (const RunEvent& event : run_->events) apply_to_tree(event, document_.tree);
-    if (document_.tree.rows.empty()) document_.tree.at(1);
+    if (document_.tree.rows.empty()) document_.tree.at(root_node);
     if (trace) fetched_.use_trace(std::move(trace));
     use_partial_folder();
 }
@@ -193,7 +193,7 @@ void RunFollower::show_run_under_way(std::shared_ptr<const Trace> trace) {
 void RunFollower::use_partial_folder() {
     if (run_->events.empty() || !exists(run_->partial())) return;
     document_.folder = run_->partial();
-    const std::vector<NodeId> parts = document_.tree.parts_below(1);
+    const std::vector<NodeId> parts = document_.tree.parts_below(root_node);
     pair_.now.folder_parts = {parts.begin(), parts.end()};
 }
 

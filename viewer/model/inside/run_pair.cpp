@@ -84,7 +84,7 @@ bool RunPair::can_save() const {
     const Document& document = now_.document;
     if (!now_.scratch || follower_.is_following() || background_.open.jobs > 0) return false;
     if (document.folder != now_.scratch->file("run") || !document.saved_as.empty()) return false;
-    const std::vector<NodeId> parts = document.tree.parts_below(1);
+    const std::vector<NodeId> parts = document.tree.parts_below(root_node);
     return std::all_of(parts.begin(), parts.end(), [&](NodeId part) { return now_.folder_parts.contains(part); });
 }
 
@@ -145,7 +145,7 @@ void RunPair::take_redone(NodeId node, const RedoneCut& redone) {
     std::erase_if(now_.folder_parts, [&](NodeId id) { return lies_below(id, node); });
     now_.store.erase_if([&](const Store::Key& key) {
         return key.kind == Store::Kind::worst_cells || key.kind == Store::Kind::on_surface ||
-               (key.node > 0 && lies_below(key.node, node));
+               (key.node > no_node && lies_below(key.node, node));
     });
     fetched_.restart();
     now_.replayer = redone.replayer;

@@ -77,7 +77,7 @@ void read_part_row(const Json& part, bool meshed, Tree& tree) {
 void set_regions_of_nodes(Tree& tree) {
     for (auto row = tree.rows.rbegin(); row != tree.rows.rend(); ++row)
         if (!row->leaf() && row->regions == 1)
-            if (const TreeRow* child = tree.find(2 * row->id)) row->region = child->region;
+            if (const TreeRow* child = tree.find(child_of(row->id, 0))) row->region = child->region;
 }
 
 std::string option_text(const Json& value) {

@@ -15,7 +15,7 @@ namespace kerf::view {
 
 /// A cut that is to be made again.
 struct CutAgain {
-    NodeId node = 1;
+    NodeId node = root_node;
     RunRequest options;
     std::optional<Plane> plane;
 };

@@ -29,7 +29,7 @@ class Store {
     };
     struct Key {
         Kind kind;
-        NodeId node = 0;
+        NodeId node = no_node;
         ColorBy color = {};
         std::size_t count = 0;     ///< number of worst cells; for a solution the number of the case
         const void* of = nullptr;  ///< the surface on which values lie; the values keep it alive

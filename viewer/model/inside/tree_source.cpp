@@ -31,17 +31,17 @@ void count_leaves(Tree& tree) {
             continue;
         }
         row->leaves = 0;
-        for (const NodeId child : {2 * row->id, 2 * row->id + 1})
+        for (const NodeId child : halves_of(row->id))
             if (const TreeRow* below = tree.find(child)) row->leaves += below->leaves;
     }
 }
 
 Tree tree_of(const Trace& trace) {
     Tree tree;
-    tree.at(1);
+    tree.at(root_node);
     for (const NodeId root : trace.region_roots) {
         tree.at(root);
-        for (NodeId node = root / 2; node > 0; node /= 2) {
+        for (NodeId node = parent_of(root); node > no_node; node = parent_of(node)) {
             TreeRow& row = tree.at(node);
             row.regions += row.state == NodeState::divided ? 1 : 0;
             row.state = NodeState::divided;
@@ -50,8 +50,8 @@ Tree tree_of(const Trace& trace) {
     for (const Cut& cut : trace.cuts) {
         describe_cut(cut, tree.at(cut.node));
         if (!cut.made()) continue;
-        tree.at(2 * cut.node);
-        tree.at(2 * cut.node + 1);
+        tree.at(child_of(cut.node, 0));
+        tree.at(child_of(cut.node, 1));
     }
     for (const RegionIndex r : ids<RegionIndex>(trace.region_roots.size()))
         for (TreeRow& row : tree.rows)
@@ -64,7 +64,8 @@ Tree tree_of(const std::vector<NodeId>& parts) {
     Tree tree;
     for (const NodeId part : parts) {
         tree.at(part);
-        for (NodeId node = part / 2; node > 0; node /= 2) tree.at(node).state = NodeState::divided;
+        for (NodeId node = parent_of(part); node > no_node; node = parent_of(node))
+            tree.at(node).state = NodeState::divided;
     }
     count_leaves(tree);
     return tree;

@@ -110,7 +110,7 @@ void clip_through(UiContext& context, Dialogs& /*dialogs*/) { context.actions.ca
 
 template <int Count>
 void step_by(UiContext& context, Dialogs& dialogs) {
-    if (dialogs.tour.node != 0)
+    if (dialogs.tour.node != no_node)
         go_on_tour(context, dialogs, Count);
     else
         context.actions.play.move_step(Count);
@@ -136,7 +136,7 @@ void leave(UiContext& context, Dialogs& dialogs) {
     dialogs.list.list = ListKeys::List::none;
     if (context.state.panels.keys)
         context.state.panels.keys = false;
-    else if (dialogs.tour.node != 0)
+    else if (dialogs.tour.node != no_node)
         end_tour(context, dialogs);
     else
         context.state.selection = {};

@@ -49,7 +49,7 @@ struct SearchBox {
 struct Tour {
     bool awaited = false;                  ///< it begins as soon as there is a cut to show
     bool has_run = false;                  ///< a run was started to have a cut to show
-    NodeId node = 0;                       ///< the node whose cut is shown; 0: there is no tour
+    NodeId node = no_node;                 ///< the node whose cut is shown; 0: there is no tour
     std::optional<Stage> go_to = {};       ///< the stage that the next frame shows
     std::optional<ViewState> before = {};  ///< the view before the tour
 };
@@ -84,7 +84,7 @@ void draw_browser(UiContext& context, FileBrowser& browser);
 void draw_search(UiContext& context, Dialogs& dialogs);
 
 struct TreeMemory {
-    NodeId scrolled_to = 0;  ///< the node that the list was scrolled to
+    NodeId scrolled_to = no_node;  ///< the node that the list was scrolled to
     TreeOrder order;
     std::set<int> columns;    ///< columns about cuts that were chosen
     std::set<NodeId> folded;  ///< nodes whose children are not listed
@@ -152,9 +152,9 @@ struct WorstCellsMemory {
 void draw_worst_cells(UiContext& context, WorstCellsMemory& memory, ListKeys& keys);
 
 struct WorstInterfacesMemory {
-    bool by_angle = false;  ///< sorted by angles of interface triangles, not by angles with the surface
-    NodeId chosen = 0;      ///< the node of the chosen interface
-    NodeId awaited = 0;     ///< the node to be flown to as soon as its surface is there; 0: none
+    bool by_angle = false;     ///< sorted by angles of interface triangles, not by angles with the surface
+    NodeId chosen = no_node;   ///< the node of the chosen interface
+    NodeId awaited = no_node;  ///< the node to be flown to as soon as its surface is there; 0: none
 };
 void draw_worst_interfaces(UiContext& context, WorstInterfacesMemory& memory);
 
@@ -183,9 +183,9 @@ struct ParametersMemory {
 void draw_parameters(UiContext& context, ParametersMemory& memory);
 
 struct TimelineMemory {
-    int chosen = -1;  ///< index of the place of a refused try that was flown to last; -1: none
-    NodeId node = 0;  ///< node of that try
-    Step step;        ///< step of that try
+    int chosen = -1;        ///< index of the place of a refused try that was flown to last; -1: none
+    NodeId node = no_node;  ///< node of that try
+    Step step;              ///< step of that try
 };
 void draw_timeline(UiContext& context, TimelineMemory& memory, Dialogs& dialogs);
 
@@ -215,8 +215,8 @@ void draw_gizmo(UiContext& context, const Rectangle& scene);
 void draw_splitters(UiContext& context, const Layout& layout);
 
 struct CutHandleMemory {
-    double dragged = 0;  ///< distance along its normal by which the plane of a cut was dragged, units of the file
-    NodeId node = 0;     ///< node of that cut
+    double dragged = 0;     ///< distance along its normal by which the plane of a cut was dragged, units of the file
+    NodeId node = no_node;  ///< node of that cut
 };
 /// Draws the clip plane's outline with two handles, one in its middle that moves it and one off the plane that turns
 /// it; and a handle on the plane of the cut shown, which is made again where the handle is let go.

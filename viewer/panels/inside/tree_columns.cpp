@@ -123,7 +123,7 @@ void TreeColumns::find_known(const std::vector<const TreeRow*>& rows, bool times
 void TreeColumns::find_widths(const std::vector<const TreeRow*>& rows) {
     node_width = 2.8f;
     for (const TreeRow* row : rows) {
-        const float digits = std::to_string(row->id).size();
+        const float digits = std::to_string(row->id.value()).size();
         const float left = tree_indent * level_of(row->id);
         node_width = std::max(node_width, left + 1.3f + 0.56f * digits);
         state_width = std::max(state_width, width_of(word_of(*row, false)) / em() + 0.9f);

@@ -74,7 +74,7 @@ std::string word_of(const TreeRow& row, bool running) {
 
 std::string details(const TreeRow& row, const std::string* region) {
     Lines lines;
-    lines.add("node", row.id);
+    lines.add("node", row.id.value());
     lines.add("state", std::string(name(row.state)));
     if (row.regions > 1) lines.add("regions", row.regions);
     if (region) lines.add("region", *region);

@@ -206,14 +206,14 @@ void CutLayers::add_halves(const NodeSurface* parent) {
     const Cut* cut = this->cut();
     Layer* contour = cut && parent && context_.state.look.contour ? &add_contour(*cut, *parent) : nullptr;
     std::vector<Range> contours;
-    for (const NodeId half : {2 * node, 2 * node + 1}) {
+    for (const NodeId half : halves_of(node)) {
         if (!contour || !context_.is_shown(half)) continue;
         contours.push_back(contour->ranges.front());
         contours.back().owner = half;
         contours.back().offset = sink_.move_of(context_.offset_of(half));
     }
     if (contour) contour->ranges = contours;
-    for (const NodeId half : {2 * node, 2 * node + 1}) {
+    for (const NodeId half : halves_of(node)) {
         if (!context_.is_shown(half)) continue;
         const auto surface = sink_.awaited(surface_of(context_.session, half));
         const Vec3 offset = context_.offset_of(half);
@@ -224,7 +224,7 @@ void CutLayers::add_halves(const NodeSurface* parent) {
 }
 
 void add_defects(const SceneContext& context, LayerSink& sink, const CheckedSoup* found) {
-    if (!found || context.state.node != 1) return;
+    if (!found || context.state.node != root_node) return;
     const CheckedSoup& checked = *found;
     const Soup& soup = checked.soup;
     const auto point = [&](std::int32_t v) { return soup.vertices[v]; };
@@ -244,8 +244,8 @@ void add_defects(const SceneContext& context, LayerSink& sink, const CheckedSoup
             for (const std::int32_t f : defect.facets) facets.push_back(soup.facets[f]);
     }
     if (!facets.empty()) {
-        Layer& layer =
-            sink.add(LayerKind::defects, triangles(soup.vertices, facets, context.frame), context.colors.error, 1);
+        Layer& layer = sink.add(LayerKind::defects, triangles(soup.vertices, facets, context.frame),
+                                context.colors.error, root_node);
         layer.two_sided = true;
     }
     if (!edges.empty()) sink.add_lines(LayerKind::defect_edges, edges, context.colors.error, contour_pixels);

@@ -12,7 +12,7 @@ class LayerSink {
     LayerSink(const SceneContext& context, BuiltScene& built) : context_(context), built_(built) {}
 
     /// Adds a layer with one range of this colour, with edges and shading as the view asks for them.
-    Layer& add(LayerKind kind, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = 0,
+    Layer& add(LayerKind kind, std::shared_ptr<const Geometry> geometry, const Color& color, NodeId owner = no_node,
                const Vec3& offset = Vec3::Zero());
     /// Adds lines or points that shine through everything and belong to the node of the view.
     Layer& add_strokes(LayerKind kind, std::shared_ptr<const Geometry> geometry, const Color& color, float pixels);

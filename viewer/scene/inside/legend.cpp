@@ -122,7 +122,7 @@ void LegendMaker::explain_parts() {
         const TreeRow& row = *context_.document.tree.find(part);
         const std::int32_t value = context_.state.coloring.by == ColorBy::rank ? row.rank : level_of(part);
         if (context_.state.coloring.by == ColorBy::part)
-            explain(fmt::format("part {}", part), drawn_color_of(part));
+            explain(fmt::format("part {}", part.value()), drawn_color_of(part));
         else if (value >= 0 && seen.insert(value).second)
             explain(fmt::format("{} {}", name(context_.state.coloring.by), value), drawn_color_of(part));
     }
@@ -156,7 +156,7 @@ void LegendMaker::explain_axes() {
 // Explains interfaces in the surfaces of nodes, made by earlier cuts or by this one.
 void LegendMaker::explain_interfaces() {
     const bool is_split = context_.step.stage == Stage::split;
-    if (is_split && context_.state.node == 1 && context_.state.explosion.amount == 0 && !context_.side &&
+    if (is_split && context_.state.node == root_node && context_.state.explosion.amount == 0 && !context_.side &&
         context_.state.visibility.hidden.empty())
         return;  // inside
     if (scene_.find(LayerKind::triangulation) || scene_.find(LayerKind::interface)) return;
@@ -170,8 +170,8 @@ void LegendMaker::run() {
     if (context_.shows_parts() || context_.state.coloring.by == ColorBy::patch || legend_.values)
         legend_.title = title_of_values();
     explain_coloring();
-    for (const NodeId half : {2 * context_.state.node, 2 * context_.state.node + 1})
-        explain_layer(scene_.find(LayerKind::half, half), fmt::format("node {}", half), half_color(half));
+    for (const NodeId half : halves_of(context_.state.node))
+        explain_layer(scene_.find(LayerKind::half, half), fmt::format("node {}", half.value()), half_color(half));
     explain_axes();
     for (int i = static_cast<int>(Stage::plane); i <= static_cast<int>(Stage::interface); ++i) {
         const auto stage = static_cast<Stage>(i);

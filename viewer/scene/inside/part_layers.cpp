@@ -45,7 +45,7 @@ void PartLayers::mark_inside(std::size_t part_count) {
     const bool is_whole = layers.size() == part_count && std::all_of(layers.begin(), layers.end(), [](const Layer& l) {
                               return l.kind == LayerKind::part && l.closed && l.opacity == 1;
                           });
-    if (!is_whole || state.node != 1 || state.explosion.amount > 0 || context_.side) return;
+    if (!is_whole || state.node != root_node || state.explosion.amount > 0 || context_.side) return;
     for (Layer& layer : layers) {
         const auto surface = context_.session.fetched().part_surface(layer.owner);
         if (!surface) continue;
@@ -104,7 +104,7 @@ void PartLayers::add_facets(NodeId part, const std::shared_ptr<const NodeSurface
                                                : colors.values ? std::shared_ptr<const void>(colors.values)
                                                                : surface;
     const bool is_colored = values || colors.any() || !solved.at_vertices.empty() || shows_error;
-    const std::string key = fmt::format("part {} {} {}{}{}", part, context_.shading_key(),
+    const std::string key = fmt::format("part {} {} {}{}{}", part.value(), context_.shading_key(),
                                         is_colored ? name(color) : "plain", context_.solution_key(), chosen.key());
     const auto geometry =
         context_.cache.get(key, source, [&] { return facet_triangles(*surface, context_.frame, choice); });
@@ -130,7 +130,7 @@ void PartLayers::add_outline(NodeId owner, const std::shared_ptr<const NodeSurfa
     }
     FacetChoice choice;
     choice.smooth = true;
-    const auto facets = context_.cache.get(fmt::format("glass of {}", owner), surface,
+    const auto facets = context_.cache.get(fmt::format("glass of {}", owner.value()), surface,
                                            [&] { return facet_triangles(*surface, context_.frame, choice); });
     Layer& layer = sink_.add(LayerKind::glass, facets, context_.colors.context, owner, offset);
     layer.opacity = context_opacity;

@@ -22,7 +22,7 @@ SceneContext::SceneContext(const ViewState& shown, Session& source, GeometryCach
       frame(Frame::around(document.box)) {
     const std::vector<Step> steps = steps_of(document, state.node);
     step = steps[nearest_step(steps, state.step)];
-    for (const NodeId part : document.tree.parts_below(1)) part_order_.emplace(part, part_order_.size());
+    for (const NodeId part : document.tree.parts_below(root_node)) part_order_.emplace(part, part_order_.size());
     if (state.clip.on && !document.box.isEmpty()) side = shown_side(state.clip, document.box);
     if (state.explosion.amount > 0) moves_of_regions_ = moves_apart(document.region_places);
     if (has_patch_colors())
@@ -82,7 +82,7 @@ Color SceneContext::color_of(NodeId part) const {
             return category_color(level_of(part));
         case ColorBy::part: {
             const auto order = part_order_.find(part);
-            return category_color(order == part_order_.end() ? part : order->second);
+            return category_color(order == part_order_.end() ? part.value() : order->second);
         }
         default:
             return colors.none;
@@ -110,7 +110,7 @@ std::vector<float> SceneContext::patch_values(const NodeSurface& surface) const 
 
 std::shared_ptr<const Geometry> SceneContext::feature_lines(const std::shared_ptr<const NodeSurface>& surface,
                                                             NodeId owner) const {
-    return cache.get(fmt::format("features of {}", owner), surface,
+    return cache.get(fmt::format("features of {}", owner.value()), surface,
                      [&] { return segments(feature_edges(*surface), frame); });
 }
 

@@ -13,8 +13,16 @@
 
 namespace kerf::view {
 
+/// Returns the numbers of nodes as text, for keys of the cache.
+template <class Nodes>
+std::string numbers_text(const Nodes& nodes) {
+    std::string text;
+    for (const NodeId node : nodes) text += std::to_string(node.value()) + ' ';
+    return text;
+}
+
 /// Returns the colour of a half of a cut, which is not that of interfaces.
-inline Color half_color(NodeId half) { return category_color(half % 2 == 0 ? 0 : 2); }
+inline Color half_color(NodeId half) { return category_color(side_of(half) == 0 ? 0 : 2); }
 
 inline constexpr float contour_pixels = 3.5f, thin_pixels = 1.5f, feature_pixels = 2.2f, place_pixels = 9;
 

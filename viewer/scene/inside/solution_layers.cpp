@@ -66,7 +66,7 @@ void SolutionLayers::add_isolines(const ValueRange& range) {
         line.owner = layer.owner;
         line.lies_on = i;
         line.geometry = context_.cache.get(
-            fmt::format("isolines of {} {} {} {} {}{}", static_cast<int>(layer.kind), layer.owner, low, high,
+            fmt::format("isolines of {} {} {} {} {}{}", static_cast<int>(layer.kind), layer.owner.value(), low, high,
                         context_.state.explosion.amount > 0, context_.solution_key()),
             layer.geometry, [&] { return isolines(*layer.geometry, triangles_seen(layer), levels); });
         if (line.geometry->segments.empty()) continue;
@@ -98,7 +98,7 @@ void SolutionLayers::add_vectors() {
         add_arrows(*surface, *solution, context_.offset_of(part), arrows);
     }
     if (!source) return;
-    const std::string key = fmt::format("vectors of {} {} {}{}", fmt::join(parts, " "), context_.state.explosion.amount,
+    const std::string key = fmt::format("vectors of {} {} {}{}", numbers_text(parts), context_.state.explosion.amount,
                                         context_.clip_key(0), context_.solution_key());
     const auto geometry = context_.cache.get(key, source, [&] {
         const double diagonal = context_.document.box.diagonal().norm();

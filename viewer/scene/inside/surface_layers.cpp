@@ -60,12 +60,12 @@ std::size_t divide_at_interfaces(const NodeSurface& surface, const ViewState& st
 }  // namespace
 
 bool PartFacets::wants(const NodeSurface& surface, std::int32_t facet) const {
-    const std::int32_t neighbour = surface.neighbour[facet];
-    return neighbour < 0 ? outer : !left_out.contains(neighbour);
+    const NodeId neighbour = surface.neighbour[facet];
+    return neighbour.is_valid() ? !left_out.contains(neighbour) : outer;
 }
 
 std::string PartFacets::key() const {
-    return all ? "" : fmt::format(" {}without {}", outer ? "" : "outer, ", fmt::join(left_out, " "));
+    return all ? "" : fmt::format(" {}without {}", outer ? "" : "outer, ", numbers_text(left_out));
 }
 
 PartFacets chosen_facets(const SceneContext& context, NodeId part, const NodeSurface& surface) {
@@ -80,7 +80,7 @@ PartFacets chosen_facets(const SceneContext& context, NodeId part, const NodeSur
         return std::pair(is_glass(context.state, document, one), document.tree.find(one)->region);
     };
     std::set<NodeId> neighbours(surface.neighbour.begin(), surface.neighbour.end());
-    neighbours.erase(-1);
+    neighbours.erase(NodeId::none());
     for (const NodeId neighbour : neighbours) {
         const std::string* beyond = region_of(document, neighbour);
         const bool is_wall = beyond && beyond != region;
@@ -130,7 +130,7 @@ Layer* SurfaceLayers::add(LayerKind kind, const std::shared_ptr<const NodeSurfac
     const FacetColors colors(context_, sink_, surface);
     colors.set_values(*surface, choice);
     const std::string key = fmt::format(
-        "{} of {} {} {} {}{}", static_cast<int>(kind), owner, context_.shading_key(),
+        "{} of {} {} {} {}{}", static_cast<int>(kind), owner.value(), context_.shading_key(),
         by_facets ? context_.clip_key(state.explosion.shrink) : fmt::format("shrink {}", state.explosion.shrink),
         colors.any() ? name(state.coloring.by) : "plain", chosen.key());
     const auto source = colors.values ? std::shared_ptr<const void>(colors.values) : surface;
@@ -157,7 +157,7 @@ void SurfaceLayers::add_features(const std::shared_ptr<const NodeSurface>& surfa
 
 void SurfaceLayers::add_of_file(NodeId which) {
     const auto surface = sink_.awaited(context_.session.fetched().surface(which));
-    if (!surface || context_.state.visibility.is_hidden(1)) return;
+    if (!surface || context_.state.visibility.is_hidden(root_node)) return;
     const SceneColors& colors = context_.colors;
     Layer* layer = add(LayerKind::file_surface, surface, which, colors.surface, colors.interface);
     if (!layer) return;
@@ -179,14 +179,14 @@ void SurfaceLayers::add_parts() {
 // tell, since a facet that a straight cut has split has pieces on both sides.
 void SurfaceLayers::add_context() {
     if (!context_.state.look.context) return;
-    for (NodeId node = context_.state.node; node > 1; node /= 2) {
-        const NodeId other = node ^ 1;
+    for (NodeId node = context_.state.node; node > root_node; node = parent_of(node)) {
+        const NodeId other = sibling_of(node);
         const auto surface = sink_.awaited(context_.session.fetched().surface(other));
         if (!surface) continue;
         FacetChoice choice;
         choice.wanted = [&](std::int32_t f) { return !surface->is_interface(f); };
         choice.smooth = true;
-        auto geometry = context_.cache.get(fmt::format("context {}", other), surface,
+        auto geometry = context_.cache.get(fmt::format("context {}", other.value()), surface,
                                            [&] { return facet_triangles(*surface, context_.frame, choice); });
         if (geometry->corners.empty()) continue;
         Layer& layer = sink_.add(LayerKind::context, geometry, context_.colors.context, other);

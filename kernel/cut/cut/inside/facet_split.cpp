@@ -68,7 +68,7 @@ TrianglePieces split_triangle(const Triangle& t, const std::array<std::int32_t, 
 }
 
 std::optional<PlaneSplit> split_at_plane(const Surface& surface, int axis, double height, NodeId node) {
-    KERF_CHECK(axis >= 0 && axis < 3 && node >= 1);
+    KERF_CHECK(axis >= 0 && axis < 3 && node >= root_node);
     for (const Vertex v : surface.vertices())
         if (surface.point(v)[axis] == height) return std::nullopt;
     PlaneSplit split;

@@ -67,7 +67,7 @@ FaceComplex::FaceComplex(const std::vector<Leaf>& leaves) {
         }
         const Triangle& t = leaf.surface.facets[f.index];
         faces_.push_back({{number[f.leaf][t[0]], number[f.leaf][t[1]], number[f.leaf][t[2]]},
-                          {leaf.id, 0},
+                          {leaf.id, no_node},
                           f.key,
                           leaf.surface.patch[f.index]});
     }
@@ -84,7 +84,7 @@ void FaceComplex::index_faces() {
 // Adds a face to the lists of its parts and vertices; it must be the last face.
 void FaceComplex::list_face(std::int32_t face) {
     for (const NodeId part : faces_[face].owner)
-        if (part != 0) faces_of_[part].push_back(face);
+        if (part != no_node) faces_of_[part].push_back(face);
     for (const std::int32_t v : faces_[face].corners) {
         at_vertex_.push_back({face, last_at_vertex_[v]});
         last_at_vertex_[v] = count_of(at_vertex_) - 1;
@@ -163,7 +163,7 @@ std::int32_t FaceComplex::add_point(const Vec3& point, NodeId cut) {
 }
 
 void FaceComplex::note_division(const ComplexFace& face) {
-    if (face.divided || face.cap != 0 || !is_of_input(face.key)) return;
+    if (face.divided || face.cap != no_node || !is_of_input(face.key)) return;
     const Triangle& t = face.corners;
     divided_facets_.push_back({key_index(face.key), {points_[t[0]], points_[t[1]], points_[t[2]]}, face.owner[0], {}});
 }
@@ -250,7 +250,7 @@ const Plane& FaceComplex::plane(NodeId cut) const {
 }
 
 void FaceComplex::replace_caps(const std::vector<ComplexFace>& caps) {
-    std::erase_if(faces_, [](const ComplexFace& face) { return face.cap != 0; });
+    std::erase_if(faces_, [](const ComplexFace& face) { return face.cap != no_node; });
     faces_.insert(faces_.end(), caps.begin(), caps.end());
     index_faces();
 }
@@ -258,7 +258,7 @@ void FaceComplex::replace_caps(const std::vector<ComplexFace>& caps) {
 Contacts FaceComplex::find_contacts() const {
     std::vector<Triangle> outer;
     for (const ComplexFace& face : faces_)
-        if (face.owner[1] == 0) outer.push_back(face.corners);
+        if (face.owner[1] == no_node) outer.push_back(face.corners);
     return kerf::find_contacts(outer, vertex_key_);
 }
 
@@ -267,7 +267,7 @@ std::vector<std::pair<NodeId, std::int32_t>> FaceComplex::assign_keys() {
     std::vector<char> used(points_.size(), 0);
     for (ComplexFace& face : faces_) {
         for (std::int32_t v : face.corners) used[v] = 1;
-        if (face.cap != 0) face.key = make_key(face.cap, caps[face.cap]++);
+        if (face.cap != no_node) face.key = make_key(face.cap, caps[face.cap]++);
     }
     for (std::size_t v = 0; v < points_.size(); ++v)
         if (is_new_[v] && used[v]) {

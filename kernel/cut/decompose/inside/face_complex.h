@@ -13,11 +13,11 @@ namespace kerf {
 
 /// A facet and the parts that it bounds.
 struct ComplexFace {
-    Triangle corners;                      ///< counter-clockwise seen from outside of owner[0]
-    std::array<NodeId, 2> owner = {0, 0};  ///< the parts on its sides; owner[1] is 0 for facets of the input
-    Key key = 0;                           ///< as in SurfaceArrays
+    Triangle corners;                  ///< counter-clockwise seen from outside of owner[0]
+    std::array<NodeId, 2> owner = {};  ///< the parts on its sides; owner[1] is no_node for facets of the input
+    Key key = 0;                       ///< as in SurfaceArrays
     std::int32_t patch = -1;
-    NodeId cap = 0;                         ///< the straight cut in whose plane it lies, with owner[0] below; 0: none
+    NodeId cap = no_node;                   ///< the straight cut in whose plane it lies, with owner[0] below; 0: none
     bool divided = false;                   ///< it is a piece of a split facet
     std::array<char, 2> untested = {0, 0};  ///< per owner: it may intersect other faces of the owner
 
@@ -43,7 +43,7 @@ class FaceComplex {
     /// touches itself.
     Part part(NodeId id) const;
 
-    /// Replaces part `id` by 2 id and 2 id + 1. `whole` is the result of part(id), `cut` a straight cut of its surface.
+    /// Replaces part `id` by its two children. `whole` is the result of part(id), `cut` a straight cut of its surface.
     /// Pieces of a split facet have the owners of the facet; faces of other parts with a crossed edge are split, too.
     /// O(n log n) for n faces of the part and at the crossed edges.
     void divide(NodeId id, const Part& whole, const StraightCut& cut);

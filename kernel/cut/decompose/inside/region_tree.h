@@ -33,10 +33,10 @@ class RegionTree {
 
     /// A node of the tree: the regions numbered [first, first + regions) in the order of the tree.
     struct Node {
-        NodeId id = 1;
+        NodeId id = root_node;
         std::int32_t first = 0, regions = 1;
     };
-    Node root() const { return {1, 0, count_of(order_)}; }
+    Node root() const { return {root_node, 0, count_of(order_)}; }
     std::array<Node, 2> halves(const Node& node) const;
     RegionIndex region(const Node& root_of_region) const { return order_[root_of_region.first]; }
     std::int32_t first_leaf(const Node& node) const { return first_leaf_[node.first]; }

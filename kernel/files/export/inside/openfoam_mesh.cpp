@@ -60,7 +60,7 @@ Labels patches_of_facets(const Part& part, const MeshOutline& outline, Label of_
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     Labels processors;
-    for (const NodeId other : others) processors.push_back(other < 0 ? -1 : outline.index_of(other).value());
+    for (const NodeId other : others) processors.push_back(other.is_valid() ? outline.index_of(other).value() : -1);
     Labels patches = part.patch;
     for (std::size_t f = 0; f < patches.size(); ++f) {
         if (!part.is_interface(f)) continue;

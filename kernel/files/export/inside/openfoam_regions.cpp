@@ -145,15 +145,15 @@ Part RegionMeshes::part_of(const Part& part, RegionIndex region) const {
         const CellId tet(part.tet_at_facet[f]);
         if (!extract.has(tet)) continue;
         if (part.is_wall(f))
-            extract.add(part.facets[f], tet, wall_patch(region, walls_.beyond(part, f)), -1);
+            extract.add(part.facets[f], tet, wall_patch(region, walls_.beyond(part, f)), NodeId::none());
         else if (part.is_interface(f))
             extract.add(part.facets[f], tet, -1, part.neighbour[f]);
         else
             extract.add(part.facets[f], tet,
-                        std::lower_bound(outer.begin(), outer.end(), part.patch[f]) - outer.begin(), -1);
+                        std::lower_bound(outer.begin(), outer.end(), part.patch[f]) - outer.begin(), NodeId::none());
     }
     extract.for_each_inner_wall([&](const Triangle& corners, CellId tet, CellId beyond) {
-        extract.add(corners, tet, wall_patch(region, part.region_of(beyond.value())), -1);
+        extract.add(corners, tet, wall_patch(region, part.region_of(beyond.value())), NodeId::none());
     });
     return piece;
 }

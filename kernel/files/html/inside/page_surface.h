@@ -13,16 +13,16 @@ namespace kerf {
 
 /// A boundary triangle of a part in a page.
 struct PageTriangle {
-    NodeId neighbour = -1;      ///< part on the other side, -1 on the outer surface
-    std::int32_t patch = -1;    ///< patch of the user's surface, -1 on interfaces
-    Triangle corners{0, 0, 0};  ///< numbers of PagePart::cells
+    NodeId neighbour = NodeId::none();  ///< part on the other side, -1 on the outer surface
+    std::int32_t patch = -1;            ///< patch of the user's surface, -1 on interfaces
+    Triangle corners{0, 0, 0};          ///< numbers of PagePart::cells
 
     auto operator<=>(const PageTriangle&) const = default;
 };
 
 /// The boundary of a part in a page.
 struct PagePart {
-    NodeId id = 1;
+    NodeId id = root_node;
     RegionIndex region;
     std::vector<std::uint64_t> cells;     ///< #V; cells that hold vertices of the part, ascending
     std::vector<PageTriangle> triangles;  ///< #F; ascending, each once, seen from outside

@@ -199,8 +199,8 @@ DividedSurface FacetDivider::result() && {
     SurfaceArrays& after = result_.surface;
     after.vertex_key.resize(after.vertices.size());
     after.facet_key.resize(after.facets.size());
-    std::iota(after.vertex_key.begin(), after.vertex_key.end(), make_key(0, 0));
-    std::iota(after.facet_key.begin(), after.facet_key.end(), make_key(0, 0));
+    std::iota(after.vertex_key.begin(), after.vertex_key.end(), make_key(input_node, 0));
+    std::iota(after.facet_key.begin(), after.facet_key.end(), make_key(input_node, 0));
     return std::move(result_);
 }
 

@@ -192,7 +192,7 @@ void CutsOnRanks::begin(Complex& complex) {
         return;
     }
     if (ranks_.rank() != first_rank) return;
-    const Branch whole{1, 0, options_.parts, {}};
+    const Branch whole{root_node, 0, options_.parts, {}};
     if (!range_.contains(0))
         return take(whole, complex.take_only_region());  // of fewer parts than ranks, this rank may have none
     begin([this, whole, surface = complex.take_only_region()]() mutable {

@@ -200,7 +200,7 @@ std::string plan_text(const std::vector<PartReport>& parts, const MesherOptions&
         all.seconds += f.seconds;
         if (f.tets > largest.tets) largest = f;
         if (every_part)
-            table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id,
+            table += fmt::format("{:>10} {:>10} {:>12.0f} {:>10.0f} {:>9.1f}\n", part.id.value(),
                                  std::llround(expected_facets(part)), f.tets, f.memory_bytes / (1 << 20), f.seconds);
     }
     return fmt::format("{:<11} {} parts for {} worker{}, about {} tetrahedra in {}; the largest part {}, {:.0f} MB\n",

@@ -61,14 +61,13 @@ StoredParts number_parts(const RunFolder& folder, const RunReport& report, std::
 PartOutcome mesh_in_one_piece(const RunContext& run, const RunFolder& folder, const Surface& surface,
                               double length_scale) {
     const WorkerOptions& workers = run.plan.request().workers;
-    constexpr int no_leaf = 0;
     PartJob job;
-    job.part = no_leaf;
+    job.part = no_node;
     job.surface = surface.arrays();
     job.boundary_id.assign(job.surface.vertices.size(), -1);
-    job.neighbour.assign(job.surface.facets.size(), -1);
+    job.neighbour.assign(job.surface.facets.size(), NodeId::none());
     job.length_scale = length_scale;
-    const std::string job_file = folder.job_file(no_leaf), part_file = folder.stored_part_file(no_leaf);
+    const std::string job_file = folder.job_file(no_node), part_file = folder.stored_part_file(no_node);
     write_job(job_file, job);
     PartQueue queue({{job_file, part_file, run.plan.size, box_around(job.surface.vertices)}},
                     {workers.program, run.plan.mesher(), 1, workers.timeout_seconds, 0, workers.attempts});

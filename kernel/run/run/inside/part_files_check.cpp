@@ -28,13 +28,13 @@ namespace {
 // The boundary of a part as a surface. Its keys hold no more than the file: the facet of the input, or that there is
 // none.
 SurfaceArrays surface_of(const Part& part) {
-    constexpr NodeId some_cut = 1;
+    constexpr NodeId some_cut = root_node;
     SurfaceArrays surface;
     surface.vertices.assign(part.mesh.vertices.begin(), part.mesh.vertices.begin() + part.mesh.boundary_vertex_count);
     surface.facets = part.facets;
     surface.patch = part.patch;
     for (const std::int32_t facet : part.facet)
-        surface.facet_key.push_back(facet >= 0 ? make_key(0, facet) : make_key(some_cut, 0));
+        surface.facet_key.push_back(facet >= 0 ? make_key(input_node, facet) : make_key(some_cut, 0));
     return surface;
 }
 
@@ -89,7 +89,7 @@ void add_laws(const MeshLaws& of_mesh, RunVerification& laws) {
 }  // namespace
 
 PartFindings PartFilesCheck::operator()(const nlohmann::json& of_report) const {
-    const auto leaf = of_report.at("id").get<std::int32_t>();
+    const auto leaf = of_report.at("id").get<NodeId>();
     const std::string path = path_of_part(folder_, leaf);
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
@@ -108,14 +108,14 @@ PartFindings PartFilesCheck::operator()(const nlohmann::json& of_report) const {
     found.volume = laws.volume;
     found.patch_names = part.patch_names;
     found.region_names = part.region_names;
-    if (part.id != leaf) differs(fmt::format("{} says that it is part {}", found.file, part.id));
+    if (part.id != leaf) differs(fmt::format("{} says that it is part {}", found.file, part.id.value()));
     if (of_report.at("tets") != part.mesh.tets.size() || of_report.at("vertices") != part.mesh.vertices.size())
-        differs(fmt::format("report.json has other numbers of part {}", leaf));
+        differs(fmt::format("report.json has other numbers of part {}", leaf.value()));
     if (found.is_whole && part.order() != order_) differs(fmt::format("{} is of order {}", found.file, part.order()));
     if (part.order() == 2) found.edge_nodes.add(part);
     check_boundary_arrays(part, found);
     if (part.regions.size() > 1) differs(found.file + " has cells of several regions");
-    found.hash = {leaf, hash_part(part)};
+    found.hash = {leaf.value(), hash_part(part)};
     if (is_of_this_version_ && found.is_whole) check_what_follows(part, found);
     keep_boundary(part, found);
     keep_interior(part, found);
@@ -129,7 +129,7 @@ void PartFilesCheck::check_what_follows(const Part& part, PartFindings& found) c
     if (is_vtu(found.file) && is_valid &&
         hash_of_file(found.file) != hash_text(hash_of_part(part, read_layout(folder_ + "/" + found.file))))
         found.differences.push_back(found.file + " has arrays that do not follow from its mesh");
-    const std::string surface = "parts/" + part_surface_file_name(found.hash.leaf);
+    const std::string surface = "parts/" + part_surface_file_name(NodeId(found.hash.leaf));
     std::error_code ignored;
     if (!std::filesystem::exists(folder_ + "/" + surface, ignored)) return;  // the list of files says so
     if (hash_of_file(surface) != hash_text(hash_of_part_surface(part)))

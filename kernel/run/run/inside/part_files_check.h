@@ -27,7 +27,7 @@ struct PlacedVertex {
 /// A triangle on an interface, as one of its two parts has it.
 struct InterfaceFacet {
     NamedTriangle vertices;  ///< oriented as in the part with the smaller number
-    std::int32_t part, neighbour;
+    NodeId part, neighbour;
 };
 
 /// The findings about one part: its own defects, and all that has to be compared with other parts or the input.

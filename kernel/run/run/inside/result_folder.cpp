@@ -131,7 +131,7 @@ std::size_t clear_folder(const RunContext& run, const Input& input, RunFolder& f
     return in_agreement(run.ranks, [&] {
         if (!run.is_root() || request.transient) return std::size_t{0};
         const std::size_t finished = folder.finished_parts();
-        std::vector<int> leaves;
+        std::vector<NodeId> leaves;
         if (request.volume)
             for (const PartReport& part : parts) leaves.push_back(part.id);
         folder.keep_only(leaves);

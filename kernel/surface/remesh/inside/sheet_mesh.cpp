@@ -135,12 +135,13 @@ SurfaceArrays SheetMesh::arrays() {
     for (const auto v : vertices()) {
         if (has_copies(v)) places_[data(v).place].push_back(v);
         result.vertices.push_back(point(v));
-        result.vertex_key.push_back(make_key(0, has_copies(v) ? places_[data(v).place].front().idx() : v.idx()));
+        result.vertex_key.push_back(
+            make_key(input_node, has_copies(v) ? places_[data(v).place].front().idx() : v.idx()));
     }
     for (const auto f : faces()) {
         const HalfedgeHandle h = halfedge_handle(f), next = next_halfedge_handle(h);
         result.facets.push_back({from_vertex_handle(h).idx(), to_vertex_handle(h).idx(), to_vertex_handle(next).idx()});
-        result.facet_key.push_back(make_key(0, f.idx()));
+        result.facet_key.push_back(make_key(input_node, f.idx()));
         result.patch.push_back(data(f).patch);
     }
     return result;
