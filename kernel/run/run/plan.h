@@ -26,9 +26,7 @@ struct RunPlan {
 
     const RunRequest& request() const { return choices.request; }
     DecomposeOptions decompose_options() const { return choices.decompose_options(size, region_sizes); }
-    /// Returns the size, or the options of the mesher, in a region.
     SizeField size_in(RegionIndex region) const { return region_sizes.of(region, size); }
-    MesherOptions mesher_in(RegionIndex region) const { return MesherOptions(request().mesher, size_in(region)); }
     /// Returns the options of the mesher for the whole.
     MesherOptions mesher() const { return MesherOptions(request().mesher, size); }
 };
