@@ -37,7 +37,7 @@ using NodeId = Id<struct NodeIdTag>;
 inline constexpr NodeId root_node(1);
 /// The number that no node has, in places where a node may be missing, and above the root.
 inline constexpr NodeId no_node(0);
-/// What a Key has in the place of a node when no cut, but the input has made the thing.
+/// The node in the Key of a thing that the input has made, and no cut.
 inline constexpr NodeId input_node = no_node;
 
 /// Returns the child on one side of the cut of a node: 0 is below, 1 above.
