@@ -32,9 +32,9 @@ struct EdgePoints {
 struct NodeSurface {
     std::vector<Vec3> vertices;
     std::vector<Triangle> facets;
-    std::vector<std::int32_t> patch;          ///< #F; patch of the input, -1 on interfaces
-    std::vector<NodeId> interface_of;         ///< #F; the node whose cut made the facet, 0: none, -1: not known
-    std::vector<NodeId> neighbour;            ///< #F or empty; of a part, the part behind an interface or wall, else -1
+    std::vector<std::int32_t> patch;   ///< #F; patch of the input, -1 on interfaces
+    std::vector<NodeId> interface_of;  ///< #F; the node whose cut made the facet, no_node: none, none(): not known
+    std::vector<NodeId> neighbour;     ///< #F or empty; of a part, the part behind an interface or wall, else none
     std::vector<std::int32_t> facet_number;   ///< #F; number of the facet in the input, -1 on interfaces
     std::vector<std::int64_t> vertex_number;  ///< #V; global number (parts) or number in the input; -1: interior of an
                                               ///< interface

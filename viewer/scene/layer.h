@@ -142,7 +142,7 @@ inline std::int32_t patch_number(std::int32_t index) { return index + 1; }
 /// Geometry that is drawn in one way.
 struct Layer {
     LayerKind kind = LayerKind::surface;  ///< with the owner unique in a scene, but for isolines
-    NodeId owner = no_node;               ///< the node or part that it belongs to; 0: none
+    NodeId owner = no_node;               ///< the node or part that it belongs to, or no_node
     std::shared_ptr<const Geometry> geometry;
     std::vector<Range> ranges;
     Fill fill = Fill::plain;

@@ -79,7 +79,7 @@ struct PartBoundary {
     std::vector<Triangle> facets;     ///< #F; boundary triangles, over the boundary vertices, seen from outside
     std::vector<std::int32_t> patch;  ///< #F; number on the user's surface, -1 on interfaces
     std::vector<std::int32_t> facet;  ///< #F; facet of the input that is or contains the triangle, -1 on interfaces
-    std::vector<NodeId> neighbour;    ///< #F; part on the other side of an interface or wall, else -1
+    std::vector<NodeId> neighbour;    ///< #F; part on the other side of an interface or wall, else none
     NameTable patch_names;            ///< names of the patches on the boundary at least
     NameTable region_names;           ///< names of the regions of the cells at least; empty if there is one region
     std::vector<RegionRun> regions;   ///< runs of all tetrahedra, ascending; one unless parts were joined;

@@ -34,7 +34,7 @@ SizeOptions forecast_sizes(const Input& input, const RunRequest& request);
 /// the mesher of the request is forecast to make this number of tetrahedra. Where the surface is remeshed, the demands
 /// of its shape are known afterwards: it is remeshed up to four times, with sizes that are closer and closer, until the
 /// forecast is within 5 % of the number, and the closest is taken. If even the coarsest mesh has more, that one is
-/// taken, with a note in Input::notes. Depends on input and options alone. Throws as remesh_where_asked() and
+/// taken, with a note in Input::notes. Depends on input and request alone. Throws as remesh_where_asked() and
 /// read_size_field().
 SizedInput remesh_and_size(Input input, const RunRequest& request, StageListener* listener = nullptr);
 

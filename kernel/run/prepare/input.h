@@ -128,18 +128,18 @@ struct Input : InputMeasures {
 
 /// Reads files (several files and CAD files, too: run/prepare/input_files.h), repairs and diagnoses them. Throws Error
 /// only for a file that cannot be read. `check_cancelled`: see check_files().
-CheckedSoup check_input(const std::string& path, const InputChoices& options = {}, double needle_angle_deg = 1,
+CheckedSoup check_input(const std::string& path, const InputChoices& choices = {}, double needle_angle_deg = 1,
                         const std::function<void()>& check_cancelled = {});
 
 /// Checks a soup that a reader returned. Where facets do not say which regions they bound, these are found
 /// (surface/regions/region_finder.h): by points, or because several bodies touch. Throws Error(input) for points that
 /// are misplaced, and Error(usage) for points where there are regions already.
-CheckedSoup check_soup(Soup soup, const InputChoices& options = {}, double needle_angle_deg = 1,
+CheckedSoup check_soup(Soup soup, const InputChoices& choices = {}, double needle_angle_deg = 1,
                        const std::function<void()>& check_cancelled = {});
 
 /// Checks files that have been read: each is a body of its own, and several bodies are regions. `check_cancelled`:
 /// called by repair() and wrap().
-CheckedSoup check_files(InputFiles files, const InputChoices& options = {}, double needle_angle_deg = 1,
+CheckedSoup check_files(InputFiles files, const InputChoices& choices = {}, double needle_angle_deg = 1,
                         const std::function<void()>& check_cancelled = {});
 
 /// Drops the superfluous facets of a soup without errors, and orients it.
@@ -170,7 +170,7 @@ inline constexpr const char* name_of_arrays = "surface in memory";
 
 /// Checks arrays as make_input() takes them. `soup`: nothing but its vertices, facets, patches, names and sides. Throws
 /// as make_input(), but not for a surface that cannot be meshed.
-CheckedSoup check_arrays(Soup soup, const InputChoices& options = {}, double needle_angle_deg = 1,
+CheckedSoup check_arrays(Soup soup, const InputChoices& choices = {}, double needle_angle_deg = 1,
                          const std::function<void()>& check_cancelled = {});
 
 /// Makes the same input of arrays that read_input() makes of a file. `patch`: a number from 0 for each facet, or empty:
@@ -182,14 +182,14 @@ CheckedSoup check_arrays(Soup soup, const InputChoices& options = {}, double nee
 /// all that read_input() refuses: the message names the first row, Error::elements() all of them. `check_cancelled`:
 /// see check_files(). O(#F log #F).
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<std::int32_t> patch = {},
-                 std::vector<std::string> patch_names = {}, const InputChoices& options = {},
+                 std::vector<std::string> patch_names = {}, const InputChoices& choices = {},
                  const std::function<void()>& check_cancelled = {});
 
 /// Makes an input of several regions. `sides`: the regions on the sides of each facet, by numbers of `region_names`;
 /// each facet is given once. Throws as the other make_input(), and Error(input) for arrays that a Complex refuses.
 Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::vector<FacetSides> sides,
                  std::vector<std::string> region_names, std::vector<std::int32_t> patch = {},
-                 std::vector<std::string> patch_names = {}, const InputChoices& options = {},
+                 std::vector<std::string> patch_names = {}, const InputChoices& choices = {},
                  const std::function<void()>& check_cancelled = {});
 
 /// Reads a file: check_input() and apply_repairs(), then builds the surface. Throws UnfitSurface, naming the file, the
@@ -197,6 +197,6 @@ Input make_input(std::vector<Vec3> vertices, std::vector<Triangle> facets, std::
 /// sweeps of the optimisation would make it intersect itself; else the optimised surface takes the place of the file's
 /// from there on. `listener`, unless null, is told of the stage "repair" where there is one, and ends it once it is
 /// cancelled.
-Input read_input(const std::string& path, const InputChoices& options = {}, StageListener* listener = nullptr);
+Input read_input(const std::string& path, const InputChoices& choices = {}, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -37,8 +37,8 @@ class InterfaceMatch {
     /// Collective. `leaves`: of this rank. `sides`: see is_between_leaves().
     InterfaceMatch(Communicator& ranks, const std::vector<Leaf>& leaves, std::span<const FacetSides> sides = {});
 
-    /// Returns, for the leaf with this place on this rank, the leaf on the other side of each of its facets, -1 where
-    /// there is none.
+    /// Returns, for the leaf with this place on this rank, the leaf on the other side of each of its facets, none()
+    /// where there is none.
     const std::vector<NodeId>& neighbours(std::size_t leaf) const { return neighbours_[leaf]; }
     /// Returns the number of facets of all ranks that do not appear exactly twice, on two leaves, with the same
     /// vertices in opposite order.

@@ -14,7 +14,6 @@
 #include "run/report/inside/recovery_json.h"
 #include "run/report/repair_json.h"
 #include "run/report/report.h"
-#include "run/report/tree_text.h"
 
 namespace kerf {
 

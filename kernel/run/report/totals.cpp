@@ -12,7 +12,6 @@
 
 #include "base/core/error.h"
 #include "base/core/ids.h"
-#include "run/report/tree_text.h"
 #include "run/work/mesh_hash.h"
 
 namespace kerf {

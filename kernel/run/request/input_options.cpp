@@ -36,7 +36,7 @@ RegionSeed seed_of(const std::string& text) {
 }  // namespace
 
 InputChoices::InputChoices(const InputOptions& given)
-    : options(given), repairs(repair_plan_of(given)), seeds(seeds_of(given)) {}
+    : options(given), seeds(seeds_of(given)), repairs(repair_plan_of(given)) {}
 
 void take_inputs(const std::vector<std::string>& files, std::string& input, InputOptions& options) {
     if (files.empty()) return;

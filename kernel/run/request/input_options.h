@@ -69,8 +69,8 @@ struct InputChoices {
     InputChoices(const InputOptions& given = {});  // NOLINT(google-explicit-constructor): the same, understood
 
     InputOptions options;
-    RepairPlan repairs;             ///< repair_plan_of() them
     std::vector<RegionSeed> seeds;  ///< seeds_of() them
+    RepairPlan repairs;             ///< repair_plan_of() them
 };
 
 }  // namespace kerf

@@ -23,7 +23,7 @@ struct Trace {
     bool remeshed = false;                  ///< whether the surface is not that of the file, but Input::remeshed
     std::vector<std::string> patch_names;   ///< names by number of surface.patch
     std::vector<std::array<std::uint8_t, 4>> patch_colours;  ///< colours of the patches, as in Input
-    std::vector<OptionText> options;                         ///< options that shape the parts, resolved
+    std::vector<OptionText> options;  ///< options that shape the parts, with the choices of the run
     std::vector<Cut> cuts;  ///< cuts of all nodes where one was tried, ascending by number; recorded, with seconds 0
 
     /// Returns the cut of a node, nullptr if none was tried there. O(log #cuts).

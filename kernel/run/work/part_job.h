@@ -20,7 +20,7 @@ struct PartJob {
     NodeId part = root_node;
     SurfaceArrays surface;  ///< closed; as mesh_volume() takes it: may touch itself at vertices and along edges
     std::vector<std::int64_t> boundary_id;       ///< #V; global numbers
-    std::vector<NodeId> neighbour;               ///< #F; the part on the other side of an interface facet, else -1
+    std::vector<NodeId> neighbour;               ///< #F; the part on the other side of an interface facet, else none
     std::vector<std::int32_t> contact_vertices;  ///< see Part
     std::vector<UndirectedEdge> contact_edges;
     std::vector<SharedGroup> shared;

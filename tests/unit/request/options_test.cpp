@@ -70,6 +70,7 @@ TEST(RunRequest, ValuesOutOfRangeAreNamed) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     expect_refused("workers", [](RunRequest& o) { o.workers.count = -1; });
     expect_refused("parts", [](RunRequest& o) { o.parts = -1; });
+    expect_refused("repair", [](RunRequest& o) { o.input_options.repairs.plan = "nonsense"; });
     for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
         expect_refused("size", [&](RunRequest& o) { o.sizes.size = bad; });
         expect_refused("max-volume", [&](RunRequest& o) { o.sizes.max_volume = bad; });

@@ -16,8 +16,8 @@ struct RedoneCut {
 };
 
 /// Cuts the node at `plane` (place_of()), else where it was cut before, else into two halves of equal load, with
-/// options.cut. The cut is straight where no contour of edges is found and the options allow it. `options`
-/// need not be resolved. Throws Error(usage) for options out of range or a node that the tree does not have.
+/// options.cut. The cut is straight where no contour of edges is found and the options allow it. Any request
+/// will do: choices_of() checks it. Throws Error(usage) for options out of range or a node that the tree does not have.
 RedoneCut redo_cut(Replayer& replayer, NodeId node, RunRequest options, const std::optional<Plane>& plane = {});
 
 }  // namespace kerf::view

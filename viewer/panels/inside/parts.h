@@ -49,7 +49,7 @@ struct SearchBox {
 struct Tour {
     bool awaited = false;                  ///< it begins as soon as there is a cut to show
     bool has_run = false;                  ///< a run was started to have a cut to show
-    NodeId node = no_node;                 ///< the node whose cut is shown; 0: there is no tour
+    NodeId node = no_node;                 ///< the node whose cut is shown; no_node: there is no tour
     std::optional<Stage> go_to = {};       ///< the stage that the next frame shows
     std::optional<ViewState> before = {};  ///< the view before the tour
 };

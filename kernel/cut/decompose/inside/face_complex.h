@@ -17,8 +17,8 @@ struct ComplexFace {
     std::array<NodeId, 2> owner = {};  ///< the parts on its sides; owner[1] is no_node for facets of the input
     Key key = 0;                       ///< as in SurfaceArrays
     std::int32_t patch = -1;
-    NodeId cap = no_node;                   ///< the straight cut in whose plane it lies, with owner[0] below; 0: none
-    bool divided = false;                   ///< it is a piece of a split facet
+    NodeId cap = no_node;  ///< the straight cut in whose plane it lies, with owner[0] below, or no_node
+    bool divided = false;  ///< it is a piece of a split facet
     std::array<char, 2> untested = {0, 0};  ///< per owner: it may intersect other faces of the owner
 
     bool bounds(NodeId part) const { return owner[0] == part || owner[1] == part; }

@@ -13,7 +13,7 @@ namespace kerf {
 
 /// A boundary triangle of a part in a page.
 struct PageTriangle {
-    NodeId neighbour = NodeId::none();  ///< part on the other side, -1 on the outer surface
+    NodeId neighbour = NodeId::none();  ///< part on the other side, none on the outer surface
     std::int32_t patch = -1;            ///< patch of the user's surface, -1 on interfaces
     Triangle corners{0, 0, 0};          ///< numbers of PagePart::cells
 

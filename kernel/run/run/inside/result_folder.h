@@ -32,6 +32,6 @@ RunReport finish_run(const RunContext& run, std::optional<RunFolder>& folder, Ru
 /// Returns the error with words on how to go on: always where the user has stopped the run, else if a part is finished.
 /// A folder without a finished part is discarded where the run has failed. `folder`: none if the run has ended before
 /// it was opened.
-Error with_way_to_go_on(const RunRequest& options, std::optional<RunFolder>& folder, const Error& error);
+Error with_way_to_go_on(const RunRequest& request, std::optional<RunFolder>& folder, const Error& error);
 
 }  // namespace kerf
