@@ -62,7 +62,7 @@ class NumberedBox : public testing::Test {
     }
     // The number of a patch by its outward normal, counted from 1.
     std::int32_t patch_towards(const Vec3& normal) {
-        const auto surface = driver_->app().session().fetched().surface(1);
+        const auto surface = driver_->app().session().fetched().surface(root_node);
         for (std::size_t f = 0; f < surface->facets.size(); ++f) {
             const auto p = [&](std::size_t k) {
                 return surface->vertices[static_cast<std::size_t>(surface->facets[f][k])];

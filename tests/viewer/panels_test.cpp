@@ -114,20 +114,20 @@ TEST(CutHandle, MovesThePlaneOfACut) {
     driver.open(asset_path("cylinder"));
     driver.state().step = {Stage::plane, -1};
     driver.settle();
-    const Plane before = driver.document().trace->find(1)->plane;
+    const Plane before = driver.document().trace->find(root_node)->plane;
     const Camera camera = driver.app().camera();
     const Eigen::Vector2d seen = *seen_from_target(camera, before.origin + 0.05 * camera.height * before.normal) -
                                  *seen_from_target(camera, before.origin);
     const Eigen::Vector2f along = Eigen::Vector2d(seen.x(), -seen.y()).normalized().cast<float>() * 60;
     drag_item(driver, "move cut", along.x(), along.y());
     driver.await("the cut", [&] { return driver.app().session().pair().can_swap(); });
-    const Plane& after = driver.document().trace->find(1)->plane;
+    const Plane& after = driver.document().trace->find(root_node)->plane;
     const double pixels = static_cast<double>(driver.app().scene_area().height);
     const double moved = 60 / (seen.norm() * pixels) * 0.05 * camera.height;  // as it is seen near the plane
     EXPECT_NEAR(before.distance(after.origin), moved, 0.15 * moved);
     EXPECT_GT(std::abs(after.normal.dot(before.normal)), 1 - 1e-6);
     ASSERT_TRUE(driver.app().session().other_document());
-    EXPECT_EQ(driver.app().session().other_document()->trace->find(1)->plane.origin, before.origin);
+    EXPECT_EQ(driver.app().session().other_document()->trace->find(root_node)->plane.origin, before.origin);
 }
 
 }  // namespace

@@ -252,9 +252,9 @@ TEST_F(SolvedCubeLookedAt, ModesAreChosenLikeCases) {
     driver_->settle();
     EXPECT_FALSE(scene().legend.values) << "a mode has none";
     EXPECT_FALSE(driver_->app().session().pending());
-    const auto surface = driver_->app().session().fetched().part_surface(2);
+    const auto surface = driver_->app().session().fetched().part_surface(NodeId(2));
     ASSERT_TRUE(surface);
-    const Selection vertex = {Selection::Kind::vertex, 2, 0, surface->vertices[0]};
+    const Selection vertex = {Selection::Kind::vertex, NodeId(2), 0, surface->vertices[0]};
     const std::string text = describe_selection(driver_->app().session(), vertex, 3);
     EXPECT_NE(text.find(fmt::format("{:.6g} long", 2 * surface->vertices[0].x())), std::string::npos) << text;
     EXPECT_EQ(text.find("stress"), std::string::npos) << text;

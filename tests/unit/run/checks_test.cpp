@@ -107,7 +107,7 @@ std::vector<Misuse> misuses() {
         {"cut.cpp:[0-9]+: .*is_orthonormal", [] { Plane(Vec3::Zero(), Vec3(0, 0, 2)); }},
         {"band.cpp:[0-9]+: .*is_orthonormal", [=] { make_band(surface, skewed_plane()); }},
         {"contour.cpp:[0-9]+: .*fit", [=] { contour_edges(surface, band, too_few); }},
-        {"split.cpp:[0-9]+: .*fit", [=] { split(surface, too_few, {}, 1); }},
+        {"split.cpp:[0-9]+: .*fit", [=] { split(surface, too_few, {}, root_node); }},
         {"interface.cpp:[0-9]+: .*is_closed_path",
          [=] {
              build_interface(surface, band, labels, {{Vertex(0), Vertex(7), Vertex(1)}}, no_hits, {});
