@@ -15,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/ids.h"
+#include "base/core/threads.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 
@@ -45,22 +46,25 @@ Vec3 longest_way(const Corners& corners, int count) {
 
 }  // namespace
 
-Nearness::Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets)
-    : surface_(surface), partner_(edge_partners(facets)) {
-    frames_.reserve(facets.size());
-    for (std::int32_t f = 0; f < count_of(facets); ++f) {
-        const std::array<Vec3, 3>& t = surface.corners(f);
-        const Vec3 normal = doubled_area_vector(t);
-        Frame frame = {t, {}, normal.normalized(), false};
-        double longest = 0;
-        for (int i = 0; i < 3; ++i) {
-            const Vec3 along = t[(i + 1) % 3] - t[i];
-            frame.outwards[i] = along.cross(normal).normalized();
-            longest = std::max(longest, along.squaredNorm());
+Nearness::Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets) : surface_(surface) {
+    constexpr std::size_t grain = 1 << 14;
+    const auto made = std::make_shared<Facets>(Facets{edge_partners(facets), std::vector<Frame>(facets.size())});
+    for_ranges_on_threads(facets.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t f = range.first; f < range.last; ++f) {
+            const std::array<Vec3, 3>& t = surface.corners(f);
+            const Vec3 normal = doubled_area_vector(t);
+            Frame& frame = made->frames[f];
+            frame = {t, {}, normal.normalized(), false};
+            double longest = 0;
+            for (int i = 0; i < 3; ++i) {
+                const Vec3 along = t[(i + 1) % 3] - t[i];
+                frame.outwards[i] = along.cross(normal).normalized();
+                longest = std::max(longest, along.squaredNorm());
+            }
+            frame.is_needle = !(normal.norm() > flattest * longest);
         }
-        frame.is_needle = !(normal.norm() > flattest * longest);
-        frames_.push_back(frame);
-    }
+    });
+    facets_ = made;
 }
 
 Vec3 Nearness::Polygon::centre() const {
@@ -78,12 +82,12 @@ bool Nearness::Polygon::add(const Vec3& corner) {
 std::int32_t Nearness::facet_below(const Vec3& p, std::int32_t start) const {
     std::int32_t facet = start, came_from = -1;
     for (int step = 0; facet >= 0 && step < longest_walk; ++step) {
-        const Frame& frame = frames_[facet];
+        const Frame& frame = facets_->frames[facet];
         std::int32_t across = -1;
         for (int i = 0; i < 3 && across < 0; ++i)
             if (3 * facet + i != came_from && frame.outwards[i].dot(p - frame.corners[i]) > 0) across = 3 * facet + i;
         if (across < 0) return facet;
-        came_from = partner_[across];
+        came_from = facets_->partner[across];
         facet = came_from < 0 ? -1 : came_from / 3;
     }
     return -1;
@@ -132,7 +136,7 @@ bool Nearness::halve(const Polygon& p, double limit) {
 }
 
 bool Nearness::divide(const Polygon& p, std::int32_t facet, double limit) {
-    const Frame& frame = frames_[facet];
+    const Frame& frame = facets_->frames[facet];
     const std::array<Vec3, 3>& t = frame.corners;
     if (extent(p.corners, p.count).squaredNorm() > much_longer * much_longer * extent(t, 3).squaredNorm()) return false;
     Polygon inside = p, below, above;
@@ -143,7 +147,7 @@ bool Nearness::divide(const Polygon& p, std::int32_t facet, double limit) {
             return false;
         }
         if (above.count > 0) {
-            const std::int32_t beyond = partner_[3 * facet + i];
+            const std::int32_t beyond = facets_->partner[3 * facet + i];
             above.near = beyond < 0 ? -1 : beyond / 3;
             open_.push_back(above);
         }

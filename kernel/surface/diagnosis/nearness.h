@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "surface/soup/edge_corners.h"
@@ -16,10 +17,10 @@ namespace kerf {
 /// the sides of the triangle below it. Right up to the rounding of these divisions, some 1e-15 of the coordinates; so
 /// is directed_distance().
 ///
-/// Holds scratch memory: each thread needs its own.
+/// Holds scratch memory: each thread needs a copy of its own, which is cheap.
 class Nearness {
  public:
-    /// Keeps the reference. `facets` are the facets of the tree. O(#F).
+    /// Keeps the reference. `facets` are the facets of the tree. O(#F), on threads.
     Nearness(const TriangleTree& surface, const std::vector<Triangle>& facets);
 
     /// Whether every point of triangle `t` is within limit(f) of some facet f of the surface. limit(f) is negative for
@@ -66,6 +67,14 @@ class Nearness {
     /// Returns the facet that p lies over, found by walking from neighbour to neighbour, or -1 if there is none or the
     /// walk does not find it.
     std::int32_t facet_below(const Vec3& p, std::int32_t start) const;
+
+    /// Returns the squared distance of p from a facet, by the facet's frame where p lies over it.
+    double squared_distance(const Vec3& p, std::int32_t facet) const {
+        const Frame& frame = facets_->frames[facet];
+        if (frame.is_needle || !frame.has_below(p)) return surface_.squared_distance_to(p, facet);
+        const double height = frame.normal.dot(p - frame.corners[0]);
+        return height * height;
+    }
 
     /// An upper bound on the distance from the surface of all that holds() has found near so far. It is attained: some
     /// corner of a division is as far from the facet that it was compared with.
@@ -117,13 +126,6 @@ class Nearness {
     bool divide(const Polygon& p, std::int32_t facet, double limit);
     /// Halves p across its longest extent; false if it is too small.
     bool halve(const Polygon& p, double limit);
-    /// Returns the squared distance of p from a facet, by the facet's frame where p lies over it.
-    double squared_distance(const Vec3& p, std::int32_t facet) const {
-        const Frame& frame = frames_[facet];
-        if (frame.is_needle || !frame.has_below(p)) return surface_.squared_distance_to(p, facet);
-        const double height = frame.normal.dot(p - frame.corners[0]);
-        return height * height;
-    }
     /// Cuts p into its pieces below and above a plane, of which one may be empty; false if there is no room. `normal`
     /// has the inverse of a length that counts as zero as its own length.
     static bool cut(const Polygon& p, const Vec3& origin, const Vec3& normal, Polygon& below, Polygon& above);
@@ -139,9 +141,13 @@ class Nearness {
         }
     };
 
+    struct Facets {                         // of the surface; copies share them
+        std::vector<std::int32_t> partner;  // 3 #F: the corner on the other side
+        std::vector<Frame> frames;          // #F
+    };
+
     const TriangleTree& surface_;
-    std::vector<std::int32_t> partner_;  // 3 #F: the corner on the other side
-    std::vector<Frame> frames_;          // #F
+    std::shared_ptr<const Facets> facets_;
     std::vector<Polygon> open_;
     std::vector<std::int32_t> beside_;
     double squared_distance_ = 0;

@@ -46,6 +46,14 @@ class TriangleTree {
                               });
     }
 
+    /// Calls accept(facet) for the facets whose boxes, or those of a piece, meet `box`, for some of them several times,
+    /// until it returns true. Returns whether it did.
+    template <class Accept>
+    bool any_in_box(const Eigen::AlignedBox3d& box, Accept accept) const {
+        return hierarchy_.any([&](const BoxNode& node) { return node.box.intersects(box); },
+                              [&](std::int32_t i) { return accept(order_[i]); });
+    }
+
     /// Returns the distance along the ray to the first triangle between `from` and `to` that accept(facet) takes, or
     /// infinity if there is none. Distances are measured in lengths of `direction`, which is arbitrary. Not exact: a
     /// ray may pass through an edge.
