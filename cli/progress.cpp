@@ -142,6 +142,10 @@ void ProgressLine::on_progress(const char* stage, std::size_t done, std::size_t 
 
 // The stage with its progress, which is told as long as there is nothing new.
 std::string ProgressLine::state_text() const {
+    if (stage_ == "remesh" && total_ == 100) {  // hundredths
+        const double left = done_ > 0 ? of_stage_.seconds() * (total_ - done_) / done_ : -1;
+        return fmt::format("{}  {} %  ETA {}", stage_, done_, time_left(left));
+    }
     return total_ < 2 ? stage_ + unknowns_ : fmt::format("{}{}  {}/{}", stage_, unknowns_, done_, total_);
 }
 

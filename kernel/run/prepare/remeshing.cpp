@@ -243,6 +243,14 @@ void check_memory(double facets, const RunRequest& options, double edge) {
                             short_number(facets), short_number(most), way_out));
 }
 
+// Tells of the share that is done, in hundredths, again and again.
+void tell_of_remeshing(StageListener* listener, RemeshOptions& options) {
+    if (!listener) return;
+    const auto hundredths = std::make_shared<std::size_t>(0);
+    options.check_cancelled = [listener, hundredths] { tell_progress(listener, "remesh", *hundredths, 100); };
+    options.tell_share = [hundredths](double share) { *hundredths = static_cast<std::size_t>(100 * share); };
+}
+
 // Tells of steps, of nobody knows how many. Copies count together.
 std::function<void()> step_counter(StageListener* listener) {
     if (!listener) return {};
@@ -292,7 +300,7 @@ Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, c
     if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, bad, wanted));
     if (task.periodicity) input.notes.push_back(note_of_periodicity(*task.periodicity));
     check_memory(forecast_facets(task.facets.surface, wanted), options, wanted.longest);
-    wanted.check_cancelled = step_counter(listener);
+    tell_of_remeshing(listener, wanted);
     if (wanted.check_cancelled) wanted.check_cancelled();
     Remeshed result = remesh(task.facets.surface, wanted);
 

@@ -41,11 +41,11 @@ double forecast_changed_facets(const Input& input, const RunRequest& options);
 /// a sliver. Where facets are good but coarser than sizes, they are divided, unless the options keep them. Surface,
 /// counts, area and volume are the new ones then, and Input::remeshed reports the change. The wanted lengths are those
 /// of RunRequest::sizes. `listener`, unless null, is told of the stage "remesh" again and again while it lasts, with
-/// the number of steps that are done, of an unknown total. Throws Error(usage) for a deviation out of range,
-/// Error(memory) with the way out for more facets than there is memory for, before the first of them, Error(cancelled).
-/// Where the bound cannot be kept, or a volume changes by more than largest_volume_change although no deviation was
-/// asked for, the facets stay and are divided, which is noted; that is Error(input) or Error(verification) where
-/// remeshing was asked for.
+/// the hundredths that are done; where facets are divided, with steps of an unknown total. Throws Error(usage) for a
+/// deviation out of range, Error(memory) with the way out for more facets than there is memory for, before the first of
+/// them, Error(cancelled). Where the bound cannot be kept, or a volume changes by more than largest_volume_change
+/// although no deviation was asked for, the facets stay and are divided, which is noted; that is Error(input) or
+/// Error(verification) where remeshing was asked for.
 Input remesh_where_asked(Input input, const RunRequest& options, StageListener* listener = nullptr);
 
 }  // namespace kerf

@@ -1,15 +1,18 @@
-// Rounds around the remeshing proper (triangle_shaping.h), until the whole passes inspect(). A round whose result is
-// refused at some facets is followed by one with a quarter of their tolerances; after `most_rounds` of these the
-// refused facets, with all around them, are kept as they are; when that does not help either, the surface is refused.
-// Operations get only `used_share` of the deviation, as the rest is for points between those that are compared. After a
-// round that passes, volumes are restored (volume_restoration.h): vertices at which the moved surface is refused are
-// fixed, and the restoration is tried again. If a volume is still wrong, rounds with smaller tolerances everywhere
-// follow, in which chords leave out less.
+// Rounds around the remeshing proper (triangle_shaping.h), until the whole passes inspect(). Where facets meet once the
+// surface is simplified, tolerances become smaller at once, if that helps. A round whose result is refused at some
+// facets is followed by one with a quarter of their tolerances; after `most_rounds` of these the refused facets, with
+// all around them, are kept as they are; when that does not help either, the surface is refused. Operations get only
+// `used_share` of the deviation, as the rest is for points between those that are compared. Volumes are restored
+// (volume_restoration.h) before the inspection, and again with the vertices fixed at which the moved surface is
+// refused. If a volume is still wrong, rounds with smaller tolerances everywhere follow, in which chords leave out
+// less.
 #include "surface/remesh/remesh.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,12 +20,12 @@
 #include "base/core/cancellation.h"
 #include "base/core/error.h"
 #include "base/core/ids.h"
+#include "base/core/threads.h"
 #include "base/geometry/triangle.h"
-#include "surface/complex/touching.h"
-#include "surface/diagnosis/intersections.h"
 #include "surface/diagnosis/nearness.h"
-#include "surface/remesh/inside/bounded_surface.h"
-#include "surface/remesh/inside/fold_sizes.h"
+#include "surface/remesh/inside/inspection.h"
+#include "surface/remesh/inside/shared_work.h"
+#include "surface/remesh/inside/sheet_mesh.h"
 #include "surface/remesh/inside/triangle_shaping.h"
 #include "surface/remesh/inside/volume_restoration.h"
 #include "surface/remesh/thickness.h"
@@ -34,6 +37,7 @@ namespace {
 constexpr double as_asked = 0.95;  // a size over that which is asked for, which counts as that
 // Points between those that operations compare with the input may be further off.
 constexpr double used_share = 0.8;
+constexpr int most_tightenings = 4;  // because facets of a simple surface meet
 constexpr int most_rounds = 5, most_rounds_that_keep = 3;
 constexpr double smaller_tolerance = 0.25;  // of the tolerance, where the result of a round is refused
 constexpr double same_volume = 5e-5;        // of a region, before and after: nothing is to be restored
@@ -44,36 +48,42 @@ constexpr double smaller_for_volume = 0.5;
 
 constexpr double most_facets_on_walls = 1.5e6;
 
-constexpr double first_bound = 0.2, step_of_bound = 1.25;  // of the deviation; of the one before
-// The divisions allowed for one facet in the proof: it may be near all of the other surface, along whose facets it is
-// divided.
-constexpr int least_divisions = 100'000, divisions_per_facet = 16;
-
-std::vector<InputPlace> places_on(const TriangleTree& input, const std::vector<Vec3>& vertices) {
-    std::vector<InputPlace> places;
-    places.reserve(vertices.size());
-    for (const Vec3& p : vertices) {
-        const TriangleTree::Closest closest = input.closest(p);
-        places.push_back({closest.facet, closest.point});
-    }
+// A facet known to be near bounds each search.
+std::vector<InputPlace> places_on(const TriangleTree& input, const ChangedSurface& result) {
+    constexpr std::size_t grain = 1 << 12;
+    constexpr double a_little_more = 1 + 1e-6;  // of the squared distance, which must be below the limit
+    const std::vector<Vec3>& vertices = result.surface.vertices;
+    std::vector<std::int32_t> near(vertices.size(), -1);
+    for (std::size_t f = 0; f < result.near.size(); ++f)
+        for (const std::int32_t v : result.surface.facets[f]) near[v] = result.near[f];
+    std::vector<InputPlace> places(vertices.size());
+    for_ranges_on_threads(vertices.size(), grain, [&](const IndexRange& range) {
+        for (std::size_t v = range.first; v < range.last; ++v) {
+            const double squared = input.squared_distance_to(vertices[v], near[v]);
+            const TriangleTree::Closest closest = input.closest(vertices[v], a_little_more * squared);
+            places[v] = closest.facet < 0 ? InputPlace{near[v], vertices[v]} : InputPlace{closest.facet, closest.point};
+        }
+    });
     return places;
 }
 
 // Returns the shares of the area in which some corner has a smaller size than the user asks for there; the corner with
 // the smallest ratio gives the reason.
-FinerShares finer_shares(const SheetMesh& mesh) {
+FinerShares finer_shares(const SheetArrays& sheets) {
     std::array<double, 4> finer{};
     double all = 0;
-    for (const auto f : mesh.faces()) {
-        const double area = area_normal(mesh.corners(f)).norm();
+    for (std::size_t f = 0; f < sheets.corners.size(); ++f) {
+        const double area = area_normal(sheets.triangle(f)).norm();
         all += area;
         double least = as_asked;
         LengthRule rule = LengthRule::asked;
-        for (const auto v : mesh.fv_range(f))
-            if (const double share = mesh.size(v) / mesh.data(v).asked; share < least) {
+        for (const std::int32_t v : sheets.corners[f]) {
+            const SheetVertex& vertex = sheets.vertices[v];
+            if (const double share = vertex.wanted.length / vertex.asked; share < least) {
                 least = share;
-                rule = mesh.data(v).wanted.rule;
+                rule = vertex.wanted.rule;
             }
+        }
         if (least < as_asked) finer[static_cast<std::size_t>(rule)] += area;
     }
     if (!(all > 0)) return {};
@@ -81,90 +91,18 @@ FinerShares finer_shares(const SheetMesh& mesh) {
     return {share(LengthRule::bound), share(LengthRule::features), share(LengthRule::walls)};
 }
 
-// Joins the copies at seams, and makes the numbers of vertices their keys.
-SurfaceArrays with_seams_joined(SurfaceArrays sheets) {
-    SurfaceArrays joined = joined_by_key(std::move(sheets));
-    for (std::int32_t v = 0; v < count_of(joined.vertices); ++v) joined.vertex_key[v] = make_key(input_node, v);
-    return joined;
-}
-
-Remeshed remesh_once(const Sheets& sheets, const TriangleTree& tree, const Tolerances& tolerances,
-                     const RemeshOptions& options) {
-    const InputShape input(sheets, tree, tolerances, options.feature_angle_deg, options.creases, options.walls);
-    BoundedSurface shaped(input, options.kept);
-    shape_triangles(shaped, options);
-    const SheetMesh& mesh = shaped.mesh();
-    const RemeshReport report = {.feature_edges = mesh.feature_edges(), .finer = finer_shares(mesh)};
-    return {with_seams_joined(shaped.arrays()), {}, report};
-}
-
-// Calls visit(point) for the points of a lattice in the facet that divides each of its edges in six.
-template <class Visit>
-void for_each_sample(const std::vector<Vec3>& vertices, const Triangle& t, Visit visit) {
-    constexpr int samples_per_edge = 6;
-    for (int i = 0; i <= samples_per_edge; ++i)
-        for (int j = 0; i + j <= samples_per_edge; ++j)
-            visit(Vec3((i * vertices[t[0]] + j * vertices[t[1]] + (samples_per_edge - i - j) * vertices[t[2]]) /
-                       samples_per_edge));
-}
-
-int divisions_for(std::size_t facets) {
-    return std::min<std::size_t>(least_divisions + divisions_per_facet * facets, 1 << 30);
-}
-
-// One of the surfaces, with the bounds within which the facets of the other are known to be near.
-struct Side {
-    Nearness nearness;
-    int most_divisions;
-    double bound;            // that does for all so far
-    std::int32_t last = -1;  // facet of this side that the last one is near
-
-    Side(const TriangleTree& tree, const std::vector<Triangle>& facets, double deviation)
-        : nearness(tree, facets), most_divisions(divisions_for(facets.size())), bound(first_bound * deviation) {}
-};
-
-bool is_near(const std::vector<Vec3>& vertices, const Triangle& t, const RemeshOptions& options, Side& side) {
-    const auto holds = [&] {
-        return side.nearness.holds(
-            {vertices[t[0]], vertices[t[1]], vertices[t[2]]}, side.bound, [&](std::int32_t) { return side.bound; },
-            side.most_divisions, side.last);
-    };
-    for (; !holds(); side.bound = std::min(options.deviation, step_of_bound * side.bound))
-        if (side.bound == options.deviation) return false;
-    return true;
-}
-
-// Compares a result with the input: finds facets that meet, and points too far from the other surface. Returns for
-// each facet of the input whether the result is refused there, and puts the distances into the report. `input_tree` is
-// of the facets of `input`. O(#F log #F).
-std::vector<char> inspect(const SurfaceArrays& input, const TriangleTree& input_tree, const RemeshOptions& options,
-                          const SurfaceArrays& result, RemeshReport& report) {
-    std::vector<char> refused(input.facets.size(), 0);
-    const auto refuse_around = [&](const Vec3& p) {
-        input_tree.any_within(p, options.deviation, [&](std::int32_t near, double) {
-            refused[near] = 1;
-            return false;
-        });
-    };
-    for (const auto& [f, g] : find_self_intersections(result.vertices, result.facets))
-        for (const std::int32_t facet : {f, g}) for_each_sample(result.vertices, result.facets[facet], refuse_around);
-    const CancellationCheck check_cancelled(options.check_cancelled);
-    Side to_input(input_tree, input.facets, options.deviation);
-    for (std::size_t f = 0; f < result.facets.size(); ++f) {
-        check_cancelled.at(f);
-        const Triangle& t = result.facets[f];
-        if (!is_near(result.vertices, t, options, to_input))
-            for_each_sample(result.vertices, t, [&](const Vec3& p) { refused[input_tree.closest(p).facet] = 1; });
+ChangedSurface changed_surface(const SheetArrays& sheets) {
+    ChangedSurface result = {joined_surface(sheets), {}, {}};
+    for (const SheetFacet& facet : sheets.facets) {
+        result.near.push_back(facet.near);
+        result.is_kept.push_back(facet.is_kept ? 1 : 0);
     }
-    const TriangleTree tree(result.vertices, result.facets);
-    Side from_input(tree, result.facets, options.deviation);
-    for (std::size_t f = 0; f < input.facets.size(); ++f) {
-        check_cancelled.at(f);
-        if (!is_near(input.vertices, input.facets[f], options, from_input)) refused[f] = 1;
-    }
-    report.distance_to_input = to_input.nearness.directed_distance();
-    report.distance_from_input = from_input.nearness.directed_distance();
-    return refused;
+    return result;
+}
+
+void tighten(const std::vector<char>& refused, Tolerances& tolerances) {
+    for (std::size_t f = 0; f < refused.size(); ++f)
+        if (refused[f] != 0) tolerances.of_facet[f] *= smaller_tolerance;
 }
 
 void afford_walls(const SurfaceArrays& surface, const TriangleTree& tree, RemeshOptions& options) {
@@ -224,28 +162,35 @@ bool fix_needles(const SurfaceArrays& before, const SurfaceArrays& moved, std::v
     return any;
 }
 
-// Vertices stay where a move would leave the bound, make an intersection or a needle.
-void restore_volumes_within_bound(const SurfaceArrays& surface, const TriangleTree& tree, const RemeshOptions& options,
-                                  const std::vector<char>& kept, Remeshed& result) {
-    result.report.volume_difference = volume_difference(surface, result.surface, options.sides);
-    if (result.report.volume_difference <= same_volume) return;
-    std::vector<char> is_fixed = corners_of_kept(surface, kept, result.surface);
+// Gives a result the volumes of the input. Vertices stay where a move would leave the bound, make an intersection or a
+// needle. Returns what the inspection of the result says.
+Inspection restore_volumes_within_bound(const InspectedInput& input, const RemeshOptions& options,
+                                        const std::vector<char>& kept, ChangedSurface& result) {
+    const CancellationCheck check_cancelled(options.check_cancelled);
+    std::optional<Inspection> as_it_is;
+    const auto inspect_as_it_is = [&]() -> const Inspection& {
+        if (!as_it_is) as_it_is = inspect(input, kept, options.deviation, result, check_cancelled);
+        return *as_it_is;
+    };
+    if (volume_difference(input.surface, result.surface, options.sides) <= same_volume) return inspect_as_it_is();
+    std::vector<char> is_fixed = corners_of_kept(input.surface, kept, result.surface);
+    ChangedSurface moved = result;
     for (int round = 0; round < most_restorations; ++round) {
-        SurfaceArrays moved = result.surface;
-        if (!restore_volumes(surface, tree, options.sides, options.deviation, is_fixed, moved)) return;
-        if (fix_needles(result.surface, moved, is_fixed) && round + 1 < most_restorations) continue;
-        RemeshReport report = result.report;
-        const std::vector<char> refused = inspect(surface, tree, options, moved, report);
-        if (std::find(refused.begin(), refused.end(), char{1}) == refused.end()) {
-            result.surface = std::move(moved);
-            result.places = places_on(tree, result.surface.vertices);
-            result.report = report;
-            result.report.volume_difference = volume_difference(surface, result.surface, options.sides);
-            return;
+        check_cancelled();
+        moved.surface.vertices = result.surface.vertices;
+        if (!restore_volumes(input, options.sides, options.deviation, is_fixed, moved)) break;
+        if (fix_needles(result.surface, moved.surface, is_fixed) && round + 1 < most_restorations) continue;
+        Inspection inspection = inspect(input, kept, options.deviation, moved, check_cancelled);
+        if (inspection.has_passed()) {
+            result = std::move(moved);
+            return inspection;
         }
-        for (std::size_t v = 0; v < is_fixed.size(); ++v)
-            if (refused[result.places[v].facet] != 0) is_fixed[v] = 1;
+        if (!inspect_as_it_is().has_passed()) break;
+        for (std::size_t f = 0; f < result.near.size(); ++f)
+            if (inspection.refused[result.near[f]] != 0)
+                for (const std::int32_t v : result.surface.facets[f]) is_fixed[v] = 1;
     }
+    return inspect_as_it_is();
 }
 
 [[noreturn]] void refuse(const SurfaceArrays& surface, const std::vector<char>& refused, double deviation) {
@@ -288,37 +233,98 @@ double forecast_facets(const SurfaceArrays& surface, const RemeshOptions& option
     return facets;
 }
 
-Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& options) {
-    check_remesh_options(options, surface.facets.size());
+namespace {
+
+// Shares of the work that are done, as they are of most surfaces, after each of its stages.
+constexpr double tolerances_end = 0.1, simplified_end = 0.3, shaped_end = 0.85;
+
+// A function that adds shares of a stage.
+std::function<void(double)> in_share_of(SharedWork& work, double of_stage) {
+    return [&work, of_stage](double share) { work.add(of_stage * share); };
+}
+
+// The input without what the bound does not need, and where facets of it meet.
+struct Simplified {
+    std::unique_ptr<const InputShape> input;
+    SheetState state;
+    std::vector<char> meeting;  // #F of the input
+    std::ptrdiff_t meeting_count = 0;
+};
+
+// Simplifies with smaller tolerances where facets of the simple surface meet, as long as that makes fewer of them meet;
+// `tolerances` are those of the result.
+template <class Simplify>
+Simplified simplify_apart(const Simplify& simplify_within, Tolerances& tolerances) {
+    Simplified best = simplify_within(tolerances);
+    for (int step = 0; step < most_tightenings && best.meeting_count > 0; ++step) {
+        Tolerances smaller = tolerances;
+        tighten(best.meeting, smaller);
+        Simplified next = simplify_within(smaller);
+        if (next.meeting_count >= best.meeting_count) break;
+        best = std::move(next);
+        tolerances = std::move(smaller);
+    }
+    return best;
+}
+
+}  // namespace
+
+Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& asked) {
+    check_remesh_options(asked, surface.facets.size());
+    SharedWork work(asked.check_cancelled, asked.tell_share);
+    RemeshOptions options = asked;
+    options.check_cancelled = [&work] { work.check(); };
     const TriangleTree tree(surface.vertices, surface.facets);
+    const Nearness nearness(tree, surface.facets);
+    const InspectedInput inspected = {surface, tree, nearness};
     const Sheets sheets = take_apart(surface);
     Tolerances tolerances =
         find_tolerances(surface, tree, {used_share * options.deviation, used_share * options.share_of_thickness},
                         options.walls, CancellationCheck(options.check_cancelled));
-    RemeshOptions own = options;
-    afford_walls(surface, tree, own);
-    int rounds_for_volume = 0;
+    afford_walls(surface, tree, options);
+    std::vector<char> kept = options.kept;
+    const auto simplify_within = [&](const Tolerances& some) {
+        work.reach(tolerances_end);
+        auto input = std::make_unique<const InputShape>(sheets, tree, nearness, some, options.feature_angle_deg,
+                                                        options.creases, options.walls);
+        SheetState state = simplify(*input, kept, options, in_share_of(work, simplified_end - tolerances_end));
+        std::vector<char> meeting = find_meeting(inspected, options.deviation, joined_surface(state.arrays));
+        const auto count = std::count(meeting.begin(), meeting.end(), char{1});
+        return Simplified{std::move(input), std::move(state), std::move(meeting), count};
+    };
+    std::vector<char> last_refused;
+    int rounds_for_volume = 0, rounds_that_keep = 0;
     for (int round = 1;; ++round) {
-        Remeshed result = remesh_once(sheets, tree, tolerances, own);
-        result.report.rounds = round;
-        const std::vector<char> refused = inspect(surface, tree, options, result.surface, result.report);
-        if (std::find(refused.begin(), refused.end(), char{1}) == refused.end()) {
-            result.places = places_on(tree, result.surface.vertices);
-            restore_volumes_within_bound(surface, tree, options, own.kept, result);
-            result.report.facets_left = std::count(own.kept.begin(), own.kept.end(), char{1}) -
-                                        std::count(options.kept.begin(), options.kept.end(), char{1});
-            if (result.report.volume_difference <= options.volume_tolerance ||
-                rounds_for_volume == most_rounds_for_volume)
-                return result;
+        auto [input, shaped, meeting, meeting_count] = simplify_apart(simplify_within, tolerances);
+        work.reach(simplified_end);
+        shape_triangles(*input, options, in_share_of(work, shaped_end - simplified_end), shaped);
+        work.reach(shaped_end);
+        ChangedSurface result = changed_surface(shaped.arrays);
+        const Inspection inspection = restore_volumes_within_bound(inspected, options, kept, result);
+        const std::vector<char>& refused = inspection.refused;
+        if (inspection.has_passed()) {
+            RemeshReport report;
+            report.rounds = round;
+            report.feature_edges = count_features(shaped.arrays);
+            report.finer = finer_shares(shaped.arrays);
+            report.distance_to_input = inspection.distance_to_input;
+            report.distance_from_input = inspection.distance_from_input;
+            report.volume_difference = volume_difference(surface, result.surface, options.sides);
+            report.facets_left = std::count(kept.begin(), kept.end(), char{1}) -
+                                 std::count(options.kept.begin(), options.kept.end(), char{1});
+            if (report.volume_difference <= options.volume_tolerance || rounds_for_volume == most_rounds_for_volume) {
+                std::vector<InputPlace> places = places_on(tree, result);
+                return {std::move(result.surface), std::move(places), report};
+            }
             ++rounds_for_volume;
             tolerances.multiply(smaller_for_volume);
-        } else if (round >= most_rounds + rounds_for_volume) {
-            if (round >= most_rounds + most_rounds_that_keep + rounds_for_volume || !leave(surface, refused, own.kept))
+        } else if (round >= most_rounds + rounds_for_volume || refused == last_refused) {
+            if (++rounds_that_keep > most_rounds_that_keep || !leave(surface, refused, kept))
                 refuse(surface, refused, options.deviation);
         } else {
-            for (std::size_t f = 0; f < refused.size(); ++f)
-                if (refused[f] != 0) tolerances.of_facet[f] *= smaller_tolerance;
+            tighten(refused, tolerances);
         }
+        last_refused = inspection.refused;
     }
 }
 

@@ -25,7 +25,8 @@ struct RemeshOptions {
     std::function<double(const Vec3&, std::int32_t)> wanted =
         {};  ///< edge length at a point of a patch, if given, in addition to `longest`
     std::function<void()> check_cancelled = {};  ///< called every few milliseconds, if given; ends the work by throwing
-    std::vector<char> walls = {};                ///< #F; facets of the surface with a body on both sides; empty: none
+    std::function<void(double)> tell_share = {};  ///< called with the share of the work that is done, if given
+    std::vector<char> walls = {};                 ///< #F; facets of the surface with a body on both sides; empty: none
     std::vector<FacetSides> sides = {};  ///< of each patch: the regions beside it; empty: one region, behind all facets
 };
 
@@ -73,6 +74,9 @@ struct Remeshed {
 
 /// Splits, collapses, flips and moves edges and vertices until triangles are well shaped and as long as their place
 /// asks for: by the folds of the surface, the thickness of walls and `wanted`, with growth between.
+///
+/// Works on threads, with the same result for any number of them; it calls `check_cancelled` and `tell_share` on that
+/// of the caller alone, `wanted` on all.
 ///
 /// Topology, features (sharp edges and the borders of patches) and the patches of facets stay. More than two facets may
 /// meet in an edge, as at walls: such seams are features that all of their sheets have in common, changed once for all,

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/core/threads.h"
 #include "base/geometry/triangle.h"
 #include "surface/remesh/remesh.h"
 
@@ -56,19 +57,26 @@ double Thickness::at(const Vec3& p, std::int32_t f, double limit) const {
 }
 
 std::vector<ThicknessSample> sample_thickness(const SurfaceArrays& surface, const Thickness& thickness, double limit) {
+    constexpr std::size_t grain = 1 << 11;
     double area = 0;
     for (const Triangle& t : surface.facets) area += triangle_area(surface.vertices, t);
-    std::vector<ThicknessSample> samples;
-    for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f) {
-        const Triangle& t = surface.facets[f];
-        const double of_facet = triangle_area(surface.vertices, t);
-        const double share = area > 0 ? of_facet / area : 0;
-        const int n = std::clamp(static_cast<int>(std::sqrt(samples_of_surface * share)), 1, most_pieces_of_side);
-        for_each_piece(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]], n, [&](const Vec3& p) {
-            samples.push_back({thickness.at(p, f, limit), of_facet / (n * n)});
-        });
-    }
-    return samples;
+    const auto ranges = values_of_ranges(surface.facets.size(), grain, [&](const IndexRange& range) {
+        std::vector<ThicknessSample> samples;
+        for (std::size_t f = range.first; f < range.last; ++f) {
+            const Triangle& t = surface.facets[f];
+            const double of_facet = triangle_area(surface.vertices, t);
+            const double share = area > 0 ? of_facet / area : 0;
+            const int n = std::clamp(static_cast<int>(std::sqrt(samples_of_surface * share)), 1, most_pieces_of_side);
+            for_each_piece(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]], n,
+                           [&](const Vec3& p) {
+                               samples.push_back({thickness.at(p, f, limit), of_facet / (n * n)});
+                           });
+        }
+        return samples;
+    });
+    std::vector<ThicknessSample> all;
+    for (const std::vector<ThicknessSample>& samples : ranges) all.insert(all.end(), samples.begin(), samples.end());
+    return all;
 }
 
 double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, const std::vector<char>& walls,

@@ -43,7 +43,8 @@ struct ThicknessSample {
     double thickness, area;
 };
 
-/// Samples the surface, larger facets at more points. Thickness of more than `limit` is infinite. O(#F log #F).
+/// Samples the surface, larger facets at more points. Thickness of more than `limit` is infinite. O(#F log #F), on
+/// threads.
 std::vector<ThicknessSample> sample_thickness(const SurfaceArrays& surface, const Thickness& thickness, double limit);
 
 /// Returns the median of the thickness by area; infinity if it is more than `limit`. O(#F log #F).

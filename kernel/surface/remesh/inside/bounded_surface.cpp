@@ -11,7 +11,6 @@
 
 #include "base/core/ids.h"
 #include "surface/remesh/remesh.h"
-#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 
@@ -23,73 +22,13 @@ double sine_of(const SheetMesh::Corners& t) { return smallest_sine(t[0], t[1], t
 
 }  // namespace
 
-BoundedSurface::BoundedSurface(const InputShape& input, const std::vector<char>& kept) : bound_(input), stars_(1) {
-    for (const Vec3& p : input.vertices()) {
-        const Vertex v = mesh_.add_vertex(p);
-        mesh_.data(v).tolerance = input.vertex_tolerance(v.idx());
-        mesh_.data(v).input = v.idx();
-    }
-    for (std::int32_t f = 0; f < count_of(input.facets()); ++f) {
-        const Triangle& t = input.facets()[f];
-        auto& data = mesh_.data(mesh_.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])));
-        data.patch = input.patch(f);
-        data.region = input.regions().of[f];
-        data.near = f;
-        data.is_wall = input.is_wall(f);
-        data.is_kept = !kept.empty() && kept[f] != 0;
-        if (data.is_kept)
-            for (const std::int32_t v : t) mesh_.data(Vertex(v)).is_fixed = true;
-        for (int i = 0; i < 3; ++i)
-            if (input.is_feature(3 * f + i))
-                mesh_.data(mesh_.edge_between(Vertex(t[i]), Vertex(t[(i + 1) % 3]))).is_feature = true;
-    }
-    if (input.vertices().size() > input.sheets().vertices_before) find_seams();
+bool BoundedSurface::stays(Vertex v) const {
+    const SheetVertex& data = mesh_.data(v);
+    return data.is_fixed || data.is_end || data.is_border;
 }
 
-void BoundedSurface::find_seams() {
-    const Sheets& sheets = input().sheets();
-    EdgeCorners(sheets.facets_before()).for_each_edge([&](std::int32_t, std::span<const EdgeCorners::Corner> corners) {
-        if (corners.size() == 2) return;
-        std::vector<Edge> edges;
-        for (const auto& [high, corner] : corners)
-            edges.push_back(mesh_.edge_between(Vertex(start_vertex(input().facets(), corner)),
-                                               Vertex(start_vertex(input().facets(), next_corner(corner)))));
-        std::sort(edges.begin(), edges.end());
-        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-        if (edges.size() > 1) mesh_.make_seam(std::move(edges));
-    });
-    std::vector<std::vector<Vertex>> copies(sheets.vertices_before);
-    for (std::int32_t v = 0; v < count_of(sheets.original); ++v) copies[sheets.original[v]].push_back(Vertex(v));
-    for (const std::vector<Vertex>& vertices : copies) {
-        if (vertices.size() < 2) continue;
-        const bool is_end = !is_on_line(vertices);
-        bool is_fixed = false;
-        for (const Vertex v : vertices) is_fixed |= mesh_.data(v).is_fixed;
-        for (const Vertex v : vertices) {
-            mesh_.data(v).is_end = is_end;
-            mesh_.data(v).is_fixed = is_fixed;
-        }
-        mesh_.make_copies(vertices);
-    }
-}
-
-// Whether one seam goes on as another one there, and every fan lies between the two.
-bool BoundedSurface::is_on_line(std::span<const Vertex> copies) const {
-    std::vector<std::int32_t> seams;
-    for (const Vertex v : copies) {
-        std::size_t ends = 0;
-        for (const auto e : mesh_.ve_range(v))
-            if (mesh_.data(e).seam >= 0) {
-                seams.push_back(mesh_.data(e).seam);
-                ++ends;
-            }
-        if (ends != 2 || !mesh_.is_boundary(v) || seams[seams.size() - 1] == seams[seams.size() - 2]) return false;
-    }
-    std::sort(seams.begin(), seams.end());
-    return seams[copies.size() - 1] == seams.front() && seams[copies.size()] == seams.back();
-}
-
-// Whether the end of the half-edge has an edge already, in some sheet, to a vertex that would get another one.
+// Whether the end of the half-edge has an edge already, in some sheet, to a vertex that would get another one. Two
+// vertices of the border may have one outside the piece.
 bool BoundedSurface::joins_what_is_apart(HalfEdge h) const {
     const Vertex v = mesh_.from_vertex_handle(h), w = mesh_.to_vertex_handle(h);
     const HalfEdge back = mesh_.opposite_halfedge_handle(h);
@@ -98,7 +37,9 @@ bool BoundedSurface::joins_what_is_apart(HalfEdge h) const {
                (!mesh_.is_boundary(back) && x == mesh_.to_vertex_handle(mesh_.next_halfedge_handle(back)));
     };
     const auto has_another = [&](Vertex x) {
-        return x != w && (mesh_.has_copies(w) || mesh_.has_copies(x)) && !is_beside(x) && mesh_.are_joined(x, w);
+        if (x == w || is_beside(x)) return false;
+        if (mesh_.data(w).is_border && mesh_.data(x).is_border) return true;
+        return (mesh_.has_copies(w) || mesh_.has_copies(x)) && mesh_.are_joined(x, w);
     };
     return std::any_of(mesh_.cvv_begin(v), mesh_.cvv_end(v), has_another);
 }
@@ -110,7 +51,7 @@ bool BoundedSurface::is_of_tetrahedron(HalfEdge h) const {
 
 bool BoundedSurface::collapse(HalfEdge h, const CollapseRules& rules) {
     const Vertex v = mesh_.from_vertex_handle(h);
-    if (mesh_.data(v).is_fixed || mesh_.data(v).is_end) return false;
+    if (stays(v)) return false;
     if (mesh_.has_copies(v) && mesh_.data(mesh_.edge_handle(h)).seam < 0) return false;
     mesh_.list_copies(h, along_);
     if (stars_.size() < along_.size()) stars_.resize(along_.size());
@@ -131,7 +72,6 @@ bool BoundedSurface::may_collapse(HalfEdge h, const CollapseRules& rules, NewFac
     const bool merges =
         rules.merges_features && !mesh_.has_copies(v) && mesh_.feature_count(w) >= 2 && mesh_.has_one_patch(v);
     if (features != 0 && !merges && !(features == 2 && mesh_.data(mesh_.edge_handle(h)).is_feature)) return false;
-    if (!mesh_.is_collapse_ok(h) || is_of_tetrahedron(h)) return false;
     star.clear();
     double worst = 1;
     for (const HalfEdge side : {h, back}) {
@@ -154,7 +94,9 @@ bool BoundedSurface::may_collapse(HalfEdge h, const CollapseRules& rules, NewFac
     const double least = std::min(rules.good_sine, rules.worst_share * worst);
     for (const SheetMesh::Corners& t : star.corners)
         if (sine_of(t) < least) return false;
-    return !joins_what_is_apart(h) && bound_.accepts_star(mesh_, v, mesh_.is_inside_region(v), star);
+    if (!mesh_.is_collapse_ok(h) || is_of_tetrahedron(h)) return false;  // after the angles, which refuse most
+    return !joins_what_is_apart(h) &&
+           bound_.accepts_star(mesh_, v, mesh_.is_inside_region(v), InputBound::Evidence::proof, star);
 }
 
 void BoundedSurface::commit_collapse(HalfEdge h, const NewFacets& star) {
@@ -184,7 +126,7 @@ bool BoundedSurface::collapse_either_way(Edge e, const CollapseRules& rules) {
 void BoundedSurface::commit_star(const NewFacets& star) {
     for (std::size_t i = 0; i < star.facets.size(); ++i)
         if (star.stays[i] == 0) mesh_.data(star.facets[i]).region = -1;
-    bound_.give_points(mesh_, points_, star.facets);
+    if (!star.points_stay) bound_.give_points(mesh_, points_, star.facets);
     note_change(star.facets);
 }
 
@@ -210,9 +152,11 @@ bool BoundedSurface::flip_if_better(Edge e, bool is_exact_only) {
         (1 + 1e-6) * std::min(mesh_.sine(f), mesh_.sine(g)) + 1e-12)
         return false;
     if (!mesh_.is_flip_ok(e)) return false;  // after the angles, which refuse most
+    if (mesh_.data(aside).is_border && mesh_.data(across).is_border) return false;  // it may be outside already
     if ((mesh_.has_copies(aside) || mesh_.has_copies(across)) && mesh_.are_joined(aside, across)) return false;
     if (!bound_.keeps_turns(mesh_, star)) return false;
     star.stays = {is_exact, is_exact};
+    star.points_stay = false;
     if (!is_exact && !bound_.accepts_flip(mesh_, e, star)) return false;
     points_.clear();
     for (const Facet facet : star.facets) bound_.list_points(mesh_.data(facet).first_point, points_);
@@ -277,8 +221,8 @@ BoundedSurface::Vertex BoundedSurface::split_in_sheet(HalfEdge h, const Vec3& pl
     return v;
 }
 
-bool BoundedSurface::move(Vertex v, const Vec3& wanted) {
-    if (mesh_.data(v).is_fixed || mesh_.data(v).is_end) return false;
+bool BoundedSurface::move(Vertex v, const Vec3& wanted, InputBound::Evidence evidence) {
+    if (stays(v)) return false;
     const int features = mesh_.feature_count(v);
     if (features != 0 && features != 2) return false;
     const bool is_inside = mesh_.is_inside_region(v);  // and has no copies
@@ -288,12 +232,13 @@ bool BoundedSurface::move(Vertex v, const Vec3& wanted) {
     mesh_.for_each_copy(v, [&](Vertex copy) { copies_.push_back(copy); });
     if (stars_.size() < copies_.size()) stars_.resize(copies_.size());
     for (std::size_t i = 0; i < copies_.size(); ++i)
-        if (!may_move(copies_[i], *place, is_inside, stars_[i])) return false;
+        if (!may_move(copies_[i], *place, is_inside, evidence, stars_[i])) return false;
     for (std::size_t i = 0; i < copies_.size(); ++i) commit_move(copies_[i], *place, is_inside, stars_[i]);
     return true;
 }
 
-bool BoundedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, NewFacets& star) {
+bool BoundedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, InputBound::Evidence evidence,
+                              NewFacets& star) {
     if (mesh_.has_copies(v) && !bound_.lies_on_line(mesh_, v)) return false;
     star.clear();
     double worst = 1;
@@ -308,13 +253,17 @@ bool BoundedSurface::may_move(Vertex v, const Vec3& place, bool is_inside, NewFa
     const double least = std::min(worst, good_move_sine);
     for (const SheetMesh::Corners& t : star.corners)
         if (sine_of(t) < least) return false;
-    return bound_.accepts_star(mesh_, v, is_inside, star);
+    return bound_.accepts_star(mesh_, v, is_inside, evidence, star);
 }
 
 void BoundedSurface::commit_move(Vertex v, const Vec3& place, bool is_inside, const NewFacets& star) {
     points_.clear();
-    for (const Facet f : star.facets) bound_.list_points(mesh_.data(f).first_point, points_);
-    if (!is_inside) bound_.list_vertex(mesh_, v, points_);
+    if (!star.points_stay)
+        for (const Facet f : star.facets) bound_.list_points(mesh_.data(f).first_point, points_);
+    if (!is_inside) {
+        bound_.list_vertex(mesh_, v, points_);
+        mesh_.data(v).input = -1;  // a facet stands for it from now on
+    }
     mesh_.set_point(v, place);
     commit_star(star);
 }

@@ -10,9 +10,9 @@
 namespace kerf {
 
 /// A SheetMesh within the bound of the input, and the operations of the remesher on it. An operation changes nothing
-/// and returns false if it would change a facet that is kept, leave the bound (InputBound), turn a facet over, lose a
-/// feature, change the topology or make the worst triangle worse. An operation on a seam changes all its sheets, if
-/// each of them allows it.
+/// and returns false if it would change a facet that is kept or the border of the piece, leave the bound (InputBound),
+/// turn a facet over, lose a feature, change the topology or make the worst triangle worse. An operation on a seam
+/// changes all its sheets, if each of them allows it.
 class BoundedSurface {
  public:
     using Vertex = SheetMesh::VertexHandle;
@@ -20,9 +20,8 @@ class BoundedSurface {
     using HalfEdge = SheetMesh::HalfedgeHandle;
     using Facet = SheetMesh::FaceHandle;
 
-    /// Keeps the reference to the input. `kept` (#F of the input) marks facets that no operation may change; empty:
-    /// none.
-    explicit BoundedSurface(const InputShape& input, const std::vector<char>& kept = {});
+    /// Takes a piece of the surface that `bound` is of.
+    BoundedSurface(InputBound bound, const SheetPiece& piece) : bound_(std::move(bound)), mesh_(piece), stars_(1) {}
 
     const SheetMesh& mesh() const { return mesh_; }
     const InputShape& input() const { return bound_.input(); }
@@ -38,7 +37,6 @@ class BoundedSurface {
     std::int64_t changes() const { return changes_; }
     /// Sets the share of the tolerances that may be used, see InputBound.
     void set_share(double share) { bound_.set_share(share); }
-    void find_regions(double share) { bound_.find_regions(mesh_, share); }
 
     struct CollapseRules {
         double good_sine;        ///< sine of the angle down to which triangles may get worse
@@ -61,20 +59,16 @@ class BoundedSurface {
     Vertex split(Edge e, double t);
     /// Moves a vertex towards `wanted` within a flat region, along a straight line between two, or on the surface,
     /// depending on which of these it lies on.
-    bool move(Vertex v, const Vec3& wanted);
-
-    /// Returns the remaining facets and vertices, in order, copies with one key.
-    SurfaceArrays arrays() { return mesh_.arrays(); }
+    bool move(Vertex v, const Vec3& wanted, InputBound::Evidence evidence);
 
  private:
-    void find_seams();
-    bool is_on_line(std::span<const Vertex> copies) const;
+    bool stays(Vertex v) const;
     bool joins_what_is_apart(HalfEdge h) const;
     /// Whether a collapse would leave nothing but two facets back to back.
     bool is_of_tetrahedron(HalfEdge h) const;
     bool may_collapse(HalfEdge h, const CollapseRules& rules, NewFacets& star);
     void commit_collapse(HalfEdge h, const NewFacets& star);
-    bool may_move(Vertex v, const Vec3& place, bool is_inside, NewFacets& star);
+    bool may_move(Vertex v, const Vec3& place, bool is_inside, InputBound::Evidence evidence, NewFacets& star);
     void commit_move(Vertex v, const Vec3& place, bool is_inside, const NewFacets& star);
     Vertex split_in_sheet(HalfEdge h, const Vec3& place);
     void commit_star(const NewFacets& star);

@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/ids.h"
+#include "base/core/threads.h"
 #include "base/geometry/angles.h"
 #include "base/geometry/closest_point.h"
 
@@ -99,31 +100,38 @@ void limit_growth(const SheetMesh& mesh, double growth, std::vector<WantedLength
 
 }  // namespace
 
-FoldSizes::FoldSizes(BoundedSurface& surface, const FoldSizeOptions& options) : surface_(surface), options_(options) {
+FoldSizes::FoldSizes(BoundedSurface& surface, const FoldSizeOptions& options)
+    : input_(surface.input()), options_(options) {
     find_folds(surface);
     const SheetMesh& mesh = surface.mesh();
     std::vector<WantedLength> sizes(mesh.n_vertices(), {options.longest, LengthRule::asked});
     for (const auto e : mesh.edges())
         if (const std::int32_t fold = mesh.data(e).fold; fold >= 0)
             for (const auto v : {e.v0(), e.v1()})
-                sizes[v.idx()].shorten(std::max({chord_[fold], straight_length(e), options.shortest}),
+                sizes[v.idx()].shorten(std::max({chord_[fold], straight_length(mesh, e), options.shortest}),
                                        rule_of(chord_[fold], 0));
-    for (const auto v : mesh.vertices()) {
-        options.check_cancelled.at(v.idx());
-        double own_chord = infinite;
-        for (const auto e : mesh.ve_range(v))
-            if (const std::int32_t fold = mesh.data(e).fold; fold >= 0) own_chord = std::min(own_chord, chord_[fold]);
-        WantedLength& size = sizes[v.idx()];
-        size = at(v, own_chord, size);
-        size.length = mesh.data(v).is_fixed ? mean_length(mesh, v) : std::max(size.length, well_shaped_length(mesh, v));
-        if (!mesh.data(v).is_fixed) size.shorten(asked(v), LengthRule::asked);
-    }
+    constexpr std::size_t grain = 1 << 10;
+    for_ranges_on_threads(sizes.size(), grain, [&](const IndexRange& range) {
+        options.check_cancelled();
+        for (std::size_t i = range.first; i < range.last; ++i) {
+            const BoundedSurface::Vertex v(static_cast<int>(i));
+            if (mesh.status(v).deleted()) continue;
+            double own_chord = infinite;
+            for (const auto e : mesh.ve_range(v))
+                if (const std::int32_t fold = mesh.data(e).fold; fold >= 0)
+                    own_chord = std::min(own_chord, chord_[fold]);
+            WantedLength& size = sizes[i];
+            size = at(mesh, v, own_chord, size);
+            size.length =
+                mesh.data(v).is_fixed ? mean_length(mesh, v) : std::max(size.length, well_shaped_length(mesh, v));
+            if (!mesh.data(v).is_fixed) size.shorten(asked(mesh, v), LengthRule::asked);
+        }
+    });
     limit_growth(mesh, options.growth, sizes);
-    for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(v));
+    for (const auto v : mesh.vertices()) surface.set_size(v, sizes[v.idx()], asked(mesh, v));
 }
 
-double FoldSizes::asked(BoundedSurface::Vertex v) const {
-    const SheetMesh& mesh = surface_.mesh();
+double FoldSizes::asked(const SheetMesh& mesh, BoundedSurface::Vertex v) const {
     double least = options_.longest;
     if (!options_.wanted) return least;
     mesh.for_each_copy(v, [&](BoundedSurface::Vertex copy) {
@@ -151,8 +159,7 @@ void FoldSizes::find_folds(BoundedSurface& surface) {
 }
 
 // Returns the length of an edge with those that go on from its ends as features in the same direction.
-double FoldSizes::straight_length(BoundedSurface::Edge e) const {
-    const SheetMesh& mesh = surface_.mesh();
+double FoldSizes::straight_length(const SheetMesh& mesh, BoundedSurface::Edge e) const {
     double length = mesh.calc_edge_length(e);
     if (!mesh.data(e).is_feature) return length;
     for (const int side : {0, 1}) {
@@ -176,14 +183,16 @@ double FoldSizes::straight_length(BoundedSurface::Edge e) const {
     return length;
 }
 
-WantedLength FoldSizes::of_new(BoundedSurface::Vertex v, std::int32_t fold, WantedLength grown) const {
+WantedLength FoldSizes::of_new(const SheetMesh& mesh, BoundedSurface::Vertex v, std::int32_t fold,
+                               WantedLength grown) const {
     grown.shorten(options_.longest, LengthRule::asked);
-    return at(v, fold >= 0 ? chord_[fold] : infinite, grown);
+    return at(mesh, v, fold >= 0 ? chord_[fold] : infinite, grown);
 }
 
 // Folds that come close ask for small triangles between them only if neither can be left out at that length.
-WantedLength FoldSizes::at(BoundedSurface::Vertex v, double own_chord, const WantedLength& grown) const {
-    const Vec3& p = surface_.mesh().point(v);
+WantedLength FoldSizes::at(const SheetMesh& mesh, BoundedSurface::Vertex v, double own_chord,
+                           const WantedLength& grown) const {
+    const Vec3& p = mesh.point(v);
     WantedLength size = grown;
     if (folds_ && own_chord < grown.length)
         folds_->any_within(p, grown.length, [&](std::int32_t fold, double squared) {
@@ -194,26 +203,24 @@ WantedLength FoldSizes::at(BoundedSurface::Vertex v, double own_chord, const Wan
         });
     size.length = std::max(size.length, options_.shortest);
     if (options_.edges_per_thickness > 0)
-        size.shorten(std::max(across_wall(v, size.length), options_.thinnest), LengthRule::walls);
+        size.shorten(std::max(across_wall(mesh, v, size.length), options_.thinnest), LengthRule::walls);
     if (grown.length <= size.length) size = grown;
-    size.shorten(asked(v), LengthRule::asked);
+    size.shorten(asked(mesh, v), LengthRule::asked);
     return size;
 }
 
 // The way inwards to a sheet that faces the other way. From a wall it goes both ways, and to sheets that face any way:
 // its own is nearer than they are, by the tolerance.
-double FoldSizes::across_wall(BoundedSurface::Vertex v, double limit) const {
-    const InputShape& input = surface_.input();
-    const SheetMesh& mesh = surface_.mesh();
+double FoldSizes::across_wall(const SheetMesh& mesh, BoundedSurface::Vertex v, double limit) const {
     const bool is_wall = mesh.data(*mesh.cvf_begin(v)).is_wall;
     const double nearest = is_wall ? 2 * mesh.data(v).tolerance : 1e-6 * options_.longest;
     const auto thickness = [&](const Vec3& inwards) {
         const auto faces_away = [&](std::int32_t facet) {
-            const double cosine = input.normal(facet).dot(inwards);
-            return (input.is_wall(facet) ? std::abs(cosine) : cosine) > 0.5;
+            const double cosine = input_.normal(facet).dot(inwards);
+            return (input_.is_wall(facet) ? std::abs(cosine) : cosine) > 0.5;
         };
-        return input.tree().first_hit(mesh.point(v), inwards, nearest, limit * options_.edges_per_thickness,
-                                      faces_away);
+        return input_.tree().first_hit(mesh.point(v), inwards, nearest, limit * options_.edges_per_thickness,
+                                       faces_away);
     };
     const Vec3 inwards = -vertex_normal(mesh, v);
     double least = thickness(inwards);

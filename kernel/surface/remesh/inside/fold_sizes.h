@@ -28,22 +28,23 @@ class FoldSizes {
  public:
     /// Numbers the folds (SheetMeshTraits::fold) and sets the size of every vertex. A size is at most that which grows
     /// from its neighbours; at least as long as the edges around, if all facets there are well shaped; and the mean of
-    /// the edges beside facets that are kept. Keeps the reference. O(#V log #V) if few folds are near each other.
+    /// the edges beside facets that are kept. Keeps the input by reference. O(#V log #V), on threads, if few folds are
+    /// near each other.
     FoldSizes(BoundedSurface& surface, const FoldSizeOptions& options);
 
     /// Returns the size at a new vertex on an edge of this fold (-1: of none), given the size that has grown to there.
     /// Away from folds the size is the grown one, unless walls or the user ask for less.
-    WantedLength of_new(BoundedSurface::Vertex v, std::int32_t fold, WantedLength grown) const;
+    WantedLength of_new(const SheetMesh& mesh, BoundedSurface::Vertex v, std::int32_t fold, WantedLength grown) const;
     /// Returns the size that the user asks for at a vertex, the smallest of the patches around it, at most the longest.
-    double asked(BoundedSurface::Vertex v) const;
+    double asked(const SheetMesh& mesh, BoundedSurface::Vertex v) const;
 
  private:
     void find_folds(BoundedSurface& surface);
-    WantedLength at(BoundedSurface::Vertex v, double own_chord, const WantedLength& grown) const;
-    double straight_length(BoundedSurface::Edge e) const;
-    double across_wall(BoundedSurface::Vertex v, double limit) const;
+    WantedLength at(const SheetMesh& mesh, BoundedSurface::Vertex v, double own_chord, const WantedLength& grown) const;
+    double straight_length(const SheetMesh& mesh, BoundedSurface::Edge e) const;
+    double across_wall(const SheetMesh& mesh, BoundedSurface::Vertex v, double limit) const;
 
-    const BoundedSurface& surface_;
+    const InputShape& input_;
     FoldSizeOptions options_;
     std::vector<double> chord_;  // of each fold, see chord_over()
     std::vector<Vec3> ends_;     // two for each fold

@@ -15,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/ids.h"
+#include "base/core/threads.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "surface/remesh/thickness.h"
@@ -35,10 +36,12 @@ bool share_a_vertex(const Triangle& s, const Triangle& t) {
 
 }  // namespace
 
-InputShape::InputShape(const Sheets& sheets, const TriangleTree& tree, Tolerances tolerances, double feature_angle_deg,
-                       const std::vector<UndirectedEdge>& creases, const std::vector<char>& walls)
+InputShape::InputShape(const Sheets& sheets, const TriangleTree& tree, const Nearness& nearness, Tolerances tolerances,
+                       double feature_angle_deg, const std::vector<UndirectedEdge>& creases,
+                       const std::vector<char>& walls)
     : sheets_(sheets),
       tree_(tree),
+      nearness_(nearness),
       walls_(walls),
       tolerances_(std::move(tolerances)),
       vertex_tolerance_(vertices().size(), std::numeric_limits<double>::infinity()) {
@@ -86,6 +89,10 @@ class ToleranceFinder {
         const auto faces_it = [&](std::int32_t g) {
             return thickness_.are_opposite(f, g) && !share_a_vertex(surface_.facets[g], surface_.facets[f]);
         };
+        Eigen::AlignedBox3d box(a);
+        for (const Vec3& p : {b, c}) box.extend(p);
+        const Vec3 margin = Vec3::Constant(deviation / gap_share);
+        if (!tree_.any_in_box({box.min() - margin, box.max() + margin}, faces_it)) return deviation;
         for (const Vec3& p : {Vec3((a + b + c) / 3), a, b, c, Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
             for (const Vec3& way : {thickness_.normal(f), Vec3(-thickness_.normal(f))})
                 gap = std::min(gap, tree_.first_hit(p, way, 0, std::min(gap, deviation / gap_share), faces_it));
@@ -129,13 +136,17 @@ void Tolerances::multiply(double factor) {
 
 Tolerances find_tolerances(const SurfaceArrays& surface, const TriangleTree& tree, const ToleranceRules& rules,
                            const std::vector<char>& walls, const CancellationCheck& check_cancelled) {
+    constexpr std::size_t grain = 1 << 10;
     const ToleranceFinder finder(surface, tree, rules, walls);
-    Tolerances found;
-    for (std::int32_t f = 0; f < count_of(surface.facets); ++f) {
-        check_cancelled.at(f);
-        found.by_thickness.push_back(finder.by_thickness(f));
-        found.of_facet.push_back(std::min(finder.by_gap(f), found.by_thickness.back()));
-    }
+    const std::size_t count = surface.facets.size();
+    Tolerances found = {std::vector<double>(count), std::vector<double>(count)};
+    for_ranges_on_threads(count, grain, [&](const IndexRange& range) {
+        check_cancelled();
+        for (std::size_t f = range.first; f < range.last; ++f) {
+            found.by_thickness[f] = finder.by_thickness(f);
+            found.of_facet[f] = std::min(finder.by_gap(f), found.by_thickness[f]);
+        }
+    });
     return found;
 }
 

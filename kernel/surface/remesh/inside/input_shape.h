@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/core/cancellation.h"
+#include "surface/diagnosis/nearness.h"
 #include "surface/remesh/inside/flat_regions.h"
 #include "surface/remesh/inside/sheets.h"
 #include "surface/soup/triangle_tree.h"
@@ -23,17 +24,19 @@ struct Tolerances {
 /// The input of the remesher and its bound. Immutable.
 class InputShape {
  public:
-    /// Keeps the references; `tree` is of the facets of `sheets`. Features are the edges of more than
+    /// Keeps the references; `tree` and `nearness` are of the facets of `sheets`. Features are the edges of more than
     /// `feature_angle_deg` between the normals, those between patches, the seams, and the `creases`, which have the
     /// numbers of vertices before the sheets were taken apart. `walls` (#F) marks the facets with a body on both sides;
     /// empty: none.
-    InputShape(const Sheets& sheets, const TriangleTree& tree, Tolerances tolerances, double feature_angle_deg,
-               const std::vector<UndirectedEdge>& creases = {}, const std::vector<char>& walls = {});
+    InputShape(const Sheets& sheets, const TriangleTree& tree, const Nearness& nearness, Tolerances tolerances,
+               double feature_angle_deg, const std::vector<UndirectedEdge>& creases = {},
+               const std::vector<char>& walls = {});
 
     const Sheets& sheets() const { return sheets_; }
     const std::vector<Vec3>& vertices() const { return sheets_.surface.vertices; }
     const std::vector<Triangle>& facets() const { return sheets_.surface.facets; }
     const TriangleTree& tree() const { return tree_; }
+    const Nearness& nearness() const { return nearness_; }
     std::int32_t patch(std::int32_t facet) const { return sheets_.surface.patch[facet]; }
     bool is_wall(std::int32_t facet) const { return !walls_.empty() && walls_[facet] != 0; }
     double tolerance(std::int32_t facet) const { return tolerances_.of_facet[facet]; }
@@ -60,6 +63,7 @@ class InputShape {
 
     const Sheets& sheets_;
     const TriangleTree& tree_;
+    const Nearness& nearness_;
     const std::vector<char>& walls_;
     Tolerances tolerances_;
     std::vector<double> vertex_tolerance_;

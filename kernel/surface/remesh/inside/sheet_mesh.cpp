@@ -1,7 +1,6 @@
 // Queries of the mesh and its bookkeeping of copies. A place is the list of a vertex's copies, one for each fan of
 // facets from seam to seam; a seam is the list of the edges that are one edge in all sheets. Elements without copies
-// have the number -1 and no list. arrays() collects garbage, which renumbers all vertices, edges and facets; the
-// numbers of places and seams stay, and their lists are filled anew. `changed` is the count of operations at the last
+// have the number -1 and no list. `changed` is the count of operations at the last
 // change around a vertex or in a facet, by which callers skip what was refused before.
 #include "surface/remesh/inside/sheet_mesh.h"
 
@@ -12,6 +11,7 @@
 
 #include "base/core/ids.h"
 #include "surface/remesh/remesh.h"
+#include "surface/soup/edge_corners.h"
 
 namespace kerf {
 
@@ -20,10 +20,86 @@ double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
     const double shortest = std::min({ab, bc, ca});
     const double product = shortest == ab ? bc * ca : shortest == bc ? ab * ca : ab * bc;
-    return product > 0 ? (b - a).cross(c - a).norm() / std::sqrt(product) : 0;
+    return product > 0 ? std::sqrt((b - a).cross(c - a).squaredNorm() / product) : 0;
 }
 
 Vec3 area_normal(const SheetMesh::Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+SheetMesh::SheetMesh(const SheetPiece& piece) {
+    const SheetArrays& arrays = piece.arrays;
+    connect(piece);
+    places_.resize(piece.places);
+    for (std::int32_t v = 0; v < count_of(arrays.points); ++v) {
+        const VertexHandle vertex(v);
+        set_point(vertex, arrays.points[v]);
+        data(vertex) = arrays.vertices[v];
+        if (has_copies(vertex)) places_[data(vertex).place].push_back(vertex);
+    }
+    seams_.resize(piece.seams);
+    for (std::int32_t f = 0; f < count_of(arrays.corners); ++f) data(FaceHandle(f)) = arrays.facets[f];
+    for (std::int32_t f = 0; f < count_of(arrays.corners); ++f) {
+        HalfedgeHandle h = halfedge_handle(FaceHandle(f));
+        for (int i = 0; i < 3; ++i, h = next_halfedge_handle(h)) {
+            const EdgeHandle e = edge_handle(h);
+            data(e) = arrays.edges[3 * f + i];
+            if (const std::int32_t seam = data(e).seam; seam >= 0 && halfedge_handle(e, 0) == h)
+                seams_[seam].push_back(e);
+        }
+    }
+}
+
+// With the partners of corners known, the connectivity is written directly. The first of two corners has half-edge 0.
+void SheetMesh::connect(const SheetPiece& piece) {
+    const std::vector<Triangle>& corners = piece.arrays.corners;
+    const std::vector<std::int32_t>& partner = piece.partner;
+    std::vector<std::int32_t> half_edge(partner.size());
+    std::int32_t count = 0;
+    for (std::int32_t c = 0; c < count_of(partner); ++c) {
+        const bool is_first = partner[c] < 0 || partner[c] > c;
+        half_edge[c] = is_first ? 2 * count++ : half_edge[partner[c]] + 1;
+    }
+    resize(piece.arrays.points.size(), count, corners.size());
+    for (std::int32_t c = 0; c < count_of(partner); ++c) {
+        const HalfedgeHandle h(half_edge[c]);
+        const std::int32_t next = next_corner(c);
+        const VertexHandle from(start_vertex(corners, c));
+        set_next_halfedge_handle(h, HalfedgeHandle(half_edge[next]));
+        set_vertex_handle(h, VertexHandle(start_vertex(corners, next)));
+        set_face_handle(h, FaceHandle(c / 3));
+        set_halfedge_handle(from, h);
+        if (c % 3 == 0) set_halfedge_handle(FaceHandle(c / 3), h);
+        if (partner[c] < 0) set_vertex_handle(opposite_halfedge_handle(h), from);
+    }
+    for (std::int32_t c = 0; c < count_of(partner); ++c) {
+        if (partner[c] >= 0) continue;
+        const HalfedgeHandle border = opposite_halfedge_handle(HalfedgeHandle(half_edge[c]));
+        HalfedgeHandle out = HalfedgeHandle(half_edge[c]);  // the next one begins where the facet's half-edge does
+        do out = opposite_halfedge_handle(prev_halfedge_handle(out));
+        while (!is_boundary(out));
+        set_next_halfedge_handle(border, out);
+        set_halfedge_handle(from_vertex_handle(out), out);
+    }
+}
+
+SheetArrays SheetMesh::arrays() const {
+    SheetArrays result;
+    std::vector<std::int32_t> number(n_vertices(), -1);
+    for (const auto v : vertices()) {
+        number[v.idx()] = count_of(result.points);
+        result.points.push_back(point(v));
+        result.vertices.push_back(data(v));
+    }
+    for (const auto f : faces()) {
+        Triangle& t = result.corners.emplace_back();
+        result.facets.push_back(data(f));
+        HalfedgeHandle h = halfedge_handle(f);
+        for (int i = 0; i < 3; ++i, h = next_halfedge_handle(h)) {
+            t[i] = number[from_vertex_handle(h).idx()];
+            result.edges.push_back(data(edge_handle(h)));
+        }
+    }
+    return result;
+}
 
 void SheetMesh::make_copies(std::vector<VertexHandle> vertices) {
     for (const VertexHandle v : vertices) data(v).place = count_of(places_);
@@ -78,7 +154,7 @@ bool SheetMesh::is_fixed(EdgeHandle e) const {
     bool is_found = false;
     for_each_copy(e, [&](EdgeHandle copy) {
         const auto [f, g] = facets_at(copy);
-        is_found |= data(f).is_kept || data(g).is_kept;
+        is_found |= data(copy).is_border || data(f).is_kept || data(g).is_kept;
     });
     return is_found;
 }
@@ -118,33 +194,6 @@ std::int64_t SheetMesh::last_change(EdgeHandle e) const {
 void SheetMesh::note_change(FaceHandle f, std::int64_t operation) {
     data(f).changed = operation;
     for (const auto v : fv_range(f)) data(v).changed = operation;
-}
-
-std::int64_t SheetMesh::feature_edges() const {
-    return std::count_if(edges_begin(), edges_end(),
-                         [&](const auto& e) { return !status(e).deleted() && data(e).is_feature && is_first_copy(e); });
-}
-
-SurfaceArrays SheetMesh::arrays() {
-    garbage_collection();
-    for (auto& place : places_) place.clear();
-    for (auto& seam : seams_) seam.clear();
-    for (const auto e : edges())
-        if (data(e).seam >= 0) seams_[data(e).seam].push_back(e);
-    SurfaceArrays result;
-    for (const auto v : vertices()) {
-        if (has_copies(v)) places_[data(v).place].push_back(v);
-        result.vertices.push_back(point(v));
-        result.vertex_key.push_back(
-            make_key(input_node, has_copies(v) ? places_[data(v).place].front().idx() : v.idx()));
-    }
-    for (const auto f : faces()) {
-        const HalfedgeHandle h = halfedge_handle(f), next = next_halfedge_handle(h);
-        result.facets.push_back({from_vertex_handle(h).idx(), to_vertex_handle(h).idx(), to_vertex_handle(next).idx()});
-        result.facet_key.push_back(make_key(input_node, f.idx()));
-        result.patch.push_back(data(f).patch);
-    }
-    return result;
 }
 
 }  // namespace kerf

@@ -9,22 +9,10 @@
 // Specialises what the header above declares.
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 
-#include "surface/complex/surface.h"
+#include "base/core/ids.h"
+#include "surface/remesh/inside/sheet_state.h"
 
 namespace kerf {
-
-/// The reason for the wanted length of the edges at a vertex: `asked`, the user asks for it; `bound`, the surface is
-/// curved, and the bound allows no longer chord; `features`, strips between features; `walls`, thin walls.
-enum class LengthRule : std::uint8_t { asked, bound, features, walls };
-
-struct WantedLength {
-    double length = 0;
-    LengthRule rule = LengthRule::asked;
-
-    void shorten(double other, LengthRule other_rule) {
-        if (other < length) *this = {other, other_rule};
-    }
-};
 
 struct SheetMeshTraits : OpenMesh::DefaultTraits {
     using Point = Vec3;
@@ -33,30 +21,16 @@ struct SheetMeshTraits : OpenMesh::DefaultTraits {
     FaceAttributes(OpenMesh::Attributes::Status);
     EdgeAttributes(OpenMesh::Attributes::Status);
     HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
-    VertexTraits {
-        WantedLength wanted;       // of the edges at the vertex
-        double asked = 0;          // by the user alone, at least the wanted length
-        double tolerance = 0;      // the smallest of the input around
-        std::int32_t input = -1;   // the vertex of the input that it is, -1: none
-        std::int64_t changed = 0;  // the last operation that changed a facet around it
-        bool is_fixed = false;     // corner of a facet that is kept
-        bool is_end = false;       // a copy at which seams end, part or touch: stays where it is
-        std::int32_t place = -1;   // number of the place that it shares with its copies, -1: it has none
-    };
-    FaceTraits {
-        std::int32_t patch = 0;
-        std::int32_t region = -1;       // flat region that contains its corners, -1: none
-        std::int32_t near = -1;         // a facet of the input near it
-        std::int32_t first_point = -1;  // head of the list of the input's vertices that it stands for
-        std::int64_t changed = 0;       // the last operation that changed it
-        bool is_kept = false;           // stays as it was given
-        bool is_wall = false;           // has a body on both sides
-    };
-    EdgeTraits {
-        bool is_feature = false;
-        std::int32_t fold = -1;  // number of the fold that it is a piece of, -1: none
-        std::int32_t seam = -1;  // number of the seam that it is an edge of, -1: it is in one sheet only
-    };
+    VertexTraits { SheetVertex own; };
+    FaceTraits { SheetFacet own; };
+    EdgeTraits { SheetEdge own; };
+};
+
+/// A part of a surface in sheets, or all of it.
+struct SheetPiece {
+    SheetArrays arrays;
+    std::vector<std::int32_t> partner;  // 3 #F; the corner on the other side of an edge, -1: none
+    std::int32_t places = 0, seams = 0;
 };
 
 /// A surface in sheets. Where more than two facets meet in an edge of the surface, sheets end at a seam, and each of
@@ -66,6 +40,18 @@ class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
  public:
     using Corners = std::array<Vec3, 3>;
 
+    /// Takes the vertices, facets and edges of a piece; its vertices must have one fan of facets each. O(#F).
+    explicit SheetMesh(const SheetPiece& piece);
+    /// Returns the remaining vertices and facets, in order. O(#F).
+    SheetArrays arrays() const;
+
+    SheetVertex& data(VertexHandle v) { return Base::data(v).own; }
+    const SheetVertex& data(VertexHandle v) const { return Base::data(v).own; }
+    SheetFacet& data(FaceHandle f) { return Base::data(f).own; }
+    const SheetFacet& data(FaceHandle f) const { return Base::data(f).own; }
+    SheetEdge& data(EdgeHandle e) { return Base::data(e).own; }
+    const SheetEdge& data(EdgeHandle e) const { return Base::data(e).own; }
+
     // --- copies ---
 
     void make_copies(std::vector<VertexHandle> vertices);
@@ -73,6 +59,9 @@ class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
     void make_seam(std::vector<EdgeHandle> edges);
     /// Replaces the edges of a seam by those that are left of it.
     void change_seam(std::int32_t seam, std::vector<EdgeHandle> edges) { seams_[seam] = std::move(edges); }
+    /// The numbers of places and seams that have been given.
+    std::int32_t place_count() const { return count_of(places_); }
+    std::int32_t seam_count() const { return count_of(seams_); }
     bool has_copies(VertexHandle v) const { return data(v).place >= 0; }
     /// Calls visit(copy) for the vertices at the place of v, including v.
     template <class Visit>
@@ -113,7 +102,7 @@ class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
         const FaceHandle f = face_handle(halfedge_handle(e, 0)), g = face_handle(halfedge_handle(e, 1));
         return {f.is_valid() ? f : g, g.is_valid() ? g : f};
     }
-    /// Whether a facet at the edge is kept, in any sheet.
+    /// Whether the edge lies on the border of the block, or a facet at it is kept, in any sheet.
     bool is_fixed(EdgeHandle e) const;
     /// Whether the facets at the edge lie in one flat region, and the edge is no feature.
     bool is_flat(EdgeHandle e) const;
@@ -126,11 +115,12 @@ class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
     std::int64_t last_change(VertexHandle v) const;
     std::int64_t last_change(EdgeHandle e) const;
     void note_change(FaceHandle f, std::int64_t operation);
-    std::int64_t feature_edges() const;
-    /// Returns the remaining facets and vertices, in order, copies with one key. Renumbers everything.
-    SurfaceArrays arrays();
 
  private:
+    using Base = OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits>;
+
+    void connect(const SheetPiece& piece);
+
     std::vector<std::vector<VertexHandle>> places_;  // only vertices that are left
     std::vector<std::vector<EdgeHandle>> seams_;
 };

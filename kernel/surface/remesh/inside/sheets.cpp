@@ -36,26 +36,34 @@ std::vector<Triangle> Sheets::facets_before() const {
     return facets;
 }
 
-Sheets take_apart(const SurfaceArrays& surface) {
-    Sheets sheets = {surface, edge_partners(surface.facets), std::vector<std::int32_t>(surface.vertices.size()),
-                     surface.vertices.size()};
-    std::iota(sheets.original.begin(), sheets.original.end(), 0);
-    UnionFind fans = find_fans(sheets.partner);
-    std::vector<char> has_fan(surface.vertices.size(), 0);
-    std::vector<std::int32_t> vertex_of(sheets.partner.size());  // of a fan, by its smallest corner
+std::vector<std::int32_t> separate_fans(std::size_t vertices, const std::vector<std::int32_t>& partner,
+                                        std::vector<Triangle>& facets) {
+    std::vector<std::int32_t> original(vertices), vertex_of(partner.size());  // of a fan, by its smallest corner
+    std::iota(original.begin(), original.end(), 0);
+    UnionFind fans = find_fans(partner);
+    std::vector<char> has_fan(vertices, 0);
     for (std::int32_t corner = 0; corner < count_of(vertex_of); ++corner) {
-        const std::int32_t first = fans.root(corner), v = start_vertex(surface.facets, corner);
+        std::int32_t& v = facets[corner / 3][corner % 3];
+        const std::int32_t first = fans.root(corner);
         if (first == corner) {
             vertex_of[corner] = v;
             if (has_fan[v] != 0) {
-                vertex_of[corner] = count_of(sheets.original);
-                sheets.surface.vertices.push_back(surface.vertices[v]);
-                sheets.surface.vertex_key.push_back(surface.vertex_key[v]);
-                sheets.original.push_back(v);
+                vertex_of[corner] = count_of(original);
+                original.push_back(v);
             }
             has_fan[v] = 1;
         }
-        sheets.surface.facets[corner / 3][corner % 3] = vertex_of[first];
+        v = vertex_of[first];
+    }
+    return original;
+}
+
+Sheets take_apart(const SurfaceArrays& surface) {
+    Sheets sheets = {surface, edge_partners(surface.facets), {}, surface.vertices.size()};
+    sheets.original = separate_fans(surface.vertices.size(), sheets.partner, sheets.surface.facets);
+    for (std::size_t v = surface.vertices.size(); v < sheets.original.size(); ++v) {
+        sheets.surface.vertices.push_back(surface.vertices[sheets.original[v]]);
+        sheets.surface.vertex_key.push_back(surface.vertex_key[sheets.original[v]]);
     }
     return sheets;
 }

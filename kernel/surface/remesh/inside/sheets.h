@@ -21,6 +21,12 @@ struct Sheets {
     std::vector<Triangle> facets_before() const;
 };
 
+/// Gives each fan of facets around a vertex, from edge to edge without a partner, a vertex of its own. The fan with the
+/// smallest corner keeps the vertex. Returns for each vertex, the new ones behind all others, that which it was.
+/// `partner` as edge_partners() gives it. O(#V + #F).
+std::vector<std::int32_t> separate_fans(std::size_t vertices, const std::vector<std::int32_t>& partner,
+                                        std::vector<Triangle>& facets);
+
 /// Takes a surface apart. The fan with the smallest corner keeps the vertex. Facets at an edge of two must have it in
 /// opposite directions. A closed manifold comes back as it is. O(#F).
 Sheets take_apart(const SurfaceArrays& surface);

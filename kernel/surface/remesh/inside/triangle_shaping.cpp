@@ -11,12 +11,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
 
 #include "base/core/ids.h"
+#include "surface/remesh/inside/blocks.h"
 #include "surface/remesh/inside/fold_sizes.h"
 
 namespace kerf {
@@ -30,9 +32,15 @@ using Facet = BoundedSurface::Facet;
 
 // Edges over their wanted length. A half of one that is split must not be one that is collapsed.
 constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
-constexpr double least_move = 0.03;  // of the size at a vertex
+constexpr double coarse_ratio = 6;  // longer edges are split before the surface is divided into blocks
+// Facets of a block: the least that are worth one. Blocks beside borders are long and narrow, and have little border.
+constexpr double share_of_first_division = 0.85;  // of the time of all
+constexpr double least_block = 8e3, least_block_beside_borders = 2e3;
+constexpr double least_move = 0.03;     // of the size at a vertex
+constexpr double sine_of_good = 0.682;  // of 43 degrees: facets that need no move
 constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
-constexpr int most_simplifications = 6, passes = 4, last_passes = 2, smoothings = 2, flips = 4;
+constexpr int most_simplifications = 6, passes = 3, passes_beside_borders = 2, last_passes = 1, smoothings = 2,
+              flips = 4;
 // Shares of the tolerance: early operations, and flatness, leave room for later ones.
 constexpr double share_of_merging = 0.8, share_of_simplification = 0.4, share_of_flatness = 0.2;
 // Lower bounds of the sizes that folds ask for.
@@ -120,28 +128,64 @@ class Refusals {
 
 class Shaping {
  public:
-    Shaping(BoundedSurface& surface, const RemeshOptions& options) : surface_(surface), options_(options) {}
+    /// Keeps the references; `sizes` may be null until they are known.
+    Shaping(BoundedSurface& surface, const RemeshOptions& options, const FoldSizes* sizes)
+        : surface_(surface), options_(options), sizes_(sizes) {}
 
-    void run() {
+    // Leaves out what the bound does not need.
+    void simplify_all() {
         flip_flat_edges();
         surface_.set_share(share_of_merging);
         merge_features(surface_, [this] { check_cancelled(); });
         surface_.set_share(share_of_simplification);
         simplify();
-        surface_.set_share(1);
-        surface_.find_regions(share_of_flatness);
-        refused_flips_.clear();  // by another share and other numbers
-        flip_flat_edges();
-        sizes_.emplace(surface_, FoldSizeOptions{.longest = options_.longest,
-                                                 .shortest = std::max(shortest_over_deviation * options_.deviation,
-                                                                      shortest_over_longest * options_.longest),
-                                                 .thinnest = shortest_on_walls(options_),
-                                                 .growth = options_.growth,
-                                                 .edges_per_thickness = options_.edges_per_thickness,
-                                                 .wanted = options_.wanted,
-                                                 .check_cancelled = CancellationCheck(options_.check_cancelled)});
-        for (int pass = 0; pass < passes; ++pass) {
-            split_long_edges();
+    }
+
+    // Lawson's flips within flat regions.
+    void flip_flat_edges() {
+        std::vector<Edge> open;
+        for (const auto e : mesh().edges()) open.push_back(e);
+        std::reverse(open.begin(), open.end());
+        legalise(open, 20 * open.size());
+    }
+
+    // Splits the edges that are longer, over their wanted length, than most(edge).
+    template <class Most>
+    void split_edges(const Most& most) {
+        struct Entry {
+            double ratio;
+            Edge edge;
+            bool operator<(const Entry& other) const {
+                return std::pair(ratio, -edge.idx()) < std::pair(other.ratio, -other.edge.idx());
+            }
+        };
+        std::priority_queue<Entry> open;
+        const auto add = [&](Edge e) {
+            if (const double r = ratio(e); r > split_ratio && r > most(e)) open.push({r, e});
+        };
+        for (const auto e : mesh().edges()) add(e);
+        while (!open.empty()) {
+            check_cancelled();
+            const auto [r, wanted] = open.top();
+            open.pop();
+            if (ratio(wanted) != r) continue;
+            const Edge e = longest_around(wanted);
+            if (mesh().is_fixed(e)) continue;
+            const Vertex v = split(e);
+            mesh().for_each_copy(v, [&](Vertex copy) {
+                for (const auto h : mesh().voh_range(copy)) {
+                    add(h.edge());
+                    if (!h.is_boundary()) add(h.next().edge());
+                }
+            });
+            if (e != wanted) add(wanted);
+        }
+    }
+
+    // Gives triangles the wanted sizes and a good shape.
+    void shape(int most_passes) {
+        for (int pass = 0; pass < most_passes; ++pass) {
+            split_edges([](Edge) { return split_ratio; });
             smooth();
             collapse_short_edges();
             flip_edges();
@@ -168,14 +212,6 @@ class Shaping {
     }
     double ratio(Edge e) const { return mesh().calc_edge_length(e) / target(e); }
     bool is_alive(Edge e) const { return !mesh().status(e).deleted(); }
-
-    // Lawson's flips within flat regions.
-    void flip_flat_edges() {
-        std::vector<Edge> open;
-        for (const auto e : mesh().edges()) open.push_back(e);
-        std::reverse(open.begin(), open.end());
-        legalise(open, 20 * open.size());
-    }
 
     void legalise(std::vector<Edge>& open, std::size_t limit) {
         for (std::size_t steps = 0; !open.empty() && steps < limit; ++steps) {
@@ -236,45 +272,25 @@ class Shaping {
         }
     }
 
-    void split_long_edges() {
-        struct Entry {
-            double ratio;
-            Edge edge;
-            bool operator<(const Entry& other) const {
-                return std::pair(ratio, -edge.idx()) < std::pair(other.ratio, -other.edge.idx());
-            }
-        };
-        std::priority_queue<Entry> open;
-        const auto add = [&](Edge e) {
-            if (const double r = ratio(e); r > split_ratio) open.push({r, e});
-        };
-        for (const auto e : mesh().edges()) add(e);
-        std::vector<Edge> around;
-        while (!open.empty()) {
-            check_cancelled();
-            const auto [r, wanted] = open.top();
-            open.pop();
-            if (ratio(wanted) != r) continue;
-            const Edge e = longest_around(wanted);
-            if (mesh().is_fixed(e)) continue;
-            const Vertex a = mesh().to_vertex_handle(mesh().halfedge_handle(e, 0));
-            const Vertex b = mesh().to_vertex_handle(mesh().halfedge_handle(e, 1));
-            WantedLength size = mesh().data(mesh().size(a) < mesh().size(b) ? a : b).wanted;
-            size.length += options_.growth * mesh().calc_edge_length(e) / 2;
-            const std::int32_t fold = mesh().data(e).fold;
-            const Vertex v = surface_.split(e, 0.5);
-            surface_.set_size(v, sizes_->of_new(v, fold, size), sizes_->asked(v));
-            mesh().for_each_copy(v, [&](Vertex copy) {
-                for (const auto h : mesh().voh_range(copy))
-                    if (!h.is_boundary()) around.push_back(h.next().edge());
-                legalise(around, 200);
-                for (const auto h : mesh().voh_range(copy)) {
-                    add(h.edge());
-                    if (!h.is_boundary()) add(h.next().edge());
-                }
-            });
-            if (e != wanted) add(wanted);
-        }
+    Vertex split(Edge e) {
+        const auto [a, b] = mesh().ends(e);
+        WantedLength size = mesh().data(mesh().size(b) < mesh().size(a) ? b : a).wanted;
+        const double half = mesh().calc_edge_length(e) / 2;
+        const auto is_narrow = [&](Vertex end) { return mesh().data(end).wanted.rule >= LengthRule::features; };
+        const bool is_last = half < split_ratio * size.length && !is_narrow(a) &&
+                             !is_narrow(b);  // what lies between the ends has been asked at them
+        size.length += options_.growth * half;
+        const std::int32_t fold = mesh().data(e).fold;
+        const Vertex v = surface_.split(e, 0.5);
+        const double asked = sizes_->asked(mesh(), v);
+        size.shorten(asked, LengthRule::asked);
+        surface_.set_size(v, is_last ? size : sizes_->of_new(mesh(), v, fold, size), asked);
+        mesh().for_each_copy(v, [&](Vertex copy) {
+            for (const auto h : mesh().voh_range(copy))
+                if (!h.is_boundary()) around_.push_back(h.next().edge());
+            legalise(around_, 200);
+        });
+        return v;
     }
 
     // The end of the way over ever longer edges of facets: halves of a longest edge have no needles (Rivara 1997).
@@ -319,6 +335,7 @@ class Shaping {
             for (const auto v : mesh().vertices()) {
                 check_cancelled();
                 if (!mesh().is_first_copy(v) || refused_moves_.knows(v.idx(), mesh().last_change(v))) continue;
+                if (worst_around(v) > sine_of_good) continue;
                 Vec3 sum = Vec3::Zero();
                 double weights = 0;
                 mesh().for_each_copy(v, [&](Vertex copy) {
@@ -334,9 +351,18 @@ class Shaping {
                     }
                 });
                 if (weights > 0 && (sum / weights - mesh().point(v)).norm() > least_move * mesh().size(v))
-                    if (surface_.move(v, sum / weights)) continue;
+                    if (surface_.move(v, sum / weights, InputBound::Evidence::samples)) continue;
                 refused_moves_.note(v.idx(), surface_.changes());
             }
+    }
+
+    // Returns the smallest sine of an angle of the facets around a vertex.
+    double worst_around(Vertex v) const {
+        double worst = 1;
+        mesh().for_each_copy(v, [&](Vertex copy) {
+            for (const auto f : mesh().vf_range(copy)) worst = std::min(worst, mesh().sine(f));
+        });
+        return worst;
     }
 
     // Collapses the shortest edges of facets that are still needles.
@@ -353,13 +379,136 @@ class Shaping {
 
     BoundedSurface& surface_;
     const RemeshOptions& options_;
-    std::optional<FoldSizes> sizes_;
+    const FoldSizes* sizes_;
     std::int64_t steps_ = 0;
+    std::vector<Edge> around_;  // scratch
     Refusals refused_moves_, refused_flips_, refused_collapses_;
+};
+
+FoldSizeOptions size_options(const RemeshOptions& options) {
+    return {.longest = options.longest,
+            .shortest = std::max(shortest_over_deviation * options.deviation, shortest_over_longest * options.longest),
+            .thinnest = shortest_on_walls(options),
+            .growth = options.growth,
+            .edges_per_thickness = options.edges_per_thickness,
+            .wanted = options.wanted,
+            .check_cancelled = CancellationCheck(options.check_cancelled)};
+}
+
+// The facets that will take the place of each, by the sizes at its corners.
+std::vector<float> facets_to_come(const SheetArrays& sheets) {
+    std::vector<float> counts;
+    counts.reserve(sheets.corners.size());
+    for (std::size_t f = 0; f < sheets.corners.size(); ++f) {
+        double length = 0;
+        for (const std::int32_t v : sheets.corners[f]) length += sheets.vertices[v].wanted.length / 3;
+        const double area = area_normal(sheets.triangle(f)).norm() / 2;
+        counts.push_back(static_cast<float>(std::max(1., area / (facet_area_per_squared_length * length * length))));
+    }
+    return counts;
+}
+
+// The stages of shaping on the whole surface.
+class ShapingInBlocks {
+ public:
+    ShapingInBlocks(const InputShape& input, const RemeshOptions& options, const std::function<void(double)>& add,
+                    SheetState& state)
+        : input_(input), options_(options), add_(add), state_(state) {}
+
+    void simplify() {
+        change_in_blocks([](Shaping& shaping, bool) { shaping.simplify_all(); },
+                         std::vector<float>(state_.arrays.facets.size(), 1));
+    }
+
+    void shape() {
+        find_regions(input_, share_of_flatness, state_);
+        change_whole([this](BoundedSurface& surface) {
+            Shaping(surface, options_, nullptr).flip_flat_edges();
+            sizes_.emplace(surface, size_options(options_));
+            Shaping(surface, options_, &*sizes_).split_edges([](Edge) { return coarse_ratio; });
+        });
+        change_in_blocks(
+            [](Shaping& shaping, bool is_beside_borders) {
+                shaping.shape(is_beside_borders ? passes_beside_borders : passes);
+            },
+            facets_to_come(state_.arrays));
+    }
+
+ private:
+    template <class Change>
+    void change_whole(const Change& change) {
+        BoundedSurface surface(InputBound(input_, state_), whole_piece(state_));
+        change(surface);
+        replace_whole(state_, surface);
+    }
+
+    // All facets that may change first, then those beside the borders of blocks. What is left then, where borders of
+    // both meet, is in pieces that have nothing in common.
+    void change_in_blocks(const std::function<void(Shaping&, bool)>& change, const std::vector<float>& weights) {
+        std::vector<char> may_change;
+        for (const SheetFacet& facet : state_.arrays.facets) may_change.push_back(facet.is_kept ? 0 : 1);
+        const std::int32_t blocks = divide_along_curve(state_, may_change, weights, least_block, false);
+        if (sizes_ && blocks > 1) split_borders();
+        change_blocks(input_, state_, [&](BoundedSurface& surface) {
+            change_block(surface, change, false);
+            add_(share_of_first_division / blocks);
+        });
+        const auto change_strips = [&](BoundedSurface& surface) { change_block(surface, change, true); };
+        if (const std::vector<char> chosen = facets_beside_borders(state_); has_any(chosen)) {
+            divide_along_curve(state_, chosen, std::vector<float>(chosen.size(), 1), least_block_beside_borders, true);
+            change_blocks(input_, state_, change_strips);
+        }
+        if (const std::vector<char> chosen = facets_beside_borders(state_); has_any(chosen)) {
+            divide_by_components(state_, chosen, static_cast<std::int32_t>(least_block_beside_borders));
+            change_blocks(input_, state_, change_strips);
+        }
+    }
+
+    void change_block(BoundedSurface& surface, const std::function<void(Shaping&, bool)>& change,
+                      bool is_beside_borders) const {
+        Shaping shaping(surface, options_, sizes_ ? &*sizes_ : nullptr);
+        change(shaping, is_beside_borders);
+    }
+
+    static bool has_any(const std::vector<char>& chosen) {
+        return std::find(chosen.begin(), chosen.end(), char{1}) != chosen.end();
+    }
+
+    // What blocks have in common stays as it is while they are shaped: its edges get their lengths before.
+    void split_borders() {
+        change_whole([this](BoundedSurface& surface) {
+            const SheetMesh& mesh = surface.mesh();
+            const auto most = [&](Edge e) {
+                const std::int32_t block = mesh.data(mesh.facets_at(e)[0]).block;
+                bool is_border = false;
+                mesh.for_each_copy(e, [&](Edge copy) {
+                    for (const Facet f : mesh.facets_at(copy)) is_border |= mesh.data(f).block != block;
+                });
+                return is_border ? split_ratio : std::numeric_limits<double>::infinity();
+            };
+            Shaping(surface, options_, &*sizes_).split_edges(most);
+        });
+    }
+
+    const InputShape& input_;
+    const RemeshOptions& options_;
+    const std::function<void(double)>& add_;
+    SheetState& state_;
+    std::optional<FoldSizes> sizes_;
 };
 
 }  // namespace
 
-void shape_triangles(BoundedSurface& surface, const RemeshOptions& options) { Shaping(surface, options).run(); }
+SheetState simplify(const InputShape& input, const std::vector<char>& kept, const RemeshOptions& options,
+                    const std::function<void(double)>& add) {
+    SheetState state = sheet_state(input, kept);
+    ShapingInBlocks(input, options, add, state).simplify();
+    return state;
+}
+
+void shape_triangles(const InputShape& input, const RemeshOptions& options, const std::function<void(double)>& add,
+                     SheetState& state) {
+    ShapingInBlocks(input, options, add, state).shape();
+}
 
 }  // namespace kerf

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/core/threads.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "base/geometry/union_find.h"
@@ -47,16 +48,26 @@ Array<RegionIndex, double> volumes_of(const SurfaceArrays& surface, const std::v
 // The facets of a result with their faces, planes and heights as the input over them tells.
 class FacesOfInput {
  public:
-    FacesOfInput(const SurfaceArrays& input, const TriangleTree& tree, double deviation, const SurfaceArrays& result)
-        : result_(result), tree_(tree), deviation_(deviation) {
-        for (const Triangle& t : input.facets) input_normal_.push_back(area_vector(input.vertices, t).normalized());
-        const double flat = flat_share_of_diagonal * box_around(input.vertices).diagonal().norm();
-        for (std::size_t f = 0; f < result.facets.size(); ++f) {
-            normal_.push_back(area_vector(result.vertices, result.facets[f]).normalized());
-            const Heights heights = heights_over(f);
-            plane_.push_back(heights.largest <= flat ? normal_.back() : Vec3::Zero());
-            rise_.push_back(heights.mean);
-        }
+    FacesOfInput(const InspectedInput& input, double deviation, const ChangedSurface& result)
+        : result_(result.surface),
+          near_(result.near),
+          input_(input),
+          deviation_(deviation),
+          normal_(result_.facets.size()),
+          plane_(result_.facets.size()),
+          rise_(result_.facets.size()) {
+        constexpr std::size_t grain = 1 << 12;
+        for (const Triangle& t : input.surface.facets)
+            input_normal_.push_back(area_vector(input.surface.vertices, t).normalized());
+        const double flat = flat_share_of_diagonal * box_around(input.surface.vertices).diagonal().norm();
+        for_ranges_on_threads(result_.facets.size(), grain, [&](const IndexRange& range) {
+            for (std::size_t f = range.first; f < range.last; ++f) {
+                normal_[f] = area_vector(result_.vertices, result_.facets[f]).normalized();
+                const Heights heights = heights_over(f);
+                plane_[f] = heights.largest <= flat ? normal_[f] : Vec3::Zero();
+                rise_[f] = heights.mean;
+            }
+        });
         find_faces();
     }
 
@@ -81,19 +92,26 @@ class FacesOfInput {
         const Vec3 &a = result_.vertices[t[0]], &b = result_.vertices[t[1]], &c = result_.vertices[t[2]];
         const Vec3 centre = (a + b + c) / 3;
         Heights heights;
+        std::int32_t near = near_[f];
         for (const Vec3& p : {centre, Vec3((centre + a) / 2), Vec3((centre + b) / 2), Vec3((centre + c) / 2)}) {
-            const double height = height_at(p, normal_[f]);
+            const double height = height_at(p, normal_[f], near);
             heights.mean += height / 4;
             heights.largest = std::max(heights.largest, std::abs(height));
         }
         return heights;
     }
-    // Returns the height of the input over a point; 0 if none of it is near.
-    double height_at(const Vec3& p, const Vec3& normal) const {
+    // Returns the height of the input over a point; 0 if none of it is near. `near`: where to look first.
+    double height_at(const Vec3& p, const Vec3& normal, std::int32_t& near) const {
         const double reach = 2 * deviation_;
+        if (const std::int32_t below = input_.nearness.facet_below(p, near); below >= 0) {
+            near = below;
+            const double cosine = input_normal_[below].dot(normal);
+            const double height = input_normal_[below].dot(input_.tree.corners(below)[0] - p) / cosine;
+            if (cosine > facing_cosine_of_input && std::abs(height) < reach) return height;
+        }
         const auto faces = [&](std::int32_t g) { return input_normal_[g].dot(normal) > facing_cosine_of_input; };
-        const double up = tree_.first_hit(p, normal, 0, reach, faces);
-        const double down = tree_.first_hit(p, -normal, 0, std::min(up, reach), faces);
+        const double up = input_.tree.first_hit(p, normal, 0, reach, faces);
+        const double down = input_.tree.first_hit(p, -normal, 0, std::min(up, reach), faces);
         return down < up ? -down : std::isfinite(up) ? up : 0;
     }
     // Neighbours of one patch that go on smoothly, both flat or both not.
@@ -117,7 +135,8 @@ class FacesOfInput {
     }
 
     const SurfaceArrays& result_;
-    const TriangleTree& tree_;
+    const std::vector<std::int32_t>& near_;
+    const InspectedInput& input_;
     double deviation_;
     std::vector<Vec3> input_normal_, normal_, plane_;
     std::vector<double> rise_;
@@ -136,14 +155,15 @@ double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result
     return largest;
 }
 
-bool restore_volumes(const SurfaceArrays& input, const TriangleTree& tree, const std::vector<FacetSides>& sides,
-                     double deviation, const std::vector<char>& is_fixed, SurfaceArrays& result) {
-    FacesOfInput faces(input, tree, deviation, result);
-    const std::vector<FacetSides> of_facets = sides_of_facets(result, sides);
-    const Array<RegionIndex, double> volumes = volumes_of(input, sides);
-    if (balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, range_of_heights)) return true;
+bool restore_volumes(const InspectedInput& input, const std::vector<FacetSides>& sides, double deviation,
+                     const std::vector<char>& is_fixed, ChangedSurface& result) {
+    FacesOfInput faces(input, deviation, result);
+    std::vector<Vec3>& vertices = result.surface.vertices;
+    const std::vector<FacetSides> of_facets = sides_of_facets(result.surface, sides);
+    const Array<RegionIndex, double> volumes = volumes_of(input.surface, sides);
+    if (balance_volumes(vertices, faces.facets(of_facets), volumes, is_fixed, range_of_heights)) return true;
     faces.let_rise_evenly(deviation);
-    return balance_volumes(result.vertices, faces.facets(of_facets), volumes, is_fixed, {-1, 2});
+    return balance_volumes(vertices, faces.facets(of_facets), volumes, is_fixed, {-1, 2});
 }
 
 }  // namespace kerf

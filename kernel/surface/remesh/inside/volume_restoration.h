@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "surface/remesh/remesh.h"
-#include "surface/soup/triangle_tree.h"
+#include "surface/remesh/inside/inspection.h"
+#include "surface/soup/facet_sides.h"
 
 namespace kerf {
 
@@ -17,8 +17,9 @@ double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result
 /// the flat ones. If the heights of the input over the facets do not suffice, all vertices that may move rise by the
 /// same height, and flat facets that go on smoothly count as curved. `is_fixed` (#V): vertices that stay. Returns
 /// false, and moves nothing, if that would take a rise of more than twice the `deviation`. The result may intersect
-/// itself, and be further from the input than before. O(#F log #F), deterministic.
-bool restore_volumes(const SurfaceArrays& input, const TriangleTree& tree, const std::vector<FacetSides>& sides,
-                     double deviation, const std::vector<char>& is_fixed, SurfaceArrays& result);
+/// itself, and be further from the input than before. O(#F log #F), deterministic, on
+/// threads.
+bool restore_volumes(const InspectedInput& input, const std::vector<FacetSides>& sides, double deviation,
+                     const std::vector<char>& is_fixed, ChangedSurface& result);
 
 }  // namespace kerf

@@ -1,0 +1,36 @@
+// The division of a surface into blocks, which are changed on threads.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "surface/remesh/inside/bounded_surface.h"
+
+namespace kerf {
+
+/// Returns all facets of the state, a piece without border. O(#F).
+SheetPiece whole_piece(const SheetState& state);
+
+/// Replaces all of the state by what has become of whole_piece(). O(#F).
+void replace_whole(SheetState& state, const BoundedSurface& surface);
+
+/// Numbers the blocks (SheetFacet::block) into which the chosen facets (#F) are divided along Morton's curve, of about
+/// the same sum of `weights` (#F) and of at least `least`; others belong to none. `is_turned`: the curve runs along
+/// other axes, so that borders cross those of blocks along the usual ones. The number of blocks, which is returned,
+/// follows from the weights alone. O(#F).
+std::int32_t divide_along_curve(SheetState& state, const std::vector<char>& chosen, const std::vector<float>& weights,
+                                double least, bool is_turned);
+
+/// Numbers blocks of chosen facets (#F) that have no vertex in common, each of at least one connected component and of
+/// about as many facets as `wanted`. Returns their number. O(#F).
+std::int32_t divide_by_components(SheetState& state, const std::vector<char>& chosen, std::int32_t wanted);
+
+/// Calls work(surface) for every block, on threads, and puts what has become of it into the state. Facets and vertices
+/// are numbered anew. O(#F), and what the work costs.
+void change_blocks(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work);
+
+/// Returns the facets (#F) within some rings of facets around the vertices that blocks have in common, 0 if there are
+/// none. O(#F).
+std::vector<char> facets_beside_borders(const SheetState& state);
+
+}  // namespace kerf
