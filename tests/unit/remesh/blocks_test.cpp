@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <random>
-#include <thread>
 
 #include <gtest/gtest.h>
 
-#include "base/core/thread_limit.h"
 #include "run/prepare/inside/labelled_facets.h"
 #include "support/shapes.h"
 #include "support/voxel_regions.h"
 #include "surface/diagnosis/intersections.h"
-#include "surface/remesh/remesh.h"
 
 namespace kerf {
 namespace {
@@ -129,20 +126,6 @@ TEST(Blocks, BesideTheirBordersNoneHaveThemInCommon) {
     EXPECT_GT(divide_by_components(state, chosen, 1), 0);
     chosen = facets_beside_borders(state);
     EXPECT_EQ(std::count(chosen.begin(), chosen.end(), char{1}), 0);
-}
-
-TEST(Blocks, AreTheSameOnAnyNumberOfThreads) {
-    const ThreadLimitGuard guard;
-    const SurfaceArrays surface = test::to_arrays(test::torus(1, 0.3, 200, 60));
-    std::vector<SurfaceArrays> results;
-    for (const int threads : {1, 2, 7}) {
-        set_thread_limit(threads);
-        results.push_back(remesh(surface, {.deviation = 2e-4, .longest = 0.2}).surface);
-    }
-    for (const SurfaceArrays& result : results) {
-        EXPECT_EQ(result.vertices, results.front().vertices);
-        EXPECT_EQ(result.facets, results.front().facets);
-    }
 }
 
 }  // namespace

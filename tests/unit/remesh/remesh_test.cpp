@@ -345,15 +345,20 @@ TEST(Slivers, AreThoseThatSpoilCells) {
 class PatientListener : public RunListener {
  public:
     explicit PatientListener(std::size_t steps) : steps_(steps) {}
-    void on_progress(const char* stage, std::size_t done, std::size_t) override {
+    void on_progress(const char* stage, std::size_t done, std::size_t total) override {
         EXPECT_STREQ(stage, "remesh");
-        EXPECT_EQ(done, told_++) << "something moves";
+        EXPECT_EQ(total, 100u);
+        EXPECT_GE(done, last_);
+        EXPECT_LE(done, total);
+        last_ = done;
+        ++told_;
     }
     bool cancelled() const override { return told_ >= steps_; }
     std::size_t told() const { return told_; }
+    std::size_t last() const { return last_; }
 
  private:
-    std::size_t steps_, told_ = 0;
+    std::size_t steps_, told_ = 0, last_ = 0;
 };
 
 TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
@@ -367,6 +372,7 @@ TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
     PatientListener all(1'000'000);
     const Input remeshed = remesh_where_asked(input, options, &all);
     EXPECT_GT(all.told(), 5u);
+    EXPECT_GT(all.last(), 50u);
     EXPECT_EQ(remeshed.complex.arrays().vertices, remesh_where_asked(input, options).complex.arrays().vertices);
     for (const std::size_t steps : {std::size_t{0}, std::size_t{1}, all.told() / 2, all.told() - 1}) {
         PatientListener listener(steps);
