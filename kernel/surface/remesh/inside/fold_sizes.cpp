@@ -164,7 +164,7 @@ double FoldSizes::straight_length(const SheetMesh& mesh, BoundedSurface::Edge e)
     if (!mesh.data(e).is_feature) return length;
     for (const int side : {0, 1}) {
         auto h = mesh.halfedge_handle(e, side);
-        const Vec3 start = mesh.point(mesh.from_vertex_handle(h));
+        const Vec3& start = mesh.point(mesh.from_vertex_handle(h));
         while (length < options_.longest) {
             const BoundedSurface::Vertex end = mesh.to_vertex_handle(h);
             if (mesh.feature_count(end) != 2) break;
