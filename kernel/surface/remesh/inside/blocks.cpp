@@ -22,8 +22,8 @@ namespace kerf {
 
 namespace {
 
-// A block has one share of so many of the surface, but no more facets than that, as larger ones leave processors
-// without work.
+// The surface has about so many blocks, and more where each would have more facets than `most_block`: large blocks
+// leave processors without work.
 constexpr double blocks_of_surface = 8, most_block = 4e4;
 constexpr int rings_beside_borders = 2;
 
