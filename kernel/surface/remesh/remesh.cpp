@@ -295,18 +295,22 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& asked) {
     std::vector<char> last_refused;
     int rounds_for_volume = 0, rounds_that_keep = 0;
     for (int round = 1;; ++round) {
-        auto [input, shaped, meeting, meeting_count] = simplify_apart(simplify_within, tolerances);
-        work.reach(simplified_end);
-        shape_triangles(*input, options, in_share_of(work, shaped_end - simplified_end), shaped);
-        work.reach(shaped_end);
-        ChangedSurface result = changed_surface(shaped.arrays);
-        const Inspection inspection = restore_volumes_within_bound(inspected, options, kept, result);
-        const std::vector<char>& refused = inspection.refused;
-        if (inspection.has_passed()) {
-            RemeshReport report;
+        ChangedSurface result;
+        RemeshReport report;
+        {  // what is shaped takes memory that proofs need
+            Simplified simplified = simplify_apart(simplify_within, tolerances);
+            SheetState& shaped = simplified.state;
+            work.reach(simplified_end);
+            shape_triangles(*simplified.input, options, in_share_of(work, shaped_end - simplified_end), shaped);
+            work.reach(shaped_end);
+            result = changed_surface(shaped.arrays);
             report.rounds = round;
             report.feature_edges = count_features(shaped.arrays);
             report.finer = finer_shares(shaped.arrays);
+        }
+        const Inspection inspection = restore_volumes_within_bound(inspected, options, kept, result);
+        const std::vector<char>& refused = inspection.refused;
+        if (inspection.has_passed()) {
             report.distance_to_input = inspection.distance_to_input;
             report.distance_from_input = inspection.distance_from_input;
             report.volume_difference = volume_difference(surface, result.surface, options.sides);

@@ -191,20 +191,6 @@ class Joining {
     std::vector<std::int32_t> vertex_;  // of those before: the number now, -1: none
 };
 
-// One vertex for each place, so that copies count as one.
-std::vector<std::int32_t> first_copies(const SheetState& state) {
-    const std::vector<SheetVertex>& vertices = state.arrays.vertices;
-    std::vector<std::int32_t> first(vertices.size()), of_place(state.places, -1);
-    for (std::int32_t v = 0; v < count_of(vertices); ++v) {
-        first[v] = v;
-        const std::int32_t place = vertices[v].place;
-        if (place < 0) continue;
-        if (of_place[place] < 0) of_place[place] = v;
-        first[v] = of_place[place];
-    }
-    return first;
-}
-
 std::vector<std::vector<std::int32_t>> facets_of_blocks(const SheetState& state) {
     std::vector<std::vector<std::int32_t>> blocks;
     for (std::int32_t f = 0; f < count_of(state.arrays.facets); ++f) {
@@ -262,7 +248,7 @@ std::int32_t divide_along_curve(SheetState& state, const std::vector<char>& chos
 
 std::int32_t divide_by_components(SheetState& state, const std::vector<char>& chosen, std::int32_t wanted) {
     SheetArrays& all = state.arrays;
-    const std::vector<std::int32_t> place = first_copies(state);
+    const std::vector<std::int32_t> place = first_copies(all);
     UnionFind joined(all.points.size());
     for (std::size_t f = 0; f < chosen.size(); ++f)
         if (const Triangle& t = all.corners[f]; chosen[f] != 0)
@@ -311,7 +297,7 @@ void change_blocks(const InputShape& input, SheetState& state, const std::functi
 
 std::vector<char> facets_beside_borders(const SheetState& state) {
     const SheetArrays& all = state.arrays;
-    const std::vector<std::int32_t> place = first_copies(state);
+    const std::vector<std::int32_t> place = first_copies(all);
     constexpr std::int32_t none = -1, several = -2;
     std::vector<std::int32_t> block(all.points.size(), none);
     for (std::size_t f = 0; f < all.corners.size(); ++f) {

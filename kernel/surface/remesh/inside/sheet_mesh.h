@@ -77,7 +77,6 @@ class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
     /// Lists the half-edges of all sheets along this one, in its direction, including itself.
     void list_copies(HalfedgeHandle h, std::vector<HalfedgeHandle>& list) const;
     bool is_first_copy(VertexHandle v) const { return !has_copies(v) || places_[data(v).place].front() == v; }
-    bool is_first_copy(EdgeHandle e) const { return data(e).seam < 0 || seams_[data(e).seam].front() == e; }
     /// Whether some edge leads from a copy of v to a copy of w.
     bool are_joined(VertexHandle v, VertexHandle w) const;
 

@@ -29,7 +29,6 @@ std::vector<std::int32_t> number_seams(const Sheets& sheets, std::int32_t& count
 // Whether one seam goes on as another one at these copies of a vertex, and every fan lies between the two. `seams`: two
 // for each fan, in its order; there are as many fans as copies.
 bool is_on_line(std::vector<std::int32_t> seams, std::size_t copies) {
-    if (seams.size() != 2 * copies) return false;
     for (std::size_t i = 0; i < seams.size(); i += 2)
         if (seams[i] == seams[i + 1]) return false;
     std::sort(seams.begin(), seams.end());
@@ -109,18 +108,28 @@ void find_regions(const InputShape& input, double share, SheetState& state) {
     for (std::size_t f = 0; f < arrays.facets.size(); ++f) arrays.facets[f].region = regions.of[f];
 }
 
+std::vector<std::int32_t> first_copies(const SheetArrays& sheets) {
+    std::vector<std::int32_t> first(sheets.vertices.size()), of_place;
+    for (std::int32_t v = 0; v < count_of(first); ++v) {
+        first[v] = v;
+        const std::int32_t place = sheets.vertices[v].place;
+        if (place < 0) continue;
+        if (place >= count_of(of_place)) of_place.resize(place + 1, -1);
+        if (of_place[place] < 0) of_place[place] = v;
+        first[v] = of_place[place];
+    }
+    return first;
+}
+
 SurfaceArrays joined_surface(const SheetArrays& sheets) {
     SurfaceArrays result;
-    std::vector<std::int32_t> number(sheets.points.size()), of_place;
-    for (std::size_t v = 0; v < sheets.points.size(); ++v) {
-        const std::int32_t place = sheets.vertices[v].place;
-        if (place >= count_of(of_place)) of_place.resize(place + 1, -1);
-        if (place >= 0 && of_place[place] >= 0) {
-            number[v] = of_place[place];
+    std::vector<std::int32_t> number = first_copies(sheets);
+    for (std::int32_t v = 0; v < count_of(number); ++v) {
+        if (number[v] != v) {
+            number[v] = number[number[v]];
             continue;
         }
         number[v] = count_of(result.vertices);
-        if (place >= 0) of_place[place] = number[v];
         result.vertices.push_back(sheets.points[v]);
         result.vertex_key.push_back(make_key(input_node, number[v]));
     }

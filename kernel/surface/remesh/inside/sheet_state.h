@@ -84,10 +84,13 @@ SheetState sheet_state(const InputShape& input, const std::vector<char>& kept);
 /// #F).
 void find_regions(const InputShape& input, double share, SheetState& state);
 
+/// Returns for each vertex the first of the copies at its place. O(#V).
+std::vector<std::int32_t> first_copies(const SheetArrays& sheets);
+
 /// Returns the facets in their order, with one vertex at each place, whose key is its number. O(#V + #F).
 SurfaceArrays joined_surface(const SheetArrays& sheets);
 
-/// Returns the number of features among the first copies of edges. O(#F).
+/// Returns the number of edges that are features, of a seam one. O(#F log #F).
 std::int64_t count_features(const SheetArrays& sheets);
 
 }  // namespace kerf
