@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <numeric>
 
+#include "base/core/threads.h"
 #include "base/geometry/box.h"
 
 namespace kerf {
@@ -24,13 +26,14 @@ constexpr std::size_t least_pairs = 10, vertices_per_pair = 50;
 class Columns {
  public:
     Columns(const std::vector<Vec3>& vertices, int axis, double tolerance)
-        : vertices_(vertices), axis_(axis), tolerance_(tolerance), order_(vertices.size()) {
-        std::iota(order_.begin(), order_.end(), 0);
-        std::sort(order_.begin(), order_.end(), [&](std::int32_t v, std::int32_t w) {
-            const auto column_v = column(v), column_w = column(w);
-            if (column_v != column_w) return column_v < column_w;
-            return height(v) != height(w) ? height(v) < height(w) : v < w;
+        : tolerance_(tolerance), order_(vertices.size()) {
+        for_ranges_on_threads(vertices.size(), std::size_t{1} << 14, [&](const IndexRange& range) {
+            for (std::size_t v = range.first; v < range.last; ++v) {
+                const auto place = [&](int i) { return std::llround(vertices[v][(axis + i) % 3] / tolerance); };
+                order_[v] = {{place(1), place(2)}, vertices[v][axis], static_cast<std::int32_t>(v)};
+            }
         });
+        sort_on_threads(order_);
     }
 
     // The largest distance, of those above `least`, that has at least half as many pairs as any; 0 if these are too
@@ -41,7 +44,7 @@ class Columns {
             if (last - first > most_in_a_column) return;
             for (std::size_t i = first; i < last; ++i)
                 for (std::size_t j = i + 1; j < last; ++j)
-                    if (const double d = height(order_[j]) - height(order_[i]); d > least) distances.push_back(d);
+                    if (const double d = order_[j].height - order_[i].height; d > least) distances.push_back(d);
         });
         std::sort(distances.begin(), distances.end());
         std::vector<std::size_t> ends;  // of those that agree with the first of them
@@ -51,7 +54,7 @@ class Columns {
             ends.push_back(last);
             most = std::max(most, last - first);
         }
-        const std::size_t wanted = std::max({least_pairs, vertices_.size() / vertices_per_pair, (most + 1) / 2});
+        const std::size_t wanted = std::max({least_pairs, order_.size() / vertices_per_pair, (most + 1) / 2});
         for (std::size_t first = distances.size(); first-- > 0;)
             if (ends[first] - first >= wanted) return distances[(first + ends[first]) / 2];
         return 0;
@@ -59,35 +62,34 @@ class Columns {
 
     // Returns for each vertex the one that lies a period above it, or -1.
     std::vector<std::int32_t> partners_above(double period) const {
-        std::vector<std::int32_t> partner(vertices_.size(), -1);
+        std::vector<std::int32_t> partner(order_.size(), -1);
         for_each_column([&](std::size_t first, std::size_t last) {
             for (std::size_t i = first, j = first; i < last; ++i) {
-                const double wanted = height(order_[i]) + period;
-                while (j < last && height(order_[j]) < wanted - tolerance_) ++j;
-                if (j < last && height(order_[j]) <= wanted + tolerance_) partner[order_[i]] = order_[j];
+                const double wanted = order_[i].height + period;
+                while (j < last && order_[j].height < wanted - tolerance_) ++j;
+                if (j < last && order_[j].height <= wanted + tolerance_) partner[order_[i].vertex] = order_[j].vertex;
             }
         });
         return partner;
     }
 
  private:
-    double height(std::int32_t v) const { return vertices_[v][axis_]; }
-    std::array<std::int64_t, 2> column(std::int32_t v) const {
-        const auto place = [&](int axis) { return std::llround(vertices_[v][axis] / tolerance_); };
-        return {place((axis_ + 1) % 3), place((axis_ + 2) % 3)};
-    }
+    struct Entry {
+        std::array<long long, 2> column{};
+        double height = 0;
+        std::int32_t vertex = -1;
+        auto operator<=>(const Entry&) const = default;
+    };
     template <class Visit>
     void for_each_column(const Visit& visit) const {
         for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
-            while (last < order_.size() && column(order_[last]) == column(order_[first])) ++last;
+            while (last < order_.size() && order_[last].column == order_[first].column) ++last;
             visit(first, last);
         }
     }
 
-    const std::vector<Vec3>& vertices_;
-    int axis_;
     double tolerance_;
-    std::vector<std::int32_t> order_;
+    std::vector<Entry> order_;
 };
 
 Triangle sorted(Triangle t) {

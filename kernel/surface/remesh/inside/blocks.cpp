@@ -6,6 +6,7 @@
 #include "surface/remesh/inside/blocks.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -22,8 +23,8 @@ namespace kerf {
 
 namespace {
 
-// The surface has about so many blocks, and more where each would have more facets than `most_block`: large blocks
-// leave processors without work.
+// The surface has so many blocks, and more where each would have more facets than `most_block`: large blocks leave
+// processors without work. Small surfaces have fewer, a power of two, lest one is left when all others are done.
 constexpr double blocks_of_surface = 8, most_block = 4e4;
 constexpr int rings_beside_borders = 2;
 
@@ -226,8 +227,8 @@ std::int32_t divide_along_curve(SheetState& state, const std::vector<char>& chos
         sum += weights[f];
     }
     if (facets.empty()) return 0;
-    const double wanted = std::max(std::min(sum / blocks_of_surface, most_block), least);
-    const auto count = static_cast<std::int32_t>(std::max(1., std::round(sum / wanted)));
+    const auto few = std::bit_floor(static_cast<std::uint32_t>(std::clamp(sum / least, 1., blocks_of_surface)));
+    const auto count = std::max(static_cast<std::int32_t>(few), static_cast<std::int32_t>(std::round(sum / most_block)));
     const Eigen::Matrix3d turn = is_turned ? turned_axes() : Eigen::Matrix3d::Identity();
     Eigen::AlignedBox3d box;
     for (const Vec3& p : all.points) box.extend(turn * p);

@@ -19,7 +19,8 @@ constexpr std::array bounds = {0.2, 0.6, 0.75, 0.9, 1.0};
 // The divisions allowed for one facet in the proof: it may be near all of the other surface, along whose facets it is
 // divided.
 constexpr std::size_t least_divisions = 100'000, divisions_per_facet = 16;
-constexpr std::size_t facets_of_range = 1 << 11;
+// Each range finds its bound anew, so there are few; but enough for all threads.
+constexpr std::size_t least_of_range = 1 << 5, most_of_range = 1 << 11, ranges_wanted = 16;
 
 // A surface to which the facets of another one are near.
 class Side {
@@ -61,7 +62,9 @@ struct Comparison {
 Comparison compare(const SurfaceArrays& surface, const std::vector<char>& same, const std::vector<std::int32_t>& hints,
                    const Nearness& other, std::size_t facets_of_other, double deviation,
                    const CancellationCheck& check_cancelled) {
-    const auto ranges = values_of_ranges(surface.facets.size(), facets_of_range, [&](const IndexRange& range) {
+    const std::size_t count = surface.facets.size();
+    const std::size_t grain = std::clamp(count / ranges_wanted, least_of_range, most_of_range);
+    const auto ranges = values_of_ranges(count, grain, [&](const IndexRange& range) {
         Side side(other, facets_of_other, deviation);
         Comparison found;
         for (std::size_t f = range.first; f < range.last; ++f) {

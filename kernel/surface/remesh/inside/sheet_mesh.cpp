@@ -36,7 +36,11 @@ SheetMesh::SheetMesh(const SheetPiece& piece) {
         if (has_copies(vertex)) places_[data(vertex).place].push_back(vertex);
     }
     seams_.resize(piece.seams);
-    for (std::int32_t f = 0; f < count_of(arrays.corners); ++f) data(FaceHandle(f)) = arrays.facets[f];
+    sines_.reserve(arrays.corners.size());
+    for (std::int32_t f = 0; f < count_of(arrays.corners); ++f) {
+        data(FaceHandle(f)) = arrays.facets[f];
+        sines_.push_back(sine_of(FaceHandle(f)));
+    }
     for (std::int32_t f = 0; f < count_of(arrays.corners); ++f) {
         HalfedgeHandle h = halfedge_handle(FaceHandle(f));
         for (int i = 0; i < 3; ++i, h = next_halfedge_handle(h)) {
@@ -83,6 +87,11 @@ void SheetMesh::connect(const SheetPiece& piece) {
 
 SheetArrays SheetMesh::arrays() const {
     SheetArrays result;
+    result.points.reserve(n_vertices());
+    result.vertices.reserve(n_vertices());
+    result.corners.reserve(n_faces());
+    result.facets.reserve(n_faces());
+    result.edges.reserve(3 * n_faces());
     std::vector<std::int32_t> number(n_vertices(), -1);
     for (const auto v : vertices()) {
         number[v.idx()] = count_of(result.points);
@@ -134,7 +143,7 @@ SheetMesh::Corners SheetMesh::corners(FaceHandle f) const {
     return {point(from_vertex_handle(h)), point(to_vertex_handle(h)), point(to_vertex_handle(next))};
 }
 
-double SheetMesh::sine(FaceHandle f) const {
+double SheetMesh::sine_of(FaceHandle f) const {
     const auto [a, b, c] = corners(f);
     return smallest_sine(a, b, c);
 }
@@ -192,6 +201,8 @@ std::int64_t SheetMesh::last_change(EdgeHandle e) const {
 }
 
 void SheetMesh::note_change(FaceHandle f, std::int64_t operation) {
+    if (f.idx() >= count_of(sines_)) sines_.resize(f.idx() + 1);
+    sines_[f.idx()] = sine_of(f);
     data(f).changed = operation;
     for (const auto v : fv_range(f)) data(v).changed = operation;
 }

@@ -83,8 +83,8 @@ class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
     // --- shape ---
 
     Corners corners(FaceHandle f) const;
-    /// Returns the sine of the smallest angle of a facet.
-    double sine(FaceHandle f) const;
+    /// Returns the sine of the smallest angle of a facet, as it was at its last change.
+    double sine(FaceHandle f) const { return sines_[f.idx()]; }
     double size(VertexHandle v) const { return data(v).wanted.length; }
     /// Returns the number of features that meet at the vertex, at this copy alone.
     int feature_count(VertexHandle v) const;
@@ -113,13 +113,16 @@ class SheetMesh : public OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits> {
     /// that was refused since then would be refused again.
     std::int64_t last_change(VertexHandle v) const;
     std::int64_t last_change(EdgeHandle e) const;
+    /// To be called for each facet that is new or has got other corners.
     void note_change(FaceHandle f, std::int64_t operation);
 
  private:
     using Base = OpenMesh::TriMesh_ArrayKernelT<SheetMeshTraits>;
 
     void connect(const SheetPiece& piece);
+    double sine_of(FaceHandle f) const;
 
+    std::vector<double> sines_;                      // by facet; they are asked far more often than they change
     std::vector<std::vector<VertexHandle>> places_;  // only vertices that are left
     std::vector<std::vector<EdgeHandle>> seams_;
 };
