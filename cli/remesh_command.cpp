@@ -1,11 +1,13 @@
 // kerf remesh and kerf wrap: a surface worth meshing, made of one that could be meshed (remesh) or of any other (wrap),
 // as a file.
 #include <algorithm>
+#include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/core/number_text.h"
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/option_flags.h"
@@ -22,6 +24,7 @@ namespace {
 struct RemeshRequest {
     RunRequest options;
     std::string output;
+    bool only_bad = false;
     bool quiet = false;
 };
 
@@ -36,14 +39,22 @@ bool shapes_surface(const std::string& name) {
 }
 
 int remesh_and_tell(const RemeshRequest& request) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const Remeshing how = request.only_bad ? Remeshing::where_needed : Remeshing::always;
     RemeshedFile written;
     {
         ProgressLine progress(request.quiet, nullptr);
-        written = remesh_file(request.options, request.output, &progress);
+        written = remesh_file(request.options, request.output, &progress, how);
     }
     if (request.quiet) return 0;
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double rate = static_cast<double>(written.facets) / seconds;
     if (written.wrapped) tell(fmt::format("kerf: wrapped: {}\n", to_text(*written.wrapped)));
-    tell(fmt::format("kerf: {}: {} facets, {}\n", request.output, written.facets, remeshing_text(written.done)));
+    for (const std::string& note : written.notes) tell(fmt::format("kerf: {}\n", note));
+    tell(fmt::format("kerf: {}: {} facets, {}\n", request.output, grouped(written.facets),
+                     written.done ? remeshing_text(*written.done) : "none of them bad: as they were"));
+    tell(fmt::format("kerf: {:.2f} s, {} facets/s\n", seconds, short_number(rate)));
     if (written.found_size) tell(fmt::format("kerf: cells {}\n", found_size_text(*written.found_size)));
     return 0;
 }
@@ -63,6 +74,12 @@ void add_surface_command(CLI::App& kerf, int& exit_code, bool is_wrap) {
     add_surface_output(*command, request->output);
     for (const OptionField& field : option_fields(request->options))
         if (shapes_surface(field.name)) add_option_field(*command, field);
+    if (!is_wrap)
+        command
+            ->add_flag("--only-bad", request->only_bad,
+                       "Change facets with angles below 10 degrees, and those around them, alone, as kerf mesh does "
+                       "by itself.")
+            ->group(option_group::input);
     heed_unit(*command, request->options.input_options);
     command->add_flag("-q,--quiet", request->quiet, "Print nothing but errors.");
     std::vector<std::string> common = {"output",      "size",          "deviation", "size-on",

@@ -203,7 +203,16 @@ TEST(RemeshedInput, IsAsFineAsItIsWanted) {
 TEST(FinerShares, NameTheReason) {
     const auto shares = [](const Soup& body, double deviation, double longest) {
         RemeshOptions options = {.deviation = deviation, .longest = longest};
-        return remesh(test::to_arrays(body), options).report.finer;
+        const Remeshed result = remesh(test::to_arrays(body), options);
+        const FinerShares& finer = result.report.finer;
+        const FacetsByReason& by = result.report.facets_by;
+        const auto facets = std::ssize(result.surface.facets);
+        EXPECT_EQ(by.asked + by.bound + by.features + by.walls, facets);
+        for (const auto& [share, count] :
+             {std::pair(finer.bound, by.bound), {finer.features, by.features}, {finer.walls, by.walls}}) {
+            EXPECT_EQ(share > 0, count > 0);
+        }
+        return finer;
     };
     const FinerShares ball = shares(test::icosphere(4), 1e-3, 1), coarse_ball = shares(test::icosphere(4), 1e-3, 0.05);
     EXPECT_GT(ball.bound, 0.95);

@@ -61,17 +61,24 @@ class WrongRow : public Error {
     WrongRow(const std::string& message, const ErrorElements& rows) : Error(ErrorCode::input, message, {rows}) {}
 };
 
+/// The smallest angles of facets, in degrees.
+struct FacetAngles {
+    double smallest = 0;       ///< of all
+    double first_percent = 0;  ///< one in a hundred facets has a smaller one
+};
+
 /// Report of the remeshing, or division, of a surface (run/prepare/remeshing.h).
 struct InputRemeshing {
     std::int64_t facets_before = 0;
     std::int64_t facets_kept = 0;  ///< facets of these that stay: no sliver is near, or they are as small as wanted
     bool only_divided = false;     ///< the shape is the same
-    double smallest_angle_before_deg = 0, smallest_angle_deg = 0;
+    FacetAngles angles_before, angles;
     double deviation = 0;  ///< the deviation that was allowed, units of the input
     double distance_to_input = 0,
            distance_from_input = 0;  ///< largest distances that were found, from the new surface and from the old
     std::int64_t feature_edges = 0;  ///< feature edges of the new surface
     FinerShares finer = {};          ///< shares of edges that the shape wants smaller than sizes do, if any
+    FacetsByReason facets_by = {};   ///< none if facets are divided alone
     Array<RegionIndex, double> volumes_before = {};  ///< volumes of the regions
     /// Whether the volume may change: where a deviation was asked for, where the surface is a wrap, and before vertices
     /// are put on the curved faces of a CAD model.

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "run/prepare/cells.h"
 #include "run/prepare/input.h"
@@ -18,13 +19,15 @@ SizedInput remesh_always(Input input, RunRequest options, StageListener* listene
 /// Report on a file that remesh_file() has written.
 struct RemeshedFile {
     std::int64_t facets = 0;
-    InputRemeshing done;
+    std::optional<InputRemeshing> done;   ///< none: no facet was bad, and only bad ones were asked for
     std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
     std::optional<WrapReport> wrapped = {};
+    std::vector<std::string> notes = {};  ///< Input::notes
 };
 
-/// Applies remesh_always() to options.input, and writes the surface to `output` as write_surface() does. Throws Error,
-/// before the work where the output cannot be written.
-RemeshedFile remesh_file(RunRequest options, const std::string& output, StageListener* listener = nullptr);
+/// Applies remesh_always() to options.input, or remeshes it as `how` says in place of options.remeshing, and writes the
+/// surface to `output` as write_surface() does. Throws Error, before the work where the output cannot be written.
+RemeshedFile remesh_file(RunRequest options, const std::string& output, StageListener* listener = nullptr,
+                         Remeshing how = Remeshing::always);
 
 }  // namespace kerf

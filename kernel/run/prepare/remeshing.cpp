@@ -61,9 +61,11 @@ std::vector<double> smallest_sines(const std::vector<Vec3>& vertices, const std:
 
 double in_degrees(double sine) { return std::asin(std::min(1.0, sine)) * deg_per_rad; }
 
-double smallest_angle(const SurfaceArrays& surface) {
-    const std::vector<double> sines = smallest_sines(surface.vertices, surface.facets);
-    return in_degrees(*std::min_element(sines.begin(), sines.end()));
+FacetAngles facet_angles(const SurfaceArrays& surface) {
+    std::vector<double> sines = smallest_sines(surface.vertices, surface.facets);
+    const auto first_percent = sines.begin() + std::ssize(sines) / 100;
+    std::nth_element(sines.begin(), first_percent, sines.end());
+    return {in_degrees(*std::min_element(sines.begin(), first_percent + 1)), in_degrees(*first_percent)};
 }
 
 // Lengths in space that the options ask for; the growth from the surface's own edges, which are to change, is not.
@@ -306,13 +308,14 @@ Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, c
 
     input.remeshed = {.facets_before = input.facets,
                       .facets_kept = std::count(wanted.kept.begin(), wanted.kept.end(), char{1}),
-                      .smallest_angle_before_deg = smallest_angle(before),
-                      .smallest_angle_deg = smallest_angle(result.surface),
+                      .angles_before = facet_angles(before),
+                      .angles = facet_angles(result.surface),
                       .deviation = wanted.deviation,
                       .distance_to_input = result.report.distance_to_input,
                       .distance_from_input = result.report.distance_from_input,
                       .feature_edges = result.report.feature_edges,
                       .finer = wanted.wanted ? result.report.finer : FinerShares(),
+                      .facets_by = result.report.facets_by,
                       .volumes_before = region_volumes(input),
                       .may_change_volume = may_change_volume(input, options)};
     if (result.report.facets_left > 0)
@@ -343,8 +346,8 @@ Input divided(Input input, const SurfaceArrays& before, const RunRequest& option
     input.remeshed = {.facets_before = input.facets,
                       .facets_kept = result.kept,
                       .only_divided = true,
-                      .smallest_angle_before_deg = smallest_angle(before),
-                      .smallest_angle_deg = smallest_angle(result.surface),
+                      .angles_before = facet_angles(before),
+                      .angles = facet_angles(result.surface),
                       .volumes_before = region_volumes(input)};
     input.complex = with_pieces(input.complex, std::move(result));
     measure_input(input);

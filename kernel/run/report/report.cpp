@@ -161,19 +161,37 @@ std::string division_text(const InputRemeshing& done) {
                        grouped(done.facets_before - done.facets_kept), grouped(done.facets_before));
 }
 
-// Returns the reasons other than the size for short edges, and the way to change that.
-std::string finer_text(const FinerShares& finer) {
+// Shares of something by their reasons, without those below a hundredth.
+std::string reasons_text(double curved, double features, double walls, const char* way_out) {
     constexpr double told_share = 0.01;
     std::vector<std::string> reasons;
-    const auto add = [&](double share, const char* reason) {
+    const auto add = [&](double share, const std::string& reason) {
         if (share >= told_share) reasons.push_back(fmt::format("{:.0f} % {}", 100 * share, reason));
     };
-    add(finer.bound, "because it is curved (a larger --deviation allows longer edges)");
-    add(finer.features, "in strips between features");
-    add(finer.walls, "at thin walls");
+    add(curved, fmt::format("because it is curved{}", way_out));
+    add(features, "in strips between features");
+    add(walls, "at thin walls");
+    return fmt::format("{}", fmt::join(reasons, ", "));
+}
+
+// Returns the reasons other than the size for short edges, and the way to change that.
+std::string finer_text(const FinerShares& finer) {
+    const std::string reasons =
+        reasons_text(finer.bound, finer.features, finer.walls, " (a larger --deviation allows longer edges)");
     if (reasons.empty()) return "";
-    return fmt::format("; finer than asked for on {:.0f} % of the area: {}", 100 * finer.sum(),
-                       fmt::join(reasons, ", "));
+    return fmt::format("; finer than asked for on {:.0f} % of the area: {}", 100 * finer.sum(), reasons);
+}
+
+// Returns what makes many facets of few where no size does, and the way to fewer.
+std::string many_text(const InputRemeshing& done) {
+    constexpr double many = 4;  // times as many as before
+    const FacetsByReason& by = done.facets_by;
+    const auto facets = static_cast<double>(by.asked + by.bound + by.features + by.walls);
+    const double times = facets / static_cast<double>(std::max<std::int64_t>(1, done.facets_before));
+    const auto share = [&](std::int64_t count) { return static_cast<double>(count) / facets; };
+    if (times <= many || done.finer.sum() > 0 || share(by.asked) > 0.5) return "";
+    return fmt::format("; {:.1f} times as many facets, {}: --fineness coarse or a larger --deviation makes fewer",
+                       times, reasons_text(share(by.bound), share(by.features), share(by.walls), ""));
 }
 
 }  // namespace
@@ -193,12 +211,14 @@ std::string repairs_text(const TidyCounts& tidied, const RepairReport& ladder, c
 }
 
 std::string remeshing_text(const InputRemeshing& done) {
+    if (done.only_divided) return "divided: " + division_text(done);
     const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
     return fmt::format(
-        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}; largest distances {:.2g} and {:.2g} of "
-        "{:.2g}{}",
-        grouped(done.facets_before), kept, done.smallest_angle_deg, done.smallest_angle_before_deg,
-        done.distance_to_input, done.distance_from_input, done.deviation, finer_text(done.finer));
+        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}, 1 % {:.3g} from {:.3g}; largest distances {:.2g} and "
+        "{:.2g} of {:.2g}{}{}",
+        grouped(done.facets_before), kept, done.angles.smallest, done.angles_before.smallest, done.angles.first_percent,
+        done.angles_before.first_percent, done.distance_to_input, done.distance_from_input, done.deviation,
+        finer_text(done.finer), many_text(done));
 }
 
 namespace {

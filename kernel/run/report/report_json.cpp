@@ -78,8 +78,10 @@ Json input_json(const Input& input) {
         json["remeshing"] = {{"facets_before", input.remeshed->facets_before},
                              {"facets_kept", input.remeshed->facets_kept},
                              {"only_divided", input.remeshed->only_divided},
-                             {"smallest_angle_before_deg", input.remeshed->smallest_angle_before_deg},
-                             {"smallest_angle_deg", input.remeshed->smallest_angle_deg},
+                             {"smallest_angle_before_deg", input.remeshed->angles_before.smallest},
+                             {"smallest_angle_deg", input.remeshed->angles.smallest},
+                             {"angle_1_percent_before_deg", input.remeshed->angles_before.first_percent},
+                             {"angle_1_percent_deg", input.remeshed->angles.first_percent},
                              {"deviation", input.remeshed->deviation},
                              {"distance_to_input", input.remeshed->distance_to_input},
                              {"distance_from_input", input.remeshed->distance_from_input},
@@ -88,7 +90,12 @@ Json input_json(const Input& input) {
                              {"finer_by",
                               {{"deviation", input.remeshed->finer.bound},
                                {"features", input.remeshed->finer.features},
-                               {"walls", input.remeshed->finer.walls}}}};
+                               {"walls", input.remeshed->finer.walls}}},
+                             {"facets_by",
+                              {{"size", input.remeshed->facets_by.asked},
+                               {"deviation", input.remeshed->facets_by.bound},
+                               {"features", input.remeshed->facets_by.features},
+                               {"walls", input.remeshed->facets_by.walls}}}};
     return json;
 }
 

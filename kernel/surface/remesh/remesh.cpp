@@ -67,10 +67,11 @@ std::vector<InputPlace> places_on(const TriangleTree& input, const ChangedSurfac
     return places;
 }
 
-// Returns the shares of the area in which some corner has a smaller size than the user asks for there; the corner with
-// the smallest ratio gives the reason.
-FinerShares finer_shares(const SheetArrays& sheets) {
+// Tells the reasons for the sizes at the corners of facets: by the area in which some corner has a smaller size than
+// the user asks for there, and by facets. The corner with the smallest ratio gives the reason.
+void tell_reasons(const SheetArrays& sheets, RemeshReport& report) {
     std::array<double, 4> finer{};
+    std::array<std::int64_t, 4> facets{};
     double all = 0;
     for (std::size_t f = 0; f < sheets.corners.size(); ++f) {
         const double area = area_normal(sheets.triangle(f)).norm();
@@ -85,10 +86,14 @@ FinerShares finer_shares(const SheetArrays& sheets) {
             }
         }
         if (least < as_asked) finer[static_cast<std::size_t>(rule)] += area;
+        ++facets[static_cast<std::size_t>(rule)];
     }
-    if (!(all > 0)) return {};
-    const auto share = [&](LengthRule rule) { return finer[static_cast<std::size_t>(rule)] / all; };
-    return {share(LengthRule::bound), share(LengthRule::features), share(LengthRule::walls)};
+    const auto of = [](const auto& sums, LengthRule rule) { return sums[static_cast<std::size_t>(rule)]; };
+    if (all > 0)
+        report.finer = {of(finer, LengthRule::bound) / all, of(finer, LengthRule::features) / all,
+                        of(finer, LengthRule::walls) / all};
+    report.facets_by = {of(facets, LengthRule::asked), of(facets, LengthRule::bound), of(facets, LengthRule::features),
+                        of(facets, LengthRule::walls)};
 }
 
 ChangedSurface changed_surface(const SheetArrays& sheets) {
@@ -306,7 +311,7 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& asked) {
             result = changed_surface(shaped.arrays);
             report.rounds = round;
             report.feature_edges = count_features(shaped.arrays);
-            report.finer = finer_shares(shaped.arrays);
+            tell_reasons(shaped.arrays, report);
         }
         const Inspection inspection = restore_volumes_within_bound(inspected, options, kept, result);
         const std::vector<char>& refused = inspection.refused;

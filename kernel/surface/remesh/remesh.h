@@ -45,6 +45,14 @@ struct FinerShares {
     double sum() const { return bound + features + walls; }
 };
 
+/// The facets of a result by what decides about the smallest length that is wanted at their corners.
+struct FacetsByReason {
+    std::int64_t asked = 0;     ///< `wanted` and `longest`, or growth from where these decide
+    std::int64_t bound = 0;     ///< as in FinerShares
+    std::int64_t features = 0;  ///< as in FinerShares
+    std::int64_t walls = 0;     ///< as in FinerShares
+};
+
 struct RemeshReport {
     std::int64_t rounds = 0;  ///< one more for each time that all was done again with smaller tolerances
     double distance_to_input = 0,
@@ -52,6 +60,7 @@ struct RemeshReport {
                                      ///< proven
     std::int64_t feature_edges = 0;  ///< of the new surface
     FinerShares finer;
+    FacetsByReason facets_by;
     std::int64_t facets_left = 0;  ///< facets of the input kept as they were, because no change of them stayed within
                                    ///< the bound
     double volume_difference = 0;  ///< of a region against its volume in the input, the largest of all, relative

@@ -115,11 +115,37 @@ TEST_F(FileDiagnosisTest, ARemeshedFileHasTheFacetsThatAreTold) {
     options.sizes.size = Length(0.25);
     const RemeshedFile written = remesh_file(options, folder_.file("fine.obj"));
     EXPECT_GT(written.facets, 12);
-    EXPECT_EQ(written.done.facets_before, 12);
+    EXPECT_EQ(written.done->facets_before, 12);
     EXPECT_EQ(diagnose_file(folder_.file("fine.obj")).checked.soup.facets.size(),
               static_cast<std::size_t>(written.facets));
     EXPECT_THROW(remesh_file(options, folder_.file("fine.vtu")), Error);
     EXPECT_FALSE(std::filesystem::exists(folder_.file("fine.vtu")));
+}
+
+TEST_F(FileDiagnosisTest, GoodFacetsStayWhereOnlyBadOnesAreRemeshed) {
+    RunRequest options;
+    const std::string output = folder_.file("better.obj");
+    const auto remesh_bad = [&](const Soup& soup) {
+        options.input = write(soup, "given.stl");
+        return remesh_file(options, output, nullptr, Remeshing::where_needed);
+    };
+    const RemeshedFile good = remesh_bad(test::box());
+    EXPECT_FALSE(good.done);
+    EXPECT_EQ(good.facets, 12);
+    EXPECT_EQ(diagnose_file(output).checked.soup.facets.size(), 12u);
+    // A needle in one corner of a fine box: what is far from it stays.
+    Soup needle = test::box({0, 0, 0}, {1, 1, 1}, {8, 8, 8});
+    for (Vec3& p : needle.vertices)
+        if (p.isApprox(Vec3(0.125, 0.125, 0))) p = {0.001, 0.125, 0};
+    const auto facets = static_cast<std::int64_t>(needle.facets.size());
+    const RemeshedFile some = remesh_bad(needle);
+    ASSERT_TRUE(some.done);
+    EXPECT_FALSE(some.notes.empty());
+    EXPECT_GT(some.done->facets_kept, facets / 2);
+    EXPECT_LT(some.done->facets_kept, facets);
+    EXPECT_LT(some.done->angles_before.smallest, 1);
+    EXPECT_GT(some.done->angles.smallest, 10);
+    EXPECT_GE(some.done->angles.first_percent, some.done->angles.smallest);
 }
 
 TEST_F(FileDiagnosisTest, RemeshedRegionsAreReadAgainAsBodiesThatTouch) {

@@ -25,7 +25,7 @@ namespace {
 
 // The surface has so many blocks, and more where each would have more facets than `most_block`: large blocks leave
 // processors without work. Small surfaces have fewer, a power of two, lest one is left when all others are done.
-constexpr double blocks_of_surface = 8, most_block = 4e4;
+constexpr double blocks_of_surface = 16, most_block = 2e4;
 constexpr int rings_beside_borders = 2;
 
 // How often places and seams occur in the whole surface, by corners.
@@ -228,7 +228,8 @@ std::int32_t divide_along_curve(SheetState& state, const std::vector<char>& chos
     }
     if (facets.empty()) return 0;
     const auto few = std::bit_floor(static_cast<std::uint32_t>(std::clamp(sum / least, 1., blocks_of_surface)));
-    const auto count = std::max(static_cast<std::int32_t>(few), static_cast<std::int32_t>(std::round(sum / most_block)));
+    const auto count =
+        std::max(static_cast<std::int32_t>(few), static_cast<std::int32_t>(std::round(sum / most_block)));
     const Eigen::Matrix3d turn = is_turned ? turned_axes() : Eigen::Matrix3d::Identity();
     Eigen::AlignedBox3d box;
     for (const Vec3& p : all.points) box.extend(turn * p);
