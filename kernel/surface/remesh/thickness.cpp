@@ -22,7 +22,7 @@ namespace {
 
 constexpr double opposite_cosine = -0.1;     // of the normals of two sheets with a body or a gap between them
 constexpr int most_pieces_of_side = 64;      // of a side of a facet, for samples
-constexpr double least_per_thickness = 0.1;  // before edges become longer than some walls ask for
+constexpr double least_per_thickness = 0.1;  // edges ten times as long as a wall is thick make angles of 6 degrees
 constexpr int most_steps_to_afford = 8;
 constexpr double samples_of_surface = 20'000;  // besides those that each facet has
 
@@ -92,12 +92,17 @@ double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, 
     return std::numeric_limits<double>::infinity();
 }
 
+double WallEdges::of(double thickness) const {
+    if (thickness < least_per_thickness * shortest) return longest;
+    return std::min(std::max(thickness / per_thickness, shortest), longest);
+}
+
 namespace {
 
 double facets_on_walls(const std::vector<ThicknessSample>& samples, const WallEdges& edges) {
     double sum = 0;
     for (const ThicknessSample& s : samples) {
-        const double edge = std::min(std::max(s.thickness / edges.per_thickness, edges.shortest), edges.longest);
+        const double edge = edges.of(s.thickness);
         sum += s.area / (edge * edge);
     }
     return sum / facet_area_per_squared_length;

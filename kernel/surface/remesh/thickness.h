@@ -36,6 +36,10 @@ class Thickness {
 struct WallEdges {
     double per_thickness = 0;          ///< edges across the body; 0: walls ask for nothing
     double shortest = 0, longest = 0;  ///< bounds of their lengths, > 0
+
+    /// Returns the length of edges where the body is so thick; `longest` where even the shortest edges are more than ten
+    /// times as long as that: cells are bad there anyway.
+    double of(double thickness) const;
 };
 
 /// A point of a surface: the thickness there, and the area that it stands for.
@@ -53,7 +57,7 @@ double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, 
 
 /// Returns `wanted`, or fewer edges across walls, and longer ones, if the walls of a very thin body would ask for more
 /// than about `most` facets. Once edges are ten times as long as a wall is thick, only the shortest become longer, in a
-/// few steps, so that there may still be more facets than that. O(#F log #F).
+/// few steps, so that there may still be more facets than that. O(#F log #F), on threads.
 WallEdges affordable_edges(const SurfaceArrays& surface, const Thickness& thickness, const WallEdges& wanted,
                            double most);
 

@@ -202,8 +202,7 @@ WantedLength FoldSizes::at(const SheetMesh& mesh, BoundedSurface::Vertex v, doub
             return false;
         });
     size.length = std::max(size.length, options_.shortest);
-    if (options_.edges_per_thickness > 0)
-        size.shorten(std::max(across_wall(mesh, v, size.length), options_.thinnest), LengthRule::walls);
+    if (options_.walls.per_thickness > 0) size.shorten(at_wall(mesh, v, size.length), LengthRule::walls);
     if (grown.length <= size.length) size = grown;
     size.shorten(asked(mesh, v), LengthRule::asked);
     return size;
@@ -211,7 +210,7 @@ WantedLength FoldSizes::at(const SheetMesh& mesh, BoundedSurface::Vertex v, doub
 
 // The way inwards to a sheet that faces the other way. From a wall it goes both ways, and to sheets that face any way:
 // its own is nearer than they are, by the tolerance.
-double FoldSizes::across_wall(const SheetMesh& mesh, BoundedSurface::Vertex v, double limit) const {
+double FoldSizes::at_wall(const SheetMesh& mesh, BoundedSurface::Vertex v, double limit) const {
     const bool is_wall = mesh.data(*mesh.cvf_begin(v)).is_wall;
     const double nearest = is_wall ? 2 * mesh.data(v).tolerance : 1e-6 * options_.longest;
     const auto thickness = [&](const Vec3& inwards) {
@@ -219,13 +218,13 @@ double FoldSizes::across_wall(const SheetMesh& mesh, BoundedSurface::Vertex v, d
             const double cosine = input_.normal(facet).dot(inwards);
             return (input_.is_wall(facet) ? std::abs(cosine) : cosine) > 0.5;
         };
-        return input_.tree().first_hit(mesh.point(v), inwards, nearest, limit * options_.edges_per_thickness,
+        return input_.tree().first_hit(mesh.point(v), inwards, nearest, limit * options_.walls.per_thickness,
                                        faces_away);
     };
     const Vec3 inwards = -vertex_normal(mesh, v);
     double least = thickness(inwards);
     if (is_wall) least = std::min(least, thickness(-inwards));
-    return least / options_.edges_per_thickness;
+    return options_.walls.of(least);
 }
 
 }  // namespace kerf

@@ -8,15 +8,15 @@
 
 #include "base/core/cancellation.h"
 #include "surface/remesh/inside/bounded_surface.h"
+#include "surface/remesh/thickness.h"
 
 namespace kerf {
 
 struct FoldSizeOptions {
     double longest = 0;                                       ///< upper bound everywhere, > 0
     double shortest = 0;                                      ///< lower bound of the sizes that folds ask for
-    double thinnest = 0;                                      ///< lower bound of the sizes that walls ask for
     double growth = 0.4;                                      ///< increase of the size per distance
-    double edges_per_thickness = 0;                           ///< across a wall; 0: walls ask for nothing
+    WallEdges walls = {};                                     ///< the edges that walls ask for
     std::function<double(const Vec3&, std::int32_t)> wanted;  ///< size that the user wants at a point of a patch, if
                                                               ///< given
     CancellationCheck check_cancelled = {};                   ///< called while sizes are found
@@ -42,7 +42,7 @@ class FoldSizes {
     void find_folds(BoundedSurface& surface);
     WantedLength at(const SheetMesh& mesh, BoundedSurface::Vertex v, double own_chord, const WantedLength& grown) const;
     double straight_length(const SheetMesh& mesh, BoundedSurface::Edge e) const;
-    double across_wall(const SheetMesh& mesh, BoundedSurface::Vertex v, double limit) const;
+    double at_wall(const SheetMesh& mesh, BoundedSurface::Vertex v, double limit) const;
 
     const InputShape& input_;
     FoldSizeOptions options_;

@@ -326,9 +326,8 @@ class Shaping {
 FoldSizeOptions size_options(const RemeshOptions& options) {
     return {.longest = options.longest,
             .shortest = std::max(shortest_over_deviation * options.deviation, shortest_over_longest * options.longest),
-            .thinnest = shortest_on_walls(options),
             .growth = options.growth,
-            .edges_per_thickness = options.edges_per_thickness,
+            .walls = {options.edges_per_thickness, shortest_on_walls(options), options.longest},
             .wanted = options.wanted,
             .check_cancelled = CancellationCheck(options.check_cancelled)};
 }
