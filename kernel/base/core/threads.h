@@ -16,29 +16,43 @@ namespace kerf {
 
 namespace detail {
 
-// The number of threads that may be started beside the running ones.
+// The number of threads that may be started beside the running ones; below 0 while more run than should.
 inline std::atomic<int>& spare_threads() {
     static std::atomic<int> spare(std::max<int>(1, std::thread::hardware_concurrency()) - 1);
     return spare;
 }
 
-// Takes up to `wanted` of the spare threads, and gives them back at its end.
+// Takes up to `wanted` of the spare threads, and gives those back at its end that have not been given back one by one.
 class ThreadLease {
  public:
     explicit ThreadLease(int wanted) {
         int spare = spare_threads();
         while (!spare_threads().compare_exchange_weak(spare, spare - taken_of(spare, wanted))) {
         }
-        count_ = taken_of(spare, wanted);
+        count_ = left_ = taken_of(spare, wanted);
     }
-    ~ThreadLease() { spare_threads() += count_; }
+    ~ThreadLease() { spare_threads() += left_; }
     ThreadLease(const ThreadLease&) = delete;
     ThreadLease& operator=(const ThreadLease&) = delete;
     int count() const { return count_; }
+    void give_back_one() {
+        --left_;
+        ++spare_threads();
+    }
 
  private:
     static int taken_of(int spare, int wanted) { return std::clamp(wanted, 0, std::max(0, spare)); }
     int count_ = 0;
+    std::atomic<int> left_ = 0;
+};
+
+// A thread that waits for others: loops of theirs may have another one in its place.
+class WaitingThread {
+ public:
+    WaitingThread() { ++spare_threads(); }
+    ~WaitingThread() { --spare_threads(); }
+    WaitingThread(const WaitingThread&) = delete;
+    WaitingThread& operator=(const WaitingThread&) = delete;
 };
 
 // The numbers that threads take one after the other, and the exception for the lowest of them.
@@ -86,14 +100,22 @@ void for_each_on_threads(std::size_t count, const Work& work) {
     if (count == 0) return;
     detail::SharedRanges ranges(count);
     {
-        const detail::ThreadLease lease(std::min<std::size_t>(count - 1, 1024));
+        detail::ThreadLease lease(std::min<std::size_t>(count - 1, 1024));
         std::vector<std::jthread> others;
         try {
-            for (int i = 0; i < lease.count(); ++i) others.emplace_back([&] { ranges.work(work); });
+            for (int i = 0; i < lease.count(); ++i)
+                others.emplace_back([&] {
+                    ranges.work(work);
+                    lease.give_back_one();
+                });
         } catch (const std::system_error&) {
             // The system has no more threads for us: those that there are do the work.
         }
         ranges.work(work);
+        if (!others.empty()) {
+            const detail::WaitingThread waiting;
+            others.clear();
+        }
     }
     ranges.rethrow();
 }

@@ -1,6 +1,8 @@
 // What runs on threads gives the same for any number of them, and says what went wrong first.
 #include "base/core/threads.h"
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <numeric>
 #include <random>
@@ -65,6 +67,22 @@ TEST_P(Threads, LoopsMayBeNested) {
     for_each_on_threads(16,
                         [&](std::size_t i) { for_each_on_threads(16, [&](std::size_t j) { ++calls[16 * i + j]; }); });
     EXPECT_EQ(calls, std::vector<int>(16 * 16, 1));
+}
+
+// Of two branches one is long: its loops may have the thread that has done the other one.
+TEST(Threads, AThreadThatWaitsLendsItsPlace) {
+    const ThreadLimitGuard guard;
+    set_thread_limit(2);
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    for (const std::size_t long_one : {0u, 1u}) {
+        std::atomic<bool> is_lent = false;
+        for_each_on_threads(2, [&](std::size_t i) {
+            while (i == long_one && !is_lent && std::chrono::steady_clock::now() < give_up)
+                if (detail::spare_threads() > 0) is_lent = true;
+        });
+        EXPECT_TRUE(is_lent);
+        EXPECT_EQ(detail::spare_threads(), 1);
+    }
 }
 
 TEST_P(Threads, TheFirstExceptionIsThrown) {

@@ -9,6 +9,8 @@
 #include "cut/cut/inside/plane_trial.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <span>
@@ -105,11 +107,15 @@ PlaneTrial::Spanned PlaneTrial::judge(Interface interface) const {
     return {std::move(interface), std::move(verdict)};
 }
 
-PlaneTrial::Spanned PlaneTrial::span(const Attempt& attempt, ContourLayout layout) const {
+// Once another one has been accepted, the result is not wanted any more.
+PlaneTrial::Spanned PlaneTrial::span(const Attempt& attempt, ContourLayout layout,
+                                     const std::atomic<bool>& is_settled) const {
+    if (is_settled) return {};
     InterfaceAttempt built = build_interface(surface_, band_, side_, attempt.loops, hits_, options_, layout);
     if (built.refusal != Refusal::none) return {{}, {built.refusal, std::move(built.failed), {}}};
+    if (is_settled) return {};
     Spanned spanned = judge(std::move(built.interface));
-    if (spanned.verdict.refusal != Refusal::soft) return spanned;
+    if (spanned.verdict.refusal != Refusal::soft || is_settled) return spanned;
     Interface smoothed = spanned.interface;
     smooth_interface(surface_, options_, smoothed);
     return better(std::move(spanned), judge(std::move(smoothed)));
@@ -121,9 +127,15 @@ PlaneTrial::Spanned PlaneTrial::better(Spanned first, Spanned second) const {
 }
 
 void PlaneTrial::span_interface(Attempt& attempt) const {
-    Spanned spanned = span(attempt, ContourLayout::projected);
-    if (spanned.verdict.refusal != Refusal::none)
-        spanned = better(std::move(spanned), span(attempt, ContourLayout::unfolded));
+    constexpr std::array layouts = {ContourLayout::projected, ContourLayout::unfolded};
+    std::array<Spanned, layouts.size()> both;
+    std::atomic<bool> is_settled = false;
+    for_each_on_threads(layouts.size(), [&](std::size_t i) {
+        both[i] = span(attempt, layouts[i], is_settled);
+        if (i == 0 && both[i].verdict.refusal == Refusal::none) is_settled = true;
+    });
+    Spanned spanned = std::move(both[0]);
+    if (spanned.verdict.refusal != Refusal::none) spanned = better(std::move(spanned), std::move(both[1]));
     attempt.interface = std::move(spanned.interface);
     attempt.record.quality = spanned.verdict.quality;
     if (record_) attempt.record.collisions = std::move(spanned.verdict.collisions);

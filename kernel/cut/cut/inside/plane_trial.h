@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <vector>
 
 #include "cut/cut/inside/acceptance.h"
@@ -67,7 +68,7 @@ class PlaneTrial {
     };
     Spanned judge(Interface interface) const;
     Spanned better(Spanned first, Spanned second) const;
-    Spanned span(const Attempt& attempt, ContourLayout layout) const;
+    Spanned span(const Attempt& attempt, ContourLayout layout, const std::atomic<bool>& is_settled) const;
     void span_interface(Attempt& attempt) const;
     void raise_penalty();
 
