@@ -17,6 +17,7 @@
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 #include "surface/remesh/remesh.h"
+#include "surface/remesh/thickness.h"
 #include "surface/size/size_options.h"
 
 namespace kerf {
@@ -197,6 +198,14 @@ TEST(RemeshedInput, IsAsFineAsItIsWanted) {
             EXPECT_GT(static_cast<double>(remesh_where_asked(input, options).facets), 2 * facets);
         }
     }
+}
+
+TEST(WallEdges, AreBoundedAndHopelesslyThinWallsAskForNothing) {
+    const WallEdges edges = {.per_thickness = 0.5, .shortest = 1e-3, .longest = 0.3};
+    EXPECT_DOUBLE_EQ(edges.of(1), 0.3);
+    EXPECT_DOUBLE_EQ(edges.of(0.1), 0.2);
+    EXPECT_DOUBLE_EQ(edges.of(1e-4), 1e-3);
+    EXPECT_DOUBLE_EQ(edges.of(1e-6), 0.3);
 }
 
 // Three bodies, each with one reason for finer edges than asked for.

@@ -22,7 +22,8 @@ namespace {
 
 constexpr double opposite_cosine = -0.1;     // of the normals of two sheets with a body or a gap between them
 constexpr int most_pieces_of_side = 64;      // of a side of a facet, for samples
-constexpr double least_per_thickness = 0.1;  // edges ten times as long as a wall is thick make angles of 6 degrees
+constexpr double least_per_thickness = 0.1;  // before edges become longer than some walls ask for
+constexpr double hopeless_share = 0.01;      // of the shortest edges: makes angles below a degree
 constexpr int most_steps_to_afford = 8;
 constexpr double samples_of_surface = 20'000;  // besides those that each facet has
 
@@ -93,7 +94,7 @@ double median_thickness(const SurfaceArrays& surface, const TriangleTree& tree, 
 }
 
 double WallEdges::of(double thickness) const {
-    if (thickness < least_per_thickness * shortest) return longest;
+    if (thickness < hopeless_share * shortest) return longest;
     return std::min(std::max(thickness / per_thickness, shortest), longest);
 }
 

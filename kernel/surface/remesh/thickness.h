@@ -37,8 +37,8 @@ struct WallEdges {
     double per_thickness = 0;          ///< edges across the body; 0: walls ask for nothing
     double shortest = 0, longest = 0;  ///< bounds of their lengths, > 0
 
-    /// Returns the length of edges where the body is so thick; `longest` where even the shortest edges are more than
-    /// ten times as long as that: cells are bad there anyway.
+    /// Returns the length of edges where the body is so thick; `longest` where even the shortest edges are a hundred
+    /// times as long as that: cells are bad there anyway.
     double of(double thickness) const;
 };
 

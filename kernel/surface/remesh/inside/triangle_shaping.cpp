@@ -37,7 +37,7 @@ constexpr double split_ratio = 1.35, collapse_ratio = 0.6;
 constexpr double coarse_ratio = 6;                // longer edges are split before the surface is divided into blocks
 constexpr double share_of_first_division = 0.85;  // of the time of all
 // Facets of a block: the least that are worth one. Blocks beside borders are long and narrow, and have little border.
-constexpr double least_block = 4e3, least_block_beside_borders = 2e3;
+constexpr double least_block = 8e3, least_block_beside_borders = 2e3;
 constexpr double least_move = 0.03;     // of the size at a vertex
 constexpr double sine_of_good = 0.682;  // of 43 degrees: facets that need no move
 constexpr double sine_of_20 = 0.342, sine_of_10 = 0.1736;
