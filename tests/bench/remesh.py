@@ -143,9 +143,10 @@ def print_sums(comparisons):
         farthest = max((max(row["to_input"], row["from_input"]) for row, _ in done), default=0)
         ratios = [row["seconds"] / kerf["seconds"] for row, kerf in done if "failure" not in kerf]
         ratio = f"{statistics.median(ratios):.2f}" if ratios else "-"
+        rate = f"{statistics.median(row['facets'] / row['seconds'] for row, _ in done) / 1e3:.0f}" if done else "-"
         print(f"{name}: {len(rows)} files, {len(rows) - len(done)} failed, {invalid} open or with facets that meet, "
               f"{needles} with more than 1 % of angles below 10 degrees, farthest {farthest:.1e} of the diagonal, "
-              f"seconds over kerf's {ratio} (median)")
+              f"seconds over kerf's {ratio}, {rate} thousand facets a second (medians)")
 
 
 def main():

@@ -227,7 +227,8 @@ std::int32_t divide_along_curve(SheetState& state, const std::vector<char>& chos
         sum += weights[f];
     }
     if (facets.empty()) return 0;
-    const auto few = std::bit_floor(static_cast<std::uint32_t>(std::clamp(sum / least, 1., blocks_of_surface)));
+    const auto few =
+        std::bit_floor(static_cast<std::uint32_t>(std::clamp(std::round(sum / least), 1., blocks_of_surface)));
     const auto count =
         std::max(static_cast<std::int32_t>(few), static_cast<std::int32_t>(std::round(sum / most_block)));
     const Eigen::Matrix3d turn = is_turned ? turned_axes() : Eigen::Matrix3d::Identity();

@@ -6,6 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/ids.h"
+#include "base/geometry/closest_point.h"
+#include "surface/soup/edge_corners.h"
+
 namespace kerf {
 
 namespace {
@@ -75,6 +79,25 @@ void merge_features(BoundedSurface& surface, const std::function<void()>& check_
         }
         if (merged == 0) break;
     }
+}
+
+bool has_narrow_strips(const SheetArrays& sheets) {
+    std::vector<char> is_on_feature(sheets.points.size(), 0);
+    for (std::int32_t corner = 0; corner < count_of(sheets.edges); ++corner)
+        if (sheets.edges[corner].is_feature)
+            for (const std::int32_t at : {corner, next_corner(corner)})
+                is_on_feature[start_vertex(sheets.corners, at)] = 1;
+    for (std::int32_t corner = 0; corner < count_of(sheets.edges); ++corner) {
+        const std::int32_t next = next_corner(corner), last = next_corner(next);
+        const std::int32_t apex = start_vertex(sheets.corners, last);
+        if (!sheets.edges[corner].is_feature || is_on_feature[apex] == 0) continue;
+        if (sheets.edges[next].is_feature || sheets.edges[last].is_feature) continue;  // they meet at a corner
+        const Vec3 &a = sheets.points[start_vertex(sheets.corners, corner)],
+                   &b = sheets.points[start_vertex(sheets.corners, next)], &p = sheets.points[apex];
+        const double tolerance = sheets.vertices[apex].tolerance;
+        if ((closest_on_segment(p, a, b) - p).squaredNorm() <= tolerance * tolerance) return true;
+    }
+    return false;
 }
 
 }  // namespace kerf

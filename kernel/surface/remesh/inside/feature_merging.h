@@ -13,4 +13,8 @@ namespace kerf {
 /// called for every edge and facet. O(#F log #F).
 void merge_features(BoundedSurface& surface, const std::function<void()>& check_cancelled);
 
+/// Whether the corner of some facet is on a feature and nearer than the tolerance to another one at the side opposite:
+/// strips that merge_features() closes. O(#F).
+bool has_narrow_strips(const SheetArrays& sheets);
+
 }  // namespace kerf

@@ -1,13 +1,13 @@
 // First the surface is made simple, then it is given sizes, then triangles are shaped to them. Flat regions are made
 // Delaunay by Lawson's flips (Lawson 1977, lawson1977); features nearer than the bound are merged, before the surface
-// is divided, as a border across such a strip may leave all of it; all that the bound does not need is collapsed, with
-// a part of the tolerance only, so that room is left; then flat regions are found anew and sizes found, once, because
-// sizes read from a surface that changes would chase each other. Each pass then splits,
-// smooths, collapses and flips. An edge is long or short by its ratio to its wanted length. `split_ratio` and
-// `collapse_ratio` are so far apart that no half of an edge that is split is collapsed again. Splits take the longest
-// ratio first, but split the longest edge of its facet, and of the facet beyond, and so on (Rivara 1997, rivara1997),
-// which makes no needles. Refusals are remembered with the number of the last operation: a refused element is not tried
-// again until something around it has changed.
+// is divided if it has narrow strips, as a border across one may leave all of it; all that the bound does not need is
+// collapsed, with a part of the tolerance only, so that room is left; then flat regions are found anew and sizes found,
+// once, because sizes read from a surface that changes would chase each other. Each pass then splits, smooths,
+// collapses and flips. An edge is long or short by its ratio to its wanted length. `split_ratio` and `collapse_ratio`
+// are so far apart that no half of an edge that is split is collapsed again. Splits take the longest ratio first, but
+// split the longest edge of its facet, and of the facet beyond, and so on (Rivara 1997, rivara1997), which makes no
+// needles. Refusals are remembered with the number of the last operation: a refused element is not tried again until
+// something around it has changed.
 #include "surface/remesh/inside/triangle_shaping.h"
 
 #include <algorithm>
@@ -79,6 +79,7 @@ class Shaping {
 
     // Leaves out what the bound does not need.
     void simplify_all() {
+        merge_near_features();
         surface_.set_share(share_of_simplification);
         simplify();
     }
@@ -357,7 +358,9 @@ class ShapingInBlocks {
         : input_(input), options_(options), add_(add), state_(state) {}
 
     void simplify() {
-        change_whole([this](BoundedSurface& surface) { Shaping(surface, options_, nullptr).merge_near_features(); });
+        if (has_narrow_strips(state_.arrays))
+            change_whole(
+                [this](BoundedSurface& surface) { Shaping(surface, options_, nullptr).merge_near_features(); });
         change_in_blocks([](Shaping& shaping, bool) { shaping.simplify_all(); },
                          std::vector<float>(state_.arrays.facets.size(), 1));
     }
