@@ -53,7 +53,7 @@ int remesh_and_tell(const RemeshRequest& request) {
     if (written.wrapped) tell(fmt::format("kerf: wrapped: {}\n", to_text(*written.wrapped)));
     for (const std::string& note : written.notes) tell(fmt::format("kerf: {}\n", note));
     tell(fmt::format("kerf: {}: {} facets, {}\n", request.output, grouped(written.facets),
-                     written.done ? remeshing_text(*written.done) : "none of them bad: as they were"));
+                     written.done ? remeshing_text(*written.done) : "as they were: too few are bad to spoil cells"));
     tell(fmt::format("kerf: {:.2f} s, {} facets/s\n", seconds, short_number(rate)));
     if (written.found_size) tell(fmt::format("kerf: cells {}\n", found_size_text(*written.found_size)));
     return 0;
@@ -76,9 +76,11 @@ void add_surface_command(CLI::App& kerf, int& exit_code, bool is_wrap) {
         if (shapes_surface(field.name)) add_option_field(*command, field);
     if (!is_wrap)
         command
-            ->add_flag("--only-bad", request->only_bad,
-                       "Change facets with angles below 10 degrees, and those around them, alone, as kerf mesh does "
-                       "by itself.")
+            ->add_flag(
+                "--only-bad", request->only_bad,
+                "Change nothing unless more than one in a thousand facets is bad, with an angle below 10 degrees: "
+                "then those and their surroundings, or all if they are many or a size is given, as kerf mesh "
+                "does by itself.")
             ->group(option_group::input);
     heed_unit(*command, request->options.input_options);
     command->add_flag("-q,--quiet", request->quiet, "Print nothing but errors.");

@@ -302,6 +302,20 @@ TEST_F(Check, ScaleMultipliesTheCoordinatesWhereverTheyAreRead) {
     for (const Vec3& p : read_surface(better).vertices) EXPECT_LE(p.maxCoeff(), 0.5 + 1e-6);
 }
 
+TEST_F(Check, OnlyBadFacetsAreRemeshedIfThatIsAskedFor) {
+    const std::string bracket = test::asset_path("l_bracket"), better = folder_.file("better.obj");
+    const Soup given = read_surface(bracket);
+    const auto facets_of = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"remesh", bracket, "-o", better});
+        const ChildResult remeshed = test::run_kerf(options);
+        EXPECT_EQ(remeshed.exit_code, 0) << remeshed.log;
+        EXPECT_EQ(remeshed.log.find("as they were") != std::string::npos, options.size() > 4) << remeshed.log;
+        return read_surface(better).facets.size();
+    };
+    EXPECT_NE(facets_of({}), given.facets.size());
+    EXPECT_EQ(facets_of({"--only-bad"}), given.facets.size());
+}
+
 TEST_F(Check, WeldMendsCracks) {
     const Soup whole = hollow_box();
     const Json input = expect_mended(test::cracked(whole, 5e-10, 1), {"--weld", "1e-6"})["input"];

@@ -19,7 +19,7 @@ SizedInput remesh_always(Input input, RunRequest options, StageListener* listene
 /// Report on a file that remesh_file() has written.
 struct RemeshedFile {
     std::int64_t facets = 0;
-    std::optional<InputRemeshing> done;   ///< none: no facet was bad, and only bad ones were asked for
+    std::optional<InputRemeshing> done;   ///< none: few facets are bad, and only those were to be changed
     std::optional<FoundSize> found_size;  ///< for the number of tetrahedra that was asked for
     std::optional<WrapReport> wrapped = {};
     std::vector<std::string> notes = {};  ///< Input::notes

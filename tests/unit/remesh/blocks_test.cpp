@@ -10,6 +10,7 @@
 #include "support/shapes.h"
 #include "support/voxel_regions.h"
 #include "surface/diagnosis/intersections.h"
+#include "surface/remesh/inside/feature_merging.h"
 
 namespace kerf {
 namespace {
@@ -115,6 +116,16 @@ TEST(Blocks, OfRegionsMayBeChangedByThemselves) {
         std::vector<std::string> names(before.region_names().begin(), before.region_names().end());
         EXPECT_NO_THROW(facets.to_complex(std::move(after), std::move(names)));
     }
+}
+
+// A plate thinner than its tolerance has strips; a cube has none, for all its features that meet at corners.
+TEST(NarrowStrips, AreSeenOnThePlateThatHasThem) {
+    const auto has_strips = [](double thickness) {
+        const Given given(test::to_arrays(test::box(Vec3::Zero(), Vec3(1, 1, thickness), {4, 4, 1})));
+        return has_narrow_strips(sheet_state(given.shape, {}).arrays);
+    };
+    EXPECT_TRUE(has_strips(1e-4));
+    EXPECT_FALSE(has_strips(1));
 }
 
 TEST(Blocks, BesideTheirBordersNoneHaveThemInCommon) {
