@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
+#include "base/core/thread_limit.h"
 #include "base/geometry/closest_point.h"
 #include "run/prepare/remeshing.h"
 #include "run/prepare/slivers.h"
@@ -369,12 +370,14 @@ TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
     input.patch_names = {"below", "sides", "above"};
     RunRequest options;
     options.remeshing = Remeshing::always;
+    const ThreadLimitGuard guard;
+    set_thread_limit(1);  // with others, the steps of the caller's thread, which tells, depend on what is left to it
     PatientListener all(1'000'000);
     const Input remeshed = remesh_where_asked(input, options, &all);
     EXPECT_GT(all.told(), 5u);
     EXPECT_GT(all.last(), 50u);
     EXPECT_EQ(remeshed.complex.arrays().vertices, remesh_where_asked(input, options).complex.arrays().vertices);
-    for (const std::size_t steps : {std::size_t{0}, std::size_t{1}, all.told() / 2, all.told() - 1}) {
+    const auto ends_after = [&](std::size_t steps) {
         PatientListener listener(steps);
         try {
             remesh_where_asked(input, options, &listener);
@@ -383,7 +386,10 @@ TEST(RemeshedInput, TellsOfItsStepsAndCanBeCancelledAtEach) {
             EXPECT_EQ(error.code(), ErrorCode::cancelled);
         }
         EXPECT_EQ(listener.told(), steps);
-    }
+    };
+    for (const std::size_t steps : {std::size_t{0}, std::size_t{1}, all.told() / 2, all.told() - 1}) ends_after(steps);
+    set_thread_limit(3);
+    for (const std::size_t steps : {0, 1, 5}) ends_after(steps);
 }
 
 TEST(Deviation, IsALengthOrAShare) {
