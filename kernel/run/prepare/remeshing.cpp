@@ -172,19 +172,13 @@ bool has_many_slivers(const SurfaceArrays& surface, const std::vector<char>& is_
     return least * find_slivers(surface.vertices, chosen).count > std::ssize(chosen);
 }
 
-// Less than `usual` where most of the body is thin.
-double slender_deviation(const LabelledFacets& facets, double usual) {
-    const TriangleTree tree(facets.surface.vertices, facets.surface.facets);
-    const double limit = usual / share_of_median_thickness;
-    return std::min(usual, share_of_median_thickness * median_thickness(facets.surface, tree, facets.walls, limit));
-}
-
 // A deviation that is asked for says how much the shape may change; a wrap is another shape than the file's. Where
 // curved cells follow, vertices are put on the faces of the model again, and the edges between them bulge.
 bool may_change_volume(const Input& input, const RunRequest& options) {
     return options.deviation.number() > 0 || input.wrapped || (input.is_cad && options.has_curved_edges());
 }
 
+// A deviation that nobody has asked for is that of a body which is not slender, see narrow_on_slender_bodies().
 RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const BadFacets& bad,
                        const RunRequest& options) {
     constexpr double share_of_gap = 0.1;  // a wrap is rough where it bridges
@@ -200,13 +194,10 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
         result.deviation = deviation_for(options.deviation, input.diagonal);
     } else {
         result.deviation = usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);
-        if (input.wrapped) {
+        if (input.wrapped)
             result.deviation = std::max(result.deviation, share_of_gap * input.wrapped->gap);
-        } else {
-            result.deviation =
-                std::max(smallest_share * input.diagonal, slender_deviation(task.facets, result.deviation));
+        else
             result.share_of_thickness = share_of_thickness;
-        }
     }
     if (!may_change_volume(input, options)) result.volume_tolerance = volume_tolerance;
     if (const double growth = options.sizes.growth_beside_kept_facets(); growth > 0) result.growth = growth;
@@ -221,6 +212,17 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
         task.periodicity->is_kept = true;
     }
     return task;
+}
+
+// Makes a deviation that nobody has asked for smaller where most of the body is thin.
+void narrow_on_slender_bodies(double diagonal, RemeshTask& task) {
+    if (task.options.share_of_thickness == 0) return;
+    double& deviation = task.options.deviation;
+    const SurfaceArrays& surface = task.facets.surface;
+    const TriangleTree tree(surface.vertices, surface.facets);
+    const double thickness =
+        median_thickness(surface, tree, task.facets.walls, deviation / share_of_median_thickness);
+    deviation = std::max(smallest_share * diagonal, std::min(deviation, share_of_median_thickness * thickness));
 }
 
 // Returns a note for users whose solvers join opposite sides, and who want to know whether they still match.
@@ -298,6 +300,7 @@ void refuse_changed_volumes(const Input& input) {
 Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunRequest& options,
                StageListener* listener) {
     RemeshTask task = remesh_task(input, before, bad, options);
+    narrow_on_slender_bodies(input.diagonal, task);
     RemeshOptions& wanted = task.options;
     if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, bad, wanted));
     if (task.periodicity) input.notes.push_back(note_of_periodicity(*task.periodicity));

@@ -67,8 +67,8 @@ std::vector<InputPlace> places_on(const TriangleTree& input, const ChangedSurfac
     return places;
 }
 
-// Tells the reasons for the sizes at the corners of facets: by the area in which some corner has a smaller size than
-// the user asks for there, and by facets. The corner with the smallest ratio gives the reason.
+// Tells the reasons for the sizes at the corners of facets that are not kept: by the area in which some corner has a
+// smaller size than the user asks for there, and by facets. The corner with the smallest ratio gives the reason.
 void tell_reasons(const SheetArrays& sheets, RemeshReport& report) {
     std::array<double, 4> finer{};
     std::array<std::int64_t, 4> facets{};
@@ -76,6 +76,7 @@ void tell_reasons(const SheetArrays& sheets, RemeshReport& report) {
     for (std::size_t f = 0; f < sheets.corners.size(); ++f) {
         const double area = area_normal(sheets.triangle(f)).norm();
         all += area;
+        if (sheets.facets[f].is_kept) continue;
         double least = as_asked;
         LengthRule rule = LengthRule::asked;
         for (const std::int32_t v : sheets.corners[f]) {

@@ -60,6 +60,13 @@ class InterfaceJudge {
     PlanarGrid grid_;                 // of the interface triangles
 };
 
+Eigen::AlignedBox3d box_of(const std::array<Vec3, 3>& triangle) {
+    Eigen::AlignedBox3d box(triangle[0]);
+    box.extend(triangle[1]);
+    box.extend(triangle[2]);
+    return box;
+}
+
 std::vector<PlanarBox> triangle_boxes(const Interface& interface, const Plane& plane) {
     std::vector<PlanarBox> boxes(interface.triangles.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -182,29 +189,40 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
         return i >= 0 && seen[i];
     };
     std::vector<double> size(boxes_.size());
+    std::vector<Eigen::AlignedBox3d> box(boxes_.size());
     for (std::size_t i = 0; i < size.size(); ++i) {
         const auto p = corners(interface_.triangles[i]);
         size[i] = ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
+        box[i] = box_of(p);
     }
     for (const NearFacet& f : slab_) {
         const auto t = surface_.corners(f.facet);
         const auto facet = facet_corners(t);
+        const Eigen::AlignedBox3d facet_box = box_of(facet);
         const double margin = threshold * f.box.diagonal().norm();
         grid_.for_each_overlap(grown(f.box, margin), [&](std::int32_t i) {
             const double reach = threshold * size[i];
             if (low_[i] > f.high + reach || high_[i] < f.low - reach) return;
             const Triangle& s = interface_.triangles[i];
             const auto p = corners(s);
-            const auto note = [&](double distance) {
+            // What is beyond it changes nothing; boxes are much cheaper to ask than triangles.
+            const auto is_beyond = [&](double squared) {
+                const double furthest = (1 + 1e-9) * std::max(reach, quality.gap_rel * size[i]);
+                return squared > furthest * furthest;
+            };
+            if (is_beyond(box[i].squaredExteriorDistance(facet_box))) return;
+            const auto note = [&](const Vec3& point, const std::array<Vec3, 3>& triangle, const auto& triangle_box) {
+                if (is_beyond(triangle_box.squaredExteriorDistance(point))) return;
+                const double distance = point_triangle_distance(point, triangle[0], triangle[1], triangle[2]);
                 quality.gap_rel = std::min(quality.gap_rel, distance / size[i]);
                 if (distance >= reach) return;
                 soft.insert(soft.end(), t.begin(), t.end());
                 add_contour_corners(s, soft);
             };
             for (int k = 0; k < 3; ++k)
-                if (!on_contour(t[k])) note(point_triangle_distance(facet[k], p[0], p[1], p[2]));
+                if (!on_contour(t[k])) note(facet[k], p, box[i]);
             for (int k = 0; k < 3; ++k)
-                if (s[k] >= contour_count_) note(point_triangle_distance(p[k], facet[0], facet[1], facet[2]));
+                if (s[k] >= contour_count_) note(p[k], facet, facet_box);
         });
     }
 }

@@ -27,6 +27,9 @@ namespace {
 // processors without work. Small surfaces have fewer, a power of two, lest one is left when all others are done.
 constexpr double blocks_of_surface = 16, most_block = 2e4;
 constexpr int rings_beside_borders = 2;
+// All vertices of facets that may change have all their facets, those beside them whole edges.
+constexpr int rings_beside_changes = 2;
+constexpr double share_of_most = 0.5;  // of the facets
 
 // How often places and seams occur in the whole surface, by corners.
 struct Occurrences {
@@ -136,10 +139,14 @@ Block extract(const SheetState& state, const Occurrences& in_whole, const std::v
 // Puts blocks into the state, behind the facets that are in none.
 class Joining {
  public:
-    explicit Joining(SheetState& state) : state_(state), before_(std::move(state.arrays)) {
+    Joining(SheetState& state, const std::vector<std::vector<std::int32_t>>& facets_of_blocks)
+        : state_(state), before_(std::move(state.arrays)) {
         vertex_.resize(before_.points.size(), -1);
+        std::vector<char> is_in_block(before_.corners.size(), 0);
+        for (const std::vector<std::int32_t>& facets : facets_of_blocks)
+            for (const std::int32_t f : facets) is_in_block[f] = 1;
         for (std::int32_t f = 0; f < count_of(before_.corners); ++f) {
-            if (before_.facets[f].block >= 0) continue;
+            if (is_in_block[f] != 0) continue;
             Triangle& t = now().corners.emplace_back();
             for (int i = 0; i < 3; ++i) t[i] = stays(before_.corners[f][i]);
             now().facets.push_back(before_.facets[f]);
@@ -203,13 +210,65 @@ std::vector<std::vector<std::int32_t>> facets_of_blocks(const SheetState& state)
     return blocks;
 }
 
-}  // namespace
-
-SheetPiece whole_piece(const SheetState& state) {
-    return {state.arrays, edge_partners(state.arrays.corners), state.places, state.seams};
+// The same for facets in lists.
+void change_listed(const InputShape& input, SheetState& state, const std::vector<std::vector<std::int32_t>>& facets,
+                   const std::function<void(BoundedSurface&)>& work) {
+    std::vector<Block> blocks(facets.size());
+    {
+        const Occurrences in_whole(state);
+        for_each_on_threads(facets.size(), [&](std::size_t i) {
+            Block& block = blocks[i] = extract(state, in_whole, facets[i]);
+            BoundedSurface surface(InputBound(input, state), std::exchange(block.piece, {}));
+            work(surface);
+            block.result = surface.mesh().arrays();
+            block.places = surface.mesh().place_count();
+            block.seams = surface.mesh().seam_count();
+        });
+    }
+    Joining joining(state, facets);
+    for (Block& block : blocks) {
+        joining.add(block);
+        block = {};
+    }
 }
 
-void replace_whole(SheetState& state, const BoundedSurface& surface) {
+// Marks the facets at vertices (by the first of their copies) that are near, and all within some rings.
+std::vector<char> facets_in_rings(const SheetArrays& all, const std::vector<std::int32_t>& place,
+                                  std::vector<char> is_near, int rings) {
+    std::vector<char> chosen(all.corners.size(), 0);
+    for (int ring = 0; ring < rings; ++ring) {
+        for (std::size_t f = 0; f < chosen.size(); ++f) {
+            const Triangle& t = all.corners[f];
+            if (is_near[place[t[0]]] != 0 || is_near[place[t[1]]] != 0 || is_near[place[t[2]]] != 0) chosen[f] = 1;
+        }
+        for (std::size_t f = 0; f < chosen.size(); ++f)
+            if (chosen[f] != 0)
+                for (const std::int32_t v : all.corners[f]) is_near[place[v]] = 1;
+    }
+    return chosen;
+}
+
+}  // namespace
+
+void change_at_once(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work) {
+    const SheetArrays& all = state.arrays;
+    const auto kept =
+        std::count_if(all.facets.begin(), all.facets.end(), [](const SheetFacet& facet) { return facet.is_kept; });
+    if (static_cast<double>(kept) > share_of_most * static_cast<double>(all.facets.size())) {
+        const std::vector<std::int32_t> place = first_copies(all);
+        std::vector<char> is_near(all.points.size(), 0);
+        for (std::size_t f = 0; f < all.facets.size(); ++f)
+            if (!all.facets[f].is_kept)
+                for (const std::int32_t v : all.corners[f]) is_near[place[v]] = 1;
+        const std::vector<char> chosen = facets_in_rings(all, place, std::move(is_near), rings_beside_changes);
+        std::vector<std::int32_t> facets;
+        for (std::int32_t f = 0; f < count_of(chosen); ++f)
+            if (chosen[f] != 0) facets.push_back(f);
+        return change_listed(input, state, {facets}, work);
+    }
+    BoundedSurface surface(InputBound(input, state),
+                           {state.arrays, edge_partners(state.arrays.corners), state.places, state.seams});
+    work(surface);
     state.arrays = surface.mesh().arrays();
     state.places = surface.mesh().place_count();
     state.seams = surface.mesh().seam_count();
@@ -278,24 +337,7 @@ std::int32_t divide_by_components(SheetState& state, const std::vector<char>& ch
 }
 
 void change_blocks(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work) {
-    const std::vector<std::vector<std::int32_t>> facets = facets_of_blocks(state);
-    std::vector<Block> blocks(facets.size());
-    {
-        const Occurrences in_whole(state);
-        for_each_on_threads(facets.size(), [&](std::size_t i) {
-            Block& block = blocks[i] = extract(state, in_whole, facets[i]);
-            BoundedSurface surface(InputBound(input, state), std::exchange(block.piece, {}));
-            work(surface);
-            block.result = surface.mesh().arrays();
-            block.places = surface.mesh().place_count();
-            block.seams = surface.mesh().seam_count();
-        });
-    }
-    Joining joining(state);
-    for (Block& block : blocks) {
-        joining.add(block);
-        block = {};
-    }
+    change_listed(input, state, facets_of_blocks(state), work);
 }
 
 std::vector<char> facets_beside_borders(const SheetState& state) {
@@ -311,18 +353,9 @@ std::vector<char> facets_beside_borders(const SheetState& state) {
             at = at == none || at == of_facet ? of_facet : several;
         }
     }
-    std::vector<char> is_near(all.points.size(), 0), chosen(all.corners.size(), 0);
+    std::vector<char> is_near(all.points.size(), 0);
     for (std::size_t v = 0; v < block.size(); ++v) is_near[v] = block[v] == several ? 1 : 0;
-    for (int ring = 0; ring < rings_beside_borders; ++ring) {
-        for (std::size_t f = 0; f < chosen.size(); ++f) {
-            const Triangle& t = all.corners[f];
-            if (is_near[place[t[0]]] != 0 || is_near[place[t[1]]] != 0 || is_near[place[t[2]]] != 0) chosen[f] = 1;
-        }
-        for (std::size_t f = 0; f < chosen.size(); ++f)
-            if (chosen[f] != 0)
-                for (const std::int32_t v : all.corners[f]) is_near[place[v]] = 1;
-    }
-    return chosen;
+    return facets_in_rings(all, place, std::move(is_near), rings_beside_borders);
 }
 
 }  // namespace kerf

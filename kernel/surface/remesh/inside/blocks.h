@@ -8,11 +8,10 @@
 
 namespace kerf {
 
-/// Returns all facets of the state, a piece without border. O(#F).
-SheetPiece whole_piece(const SheetState& state);
-
-/// Replaces all of the state by what has become of whole_piece(). O(#F).
-void replace_whole(SheetState& state, const BoundedSurface& surface);
+/// Calls work(surface) once, for all facets, or where most are kept, for those that may change and some rings around
+/// them; and puts what has become of it into the state. Facets and vertices are numbered anew. O(#F), and what the work
+/// costs.
+void change_at_once(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work);
 
 /// Numbers the blocks (SheetFacet::block) into which the chosen facets (#F) are divided along Morton's curve, of about
 /// the same sum of `weights` (#F) and of at least `least`; others belong to none. `is_turned`: the curve runs along

@@ -359,15 +359,16 @@ class ShapingInBlocks {
 
     void simplify() {
         if (has_narrow_strips(state_.arrays))
-            change_whole(
-                [this](BoundedSurface& surface) { Shaping(surface, options_, nullptr).merge_near_features(); });
+            change_at_once(input_, state_, [this](BoundedSurface& surface) {
+                Shaping(surface, options_, nullptr).merge_near_features();
+            });
         change_in_blocks([](Shaping& shaping, bool) { shaping.simplify_all(); },
                          std::vector<float>(state_.arrays.facets.size(), 1));
     }
 
     void shape() {
         find_regions(input_, share_of_flatness, state_);
-        change_whole([this](BoundedSurface& surface) {
+        change_at_once(input_, state_, [this](BoundedSurface& surface) {
             Shaping(surface, options_, nullptr).flip_flat_edges();
             sizes_.emplace(surface, size_options(options_));
             Shaping(surface, options_, &*sizes_).split_edges([](Edge) { return coarse_ratio; });
@@ -380,13 +381,6 @@ class ShapingInBlocks {
     }
 
  private:
-    template <class Change>
-    void change_whole(const Change& change) {
-        BoundedSurface surface(InputBound(input_, state_), whole_piece(state_));
-        change(surface);
-        replace_whole(state_, surface);
-    }
-
     // All facets that may change first, then those beside the borders of blocks. What is left then, where borders of
     // both meet, is in pieces that have nothing in common.
     void change_in_blocks(const std::function<void(Shaping&, bool)>& change, const std::vector<float>& weights) {
@@ -421,7 +415,7 @@ class ShapingInBlocks {
 
     // What blocks have in common stays as it is while they are shaped: its edges get their lengths before.
     void split_borders() {
-        change_whole([this](BoundedSurface& surface) {
+        change_at_once(input_, state_, [this](BoundedSurface& surface) {
             const SheetMesh& mesh = surface.mesh();
             const auto most = [&](Edge e) {
                 const std::int32_t block = mesh.data(mesh.facets_at(e)[0]).block;
