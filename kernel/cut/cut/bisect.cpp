@@ -1,8 +1,9 @@
 // The ladder. Planes come in their order: first those between bodies, then for each direction the bisection and its
 // steps, within the load window, at last those outside of it. Each plane gets rounds of local repair (plane_trial.h)
 // until a cut is good, or, once there is a valid one, until some rounds in a row have bettered nothing; the best of the
-// valid but soft cuts is kept and taken when a few planes have given nothing better. Two budgets for all planes of a node bound the time: steps of the minimum cuts, and places where interfaces
-// have met the surface. Both count work, not seconds, so that the result is the same on every machine.
+// valid but soft cuts is kept and taken when a few planes have given nothing better. Two budgets for all planes of a
+// node bound the time: steps of the minimum cuts, and places where interfaces have met the surface. Both count work,
+// not seconds, so that the result is the same on every machine.
 #include "cut/cut/bisect.h"
 
 #include <algorithm>

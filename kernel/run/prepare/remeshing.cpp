@@ -220,8 +220,7 @@ void narrow_on_slender_bodies(double diagonal, RemeshTask& task) {
     double& deviation = task.options.deviation;
     const SurfaceArrays& surface = task.facets.surface;
     const TriangleTree tree(surface.vertices, surface.facets);
-    const double thickness =
-        median_thickness(surface, tree, task.facets.walls, deviation / share_of_median_thickness);
+    const double thickness = median_thickness(surface, tree, task.facets.walls, deviation / share_of_median_thickness);
     deviation = std::max(smallest_share * diagonal, std::min(deviation, share_of_median_thickness * thickness));
 }
 

@@ -45,7 +45,8 @@ struct FinerShares {
     double sum() const { return bound + features + walls; }
 };
 
-/// The facets of a result, without those that are kept, by what decides about the smallest length that is wanted at their corners.
+/// The facets of a result, without those that are kept, by what decides about the smallest length that is wanted at
+/// their corners.
 struct FacetsByReason {
     std::int64_t asked = 0;     ///< `wanted` and `longest`, or growth from where these decide
     std::int64_t bound = 0;     ///< as in FinerShares

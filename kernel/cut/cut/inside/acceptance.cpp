@@ -20,7 +20,8 @@ namespace {
 
 class InterfaceJudge {
  public:
-    InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface);
+    /// `gap`: distances over the size of triangles up to which they are measured.
+    InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface, double gap);
 
     std::vector<Vertex> chords() const;
     std::vector<Vertex> intersections(const CancellationCheck& check_cancelled, std::vector<Collision>& collisions);
@@ -29,7 +30,9 @@ class InterfaceJudge {
 
  private:
     struct NearFacet : SlabFacet {
+        std::array<Vertex, 3> corners;
         PlanarBox box;
+        std::size_t first_pair;
     };
     std::int32_t id(std::int32_t point) const {
         return point < contour_count_ ? interface_.contour[point].value() : surface_.vertex_count() + point;
@@ -46,6 +49,15 @@ class InterfaceJudge {
             if (point < contour_count_) vertices.push_back(interface_.contour[point]);
     }
     void find_slab_facets();
+    void find_pairs(double gap);
+    // Calls visit(facet of the slab, number of an interface triangle) for those that may be near each other.
+    template <class Visit>
+    void for_each_pair(Visit visit) const {
+        for (std::size_t f = 0; f < slab_.size(); ++f) {
+            const std::size_t end = f + 1 < slab_.size() ? slab_[f + 1].first_pair : pairs_.size();
+            for (std::size_t pair = slab_[f].first_pair; pair < end; ++pair) visit(slab_[f], pairs_[pair]);
+        }
+    }
     void measure_angles(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft) const;
     void measure_dihedrals(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft) const;
     void measure_gaps(double threshold, InterfaceQuality& quality, std::vector<Vertex>& soft);
@@ -54,18 +66,13 @@ class InterfaceJudge {
     const Band& band_;
     const Interface& interface_;
     std::int32_t contour_count_;
-    std::vector<PlanarBox> boxes_;    // of the interface triangles
-    std::vector<double> low_, high_;  // heights of the interface triangles
-    std::vector<NearFacet> slab_;     // facets that share heights with the interface
-    PlanarGrid grid_;                 // of the interface triangles
+    std::vector<PlanarBox> boxes_;     // of the interface triangles
+    std::vector<double> low_, high_;   // heights of the interface triangles
+    std::vector<double> size_;         // mean edge lengths of the interface triangles
+    std::vector<NearFacet> slab_;      // facets that share heights with the interface
+    std::vector<std::int32_t> pairs_;  // interface triangles that may be near, facet by facet of the slab
+    PlanarGrid grid_;                  // of the interface triangles
 };
-
-Eigen::AlignedBox3d box_of(const std::array<Vec3, 3>& triangle) {
-    Eigen::AlignedBox3d box(triangle[0]);
-    box.extend(triangle[1]);
-    box.extend(triangle[2]);
-    return box;
-}
 
 std::vector<PlanarBox> triangle_boxes(const Interface& interface, const Plane& plane) {
     std::vector<PlanarBox> boxes(interface.triangles.size());
@@ -74,7 +81,7 @@ std::vector<PlanarBox> triangle_boxes(const Interface& interface, const Plane& p
     return boxes;
 }
 
-InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface)
+InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const Interface& interface, double gap)
     : surface_(surface),
       band_(band),
       interface_(interface),
@@ -87,18 +94,33 @@ InterfaceJudge::InterfaceJudge(const Surface& surface, const Band& band, const I
                          band.plane.distance(interface.points[t[2]])});
         low_.push_back(low);
         high_.push_back(high);
+        const auto p = corners(t);
+        size_.push_back(((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3);
     }
     find_slab_facets();
+    find_pairs(gap);
 }
 
 void InterfaceJudge::find_slab_facets() {
     const double low = *std::min_element(low_.begin(), low_.end()) - band_.rounding;
     const double high = *std::max_element(high_.begin(), high_.end()) + band_.rounding;
     band_.for_each_facet_between(surface_, low, high, [&](const SlabFacet& facet) {
+        const auto corners = surface_.corners(facet.facet);
         PlanarBox box;
-        for (const Vertex v : surface_.corners(facet.facet)) box.extend(band_.plane.project(surface_.point(v)));
-        slab_.push_back({facet, box});
+        for (const Vertex v : corners) box.extend(band_.plane.project(surface_.point(v)));
+        slab_.push_back({facet, corners, box, 0});
     });
+}
+
+void InterfaceJudge::find_pairs(double gap) {
+    for (NearFacet& f : slab_) {
+        f.first_pair = pairs_.size();
+        const double margin = std::max(band_.rounding, gap * f.box.diagonal().norm());
+        grid_.for_each_overlap(grown(f.box, margin), [&](std::int32_t i) {
+            const double reach = std::max(band_.rounding, gap * size_[i]);
+            if (low_[i] <= f.high + reach && high_[i] >= f.low - reach) pairs_.push_back(i);
+        });
+    }
 }
 
 // Contour edges appear once as directed edges of interface triangles, all others twice. An edge between contour points
@@ -126,17 +148,16 @@ std::vector<Vertex> InterfaceJudge::intersections(const CancellationCheck& check
     const auto keep = [&](const std::array<Vec3, 3>& first, const std::array<Vec3, 3>& second) {
         if (collisions.size() < max_collisions) collisions.push_back({first, second});
     };
-    for (const NearFacet& f : slab_) {
-        const auto t = surface_.corners(f.facet);
-        grid_.for_each_overlap(grown(f.box, band_.rounding), [&](std::int32_t i) {
-            if (low_[i] > f.high + band_.rounding || high_[i] < f.low - band_.rounding) return;
-            const Triangle& s = interface_.triangles[i];
-            if (!triangles_intersect(corners(s), ids(s), facet_corners(t), surface_.triangle(f.facet))) return;
-            keep(corners(s), facet_corners(t));
-            vertices.insert(vertices.end(), t.begin(), t.end());
-            add_contour_corners(s, vertices);
-        });
-    }
+    for_each_pair([&](const NearFacet& f, std::int32_t i) {
+        if (!boxes_[i].intersects(grown(f.box, band_.rounding))) return;
+        if (low_[i] > f.high + band_.rounding || high_[i] < f.low - band_.rounding) return;
+        const Triangle& s = interface_.triangles[i];
+        const auto facet = facet_corners(f.corners);
+        if (!triangles_intersect(corners(s), ids(s), facet, surface_.triangle(f.facet))) return;
+        keep(corners(s), facet);
+        vertices.insert(vertices.end(), f.corners.begin(), f.corners.end());
+        add_contour_corners(s, vertices);
+    });
     for (std::int32_t i = 0; i < count_of(boxes_); ++i) {
         check_cancelled.at(i);
         grid_.for_each_overlap(grown(boxes_[i], band_.rounding), [&](std::int32_t j) {
@@ -188,43 +209,21 @@ void InterfaceJudge::measure_gaps(double threshold, InterfaceQuality& quality, s
         const std::int32_t i = band_.vertex_index_of[v];
         return i >= 0 && seen[i];
     };
-    std::vector<double> size(boxes_.size());
-    std::vector<Eigen::AlignedBox3d> box(boxes_.size());
-    for (std::size_t i = 0; i < size.size(); ++i) {
-        const auto p = corners(interface_.triangles[i]);
-        size[i] = ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
-        box[i] = box_of(p);
-    }
-    for (const NearFacet& f : slab_) {
-        const auto t = surface_.corners(f.facet);
-        const auto facet = facet_corners(t);
-        const Eigen::AlignedBox3d facet_box = box_of(facet);
-        const double margin = threshold * f.box.diagonal().norm();
-        grid_.for_each_overlap(grown(f.box, margin), [&](std::int32_t i) {
-            const double reach = threshold * size[i];
-            if (low_[i] > f.high + reach || high_[i] < f.low - reach) return;
-            const Triangle& s = interface_.triangles[i];
-            const auto p = corners(s);
-            // What is beyond it changes nothing; boxes are much cheaper to ask than triangles.
-            const auto is_beyond = [&](double squared) {
-                const double furthest = (1 + 1e-9) * std::max(reach, quality.gap_rel * size[i]);
-                return squared > furthest * furthest;
-            };
-            if (is_beyond(box[i].squaredExteriorDistance(facet_box))) return;
-            const auto note = [&](const Vec3& point, const std::array<Vec3, 3>& triangle, const auto& triangle_box) {
-                if (is_beyond(triangle_box.squaredExteriorDistance(point))) return;
-                const double distance = point_triangle_distance(point, triangle[0], triangle[1], triangle[2]);
-                quality.gap_rel = std::min(quality.gap_rel, distance / size[i]);
-                if (distance >= reach) return;
-                soft.insert(soft.end(), t.begin(), t.end());
-                add_contour_corners(s, soft);
-            };
-            for (int k = 0; k < 3; ++k)
-                if (!on_contour(t[k])) note(facet[k], p, box[i]);
-            for (int k = 0; k < 3; ++k)
-                if (s[k] >= contour_count_) note(p[k], facet, facet_box);
-        });
-    }
+    for_each_pair([&](const NearFacet& f, std::int32_t i) {
+        const Triangle& s = interface_.triangles[i];
+        const auto triangle = corners(s), facet = facet_corners(f.corners);
+        const auto note = [&](double distance) {
+            quality.gap_rel = std::min(quality.gap_rel, distance / size_[i]);
+            if (distance >= threshold * size_[i]) return;
+            soft.insert(soft.end(), f.corners.begin(), f.corners.end());
+            add_contour_corners(s, soft);
+        };
+        for (int k = 0; k < 3; ++k)
+            if (!on_contour(f.corners[k]))
+                note(point_triangle_distance(facet[k], triangle[0], triangle[1], triangle[2]));
+        for (int k = 0; k < 3; ++k)
+            if (s[k] >= contour_count_) note(point_triangle_distance(triangle[k], facet[0], facet[1], facet[2]));
+    });
 }
 
 InterfaceQuality InterfaceJudge::measure(const CutOptions& options, std::vector<Vertex>& soft) {
@@ -247,7 +246,7 @@ Verdict judge_interface(const Surface& surface, const Band& band, const Interfac
     KERF_CHECK(band.fits(surface) && !interface.triangles.empty());
     KERF_CHECK(interface.planar.size() == interface.points.size());
     Verdict verdict;
-    InterfaceJudge judge(surface, band, interface);
+    InterfaceJudge judge(surface, band, interface, options.good_gap_rel);
     options.check_cancelled();
     verdict.failed = judge.chords();
     if (!verdict.failed.empty()) {

@@ -17,6 +17,8 @@ namespace kerf {
 namespace {
 
 constexpr double width = 3;  // of the band on either side, in crossing edges
+constexpr double slab_width =
+    6;  // of the slab: contours may run far from the plane, interfaces between them even further
 
 bool crosses(double d_from, double d_to) { return (d_from < 0) != (d_to < 0); }
 
@@ -84,7 +86,7 @@ std::vector<SlabItem> find_slab(const Surface& surface, Band& band) {
             above += d >= 0;
         }
         band.majority[f] = above >= 2 ? Side::above : Side::below;
-        if (low > band.half_width || high < -band.half_width) return;
+        if (low > band.slab_half_width || high < -band.slab_half_width) return;
         const bool meets_plane = low <= 0 && high >= 0;
         const bool in_band = meets_plane || std::abs(sum) < 3 * width * band.edge_length;
         slab.push_back({{f, low, high}, in_band});
@@ -114,6 +116,7 @@ Band make_band(const Surface& surface, const Plane& plane) {
     band.distance = vertex_distances(surface, plane);
     band.edge_length = mean_crossing_length(surface, band.distance);
     band.half_width = width * band.edge_length;
+    band.slab_half_width = slab_width * band.edge_length;
     band.index_of.assign(surface.facet_count(), -1);
     band.vertex_index_of.assign(surface.vertex_count(), -1);
     for (const SlabItem& item : find_slab(surface, band)) {

@@ -21,6 +21,7 @@ struct Band {
     double edge_length = 0;               ///< h, mean length of the edges that cross the plane; 0: none does
     double section_area = 0;              ///< area in which the plane cuts the body
     double half_width = 0;                ///< three crossing edges, 3 h
+    double slab_half_width = 0;           ///< six of them: interfaces reach further than contours
     Array<Vertex, double> distance;       ///< per vertex of the surface, signed
     std::vector<Facet> facets;            ///< ascending
     Array<Facet, std::int32_t> index_of;  ///< per facet of the surface: its index in `facets`, or -1
@@ -29,8 +30,8 @@ struct Band {
                                                       ///< are met
     Array<Vertex, std::int32_t> vertex_index_of;      ///< per vertex of the surface: its index in `vertices`, or -1
     Array<Facet, Side> majority;  ///< per facet of the surface: the side of most vertices (ivanov2006)
-    std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= half_width, ascending; the whole band is
-                                  ///< among them
+    std::vector<SlabFacet> slab;  ///< facets that reach into |distance| <= slab_half_width, ascending; the whole band
+                                  ///< is among them
     double rounding = 0;          ///< bound on the error of a projection or a height
 
     /// Whether the sizes are those of a band of this surface: required wherever both are passed together.
@@ -43,14 +44,14 @@ struct Band {
         const auto t = surface.corners(facet);
         return (distance[t[0]] + distance[t[1]] + distance[t[2]]) / 3;
     }
-    /// Calls visit(slab facet) for the facets that reach into [low, high], ascending. O(#slab) within the half width,
+    /// Calls visit(slab facet) for the facets that reach into [low, high], ascending. O(#slab) within its half width,
     /// else O(#F).
     template <class Visit>
     void for_each_facet_between(const Surface& surface, double low, double high, Visit visit) const {
         const auto visit_if_between = [&](const SlabFacet& facet) {
             if (facet.low <= high && facet.high >= low) visit(facet);
         };
-        if (low >= -half_width && high <= half_width)
+        if (low >= -slab_half_width && high <= slab_half_width)
             for (const SlabFacet& facet : slab) visit_if_between(facet);
         else
             for (const Facet f : surface.facets()) visit_if_between(reach_of(surface, f));
