@@ -27,8 +27,8 @@ namespace {
 // processors without work. Small surfaces have fewer, a power of two, lest one is left when all others are done.
 constexpr double blocks_of_surface = 16, most_block = 2e4;
 constexpr int rings_beside_borders = 2;
-// All vertices of facets that may change have all their facets, those beside them whole edges.
-constexpr int rings_beside_changes = 2;
+// All vertices of facets that may change have all their facets.
+constexpr int rings_beside_changes = 1;
 constexpr double share_of_most = 0.5;  // of the facets
 
 // How often places and seams occur in the whole surface, by corners.
@@ -210,28 +210,6 @@ std::vector<std::vector<std::int32_t>> facets_of_blocks(const SheetState& state)
     return blocks;
 }
 
-// The same for facets in lists.
-void change_listed(const InputShape& input, SheetState& state, const std::vector<std::vector<std::int32_t>>& facets,
-                   const std::function<void(BoundedSurface&)>& work) {
-    std::vector<Block> blocks(facets.size());
-    {
-        const Occurrences in_whole(state);
-        for_each_on_threads(facets.size(), [&](std::size_t i) {
-            Block& block = blocks[i] = extract(state, in_whole, facets[i]);
-            BoundedSurface surface(InputBound(input, state), std::exchange(block.piece, {}));
-            work(surface);
-            block.result = surface.mesh().arrays();
-            block.places = surface.mesh().place_count();
-            block.seams = surface.mesh().seam_count();
-        });
-    }
-    Joining joining(state, facets);
-    for (Block& block : blocks) {
-        joining.add(block);
-        block = {};
-    }
-}
-
 // Marks the facets at vertices (by the first of their copies) that are near, and all within some rings.
 std::vector<char> facets_in_rings(const SheetArrays& all, const std::vector<std::int32_t>& place,
                                   std::vector<char> is_near, int rings) {
@@ -250,22 +228,34 @@ std::vector<char> facets_in_rings(const SheetArrays& all, const std::vector<std:
 
 }  // namespace
 
-void change_at_once(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work) {
+void change_apart_from_kept(SheetState& state, const std::function<void(SheetState& near)>& work) {
     const SheetArrays& all = state.arrays;
     const auto kept =
         std::count_if(all.facets.begin(), all.facets.end(), [](const SheetFacet& facet) { return facet.is_kept; });
-    if (static_cast<double>(kept) > share_of_most * static_cast<double>(all.facets.size())) {
-        const std::vector<std::int32_t> place = first_copies(all);
-        std::vector<char> is_near(all.points.size(), 0);
-        for (std::size_t f = 0; f < all.facets.size(); ++f)
-            if (!all.facets[f].is_kept)
-                for (const std::int32_t v : all.corners[f]) is_near[place[v]] = 1;
-        const std::vector<char> chosen = facets_in_rings(all, place, std::move(is_near), rings_beside_changes);
-        std::vector<std::int32_t> facets;
-        for (std::int32_t f = 0; f < count_of(chosen); ++f)
-            if (chosen[f] != 0) facets.push_back(f);
-        return change_listed(input, state, {facets}, work);
-    }
+    if (static_cast<double>(kept) <= share_of_most * static_cast<double>(all.facets.size())) return work(state);
+    const std::vector<std::int32_t> place = first_copies(all);
+    std::vector<char> is_near(all.points.size(), 0);
+    for (std::size_t f = 0; f < all.facets.size(); ++f)
+        if (!all.facets[f].is_kept)
+            for (const std::int32_t v : all.corners[f]) is_near[place[v]] = 1;
+    const std::vector<char> chosen = facets_in_rings(all, place, std::move(is_near), rings_beside_changes);
+    std::vector<std::int32_t> facets;
+    for (std::int32_t f = 0; f < count_of(chosen); ++f)
+        if (chosen[f] != 0) facets.push_back(f);
+
+    Block block = extract(state, Occurrences(state), facets);
+    SheetState near = {std::move(block.piece.arrays), block.piece.places, block.piece.seams, std::move(state.planes),
+                       std::move(state.next_point)};
+    work(near);
+    state.planes = std::move(near.planes);
+    state.next_point = std::move(near.next_point);
+    block.result = std::move(near.arrays);
+    block.places = near.places;
+    block.seams = near.seams;
+    Joining(state, {facets}).add(block);
+}
+
+void change_at_once(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work) {
     BoundedSurface surface(InputBound(input, state),
                            {state.arrays, edge_partners(state.arrays.corners), state.places, state.seams});
     work(surface);
@@ -337,7 +327,24 @@ std::int32_t divide_by_components(SheetState& state, const std::vector<char>& ch
 }
 
 void change_blocks(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work) {
-    change_listed(input, state, facets_of_blocks(state), work);
+    const std::vector<std::vector<std::int32_t>> facets = facets_of_blocks(state);
+    std::vector<Block> blocks(facets.size());
+    {
+        const Occurrences in_whole(state);
+        for_each_on_threads(facets.size(), [&](std::size_t i) {
+            Block& block = blocks[i] = extract(state, in_whole, facets[i]);
+            BoundedSurface surface(InputBound(input, state), std::exchange(block.piece, {}));
+            work(surface);
+            block.result = surface.mesh().arrays();
+            block.places = surface.mesh().place_count();
+            block.seams = surface.mesh().seam_count();
+        });
+    }
+    Joining joining(state, facets);
+    for (Block& block : blocks) {
+        joining.add(block);
+        block = {};
+    }
 }
 
 std::vector<char> facets_beside_borders(const SheetState& state) {
@@ -355,7 +362,10 @@ std::vector<char> facets_beside_borders(const SheetState& state) {
     }
     std::vector<char> is_near(all.points.size(), 0);
     for (std::size_t v = 0; v < block.size(); ++v) is_near[v] = block[v] == several ? 1 : 0;
-    return facets_in_rings(all, place, std::move(is_near), rings_beside_borders);
+    std::vector<char> chosen = facets_in_rings(all, place, std::move(is_near), rings_beside_borders);
+    for (std::size_t f = 0; f < chosen.size(); ++f)
+        if (all.facets[f].is_kept) chosen[f] = 0;
+    return chosen;
 }
 
 }  // namespace kerf

@@ -8,9 +8,13 @@
 
 namespace kerf {
 
-/// Calls work(surface) once, for all facets, or where most are kept, for those that may change and some rings around
-/// them; and puts what has become of it into the state. Facets and vertices are numbered anew. O(#F), and what the work
-/// costs.
+/// Calls work(near) with the facets that may change and some rings of kept ones around them, or if most may change,
+/// with all; and puts what has become of them into the state. Facets and vertices are numbered anew. O(#F), and what
+/// the work costs.
+void change_apart_from_kept(SheetState& state, const std::function<void(SheetState& near)>& work);
+
+/// Calls work(surface) for all facets at once, and puts what has become of them into the state. O(#F), and what the
+/// work costs.
 void change_at_once(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work);
 
 /// Numbers the blocks (SheetFacet::block) into which the chosen facets (#F) are divided along Morton's curve, of about
@@ -28,8 +32,8 @@ std::int32_t divide_by_components(SheetState& state, const std::vector<char>& ch
 /// are numbered anew. O(#F), and what the work costs.
 void change_blocks(const InputShape& input, SheetState& state, const std::function<void(BoundedSurface&)>& work);
 
-/// Returns the facets (#F) within some rings of facets around the vertices that blocks have in common, 0 if there are
-/// none. O(#F).
+/// Returns the facets (#F) that may change within some rings of facets around the vertices that blocks have in common,
+/// 0 if there are none. O(#F).
 std::vector<char> facets_beside_borders(const SheetState& state);
 
 }  // namespace kerf

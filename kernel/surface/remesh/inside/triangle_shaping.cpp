@@ -441,13 +441,13 @@ class ShapingInBlocks {
 SheetState simplify(const InputShape& input, const std::vector<char>& kept, const RemeshOptions& options,
                     const std::function<void(double)>& add) {
     SheetState state = sheet_state(input, kept);
-    ShapingInBlocks(input, options, add, state).simplify();
+    change_apart_from_kept(state, [&](SheetState& near) { ShapingInBlocks(input, options, add, near).simplify(); });
     return state;
 }
 
 void shape_triangles(const InputShape& input, const RemeshOptions& options, const std::function<void(double)>& add,
                      SheetState& state) {
-    ShapingInBlocks(input, options, add, state).shape();
+    change_apart_from_kept(state, [&](SheetState& near) { ShapingInBlocks(input, options, add, near).shape(); });
 }
 
 }  // namespace kerf
