@@ -118,6 +118,46 @@ TEST(Blocks, OfRegionsMayBeChangedByThemselves) {
     }
 }
 
+// All facets but those around one place are kept.
+TEST(Blocks, ApartFromWhatIsKeptMayBeChangedAndJoined) {
+    for (const test::TouchingBodies& bodies : test::touching_bodies()) {
+        SCOPED_TRACE(bodies.name);
+        const Complex before = complex_of(bodies);
+        const LabelledFacets facets = label_facets(before);
+        const Given given(facets.surface);
+        std::vector<char> kept;
+        const Vec3& place = given.surface.vertices.front();
+        for (const Triangle& t : given.surface.facets)
+            kept.push_back((given.surface.vertices[t[0]] - place).norm() > 2 ? 1 : 0);
+        ASSERT_GT(2 * std::count(kept.begin(), kept.end(), char{1}), std::ssize(kept));
+        SheetState state = sheet_state(given.shape, kept);
+        change_apart_from_kept(state, [&](SheetState& near) {
+            EXPECT_LT(near.arrays.facets.size(), given.surface.facets.size());
+            std::vector<char> chosen;
+            for (const SheetFacet& facet : near.arrays.facets) chosen.push_back(facet.is_kept ? 0 : 1);
+            for (const bool is_turned : {false, true, false}) {
+                divide_along_curve(near, chosen, std::vector<float>(chosen.size(), 1), 10, is_turned);
+                change_blocks(given.shape, near, [](BoundedSurface& surface) { change_at_random(surface, 7); });
+                chosen = facets_beside_borders(near);
+            }
+            change_at_once(given.shape, near, [](BoundedSurface& surface) { change_at_random(surface, 8); });
+        });
+        SurfaceArrays after = joined_surface(state.arrays);
+        const std::vector<Corners> old_facets = sorted_facets(given.surface), new_facets = sorted_facets(after);
+        EXPECT_NE(old_facets, new_facets);
+        SurfaceArrays kept_ones = given.surface;
+        kept_ones.facets.clear();
+        for (std::size_t f = 0; f < kept.size(); ++f)
+            if (kept[f] != 0) kept_ones.facets.push_back(given.surface.facets[f]);
+        const std::vector<Corners> those_kept = sorted_facets(kept_ones);
+        EXPECT_TRUE(std::includes(new_facets.begin(), new_facets.end(), those_kept.begin(), those_kept.end()));
+        EXPECT_TRUE(is_well_formed(after));
+        EXPECT_TRUE(find_self_intersections(after.vertices, after.facets).empty());
+        std::vector<std::string> names(before.region_names().begin(), before.region_names().end());
+        EXPECT_NO_THROW(facets.to_complex(std::move(after), std::move(names)));
+    }
+}
+
 // A plate thinner than its tolerance has strips; a cube has none, for all its features that meet at corners.
 TEST(NarrowStrips, AreSeenOnThePlateThatHasThem) {
     const auto has_strips = [](double thickness) {
