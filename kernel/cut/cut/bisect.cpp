@@ -1,6 +1,6 @@
 // The ladder. Planes come in their order: first those between bodies, then for each direction the bisection and its
 // steps, within the load window, at last those outside of it. Each plane gets rounds of local repair (plane_trial.h)
-// until a cut is good, or, once there is a valid one, until some rounds in a row have bettered nothing; the best of the
+// until a cut is good, or, once there is a fair one, until some rounds in a row have bettered nothing; the best of the
 // valid but soft cuts is kept and taken when a few planes have given nothing better. Two budgets for all planes of a
 // node bound the time: steps of the minimum cuts, and places where interfaces have met the surface. Both count work,
 // not seconds, so that the result is the same on every machine.
@@ -24,7 +24,8 @@ namespace {
 constexpr double least_goodness = 0.02;         // worse cuts make tetrahedra that are of no use
 constexpr std::int32_t planes_before_soft = 3;  // tried before a soft cut is good enough
 constexpr std::int32_t soft_rounds = 6;         // of local repair of a valid cut
-constexpr std::int32_t vain_rounds = 4;         // in a row that better nothing of the plane, if there is a valid cut
+constexpr std::int32_t vain_rounds = 4;         // in a row that better nothing of the plane, if there is a fair cut
+constexpr double fair_goodness = 0.5;
 
 // Bound of the steps of all minimum cuts of a node: well-shaped surfaces rarely need a hundredth of it, slivers would
 // take minutes. It halves from level to level, so that the levels together take no more than twice the first, and does
@@ -110,7 +111,7 @@ bool Ladder::try_plane(const PlaneCandidate& candidate, std::vector<CutTry>& tri
         }
         vain = value > best_of_plane ? 0 : vain + 1;
         best_of_plane = std::max(best_of_plane, value);
-        if (!more || collision_budget_ <= 0 || (best_ && vain >= vain_rounds)) return false;
+        if (!more || collision_budget_ <= 0 || (best_goodness_ >= fair_goodness && vain >= vain_rounds)) return false;
     }
     return false;
 }
