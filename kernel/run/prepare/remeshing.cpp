@@ -1,8 +1,9 @@
 // Three questions are answered here: whether a surface is remeshed, divided or kept (change_of()), with which lengths
-// and which deviation (remesh_task()), and what becomes of a refusal. A surface is remeshed where that is asked for,
-// where it comes of a CAD file, or where slivers or facets beside thin layers would spoil cells; it is divided where
-// facets are coarser than sizes; both can be turned off. Forecasts use the same functions as the change itself, so that
-// a run and its forecast never disagree about what is done.
+// and which deviation (remesh_task() and, where the body is slender, narrow_on_slender_bodies()), and what becomes of a
+// refusal. A surface is remeshed where that is asked for, where it comes of a CAD file, or where slivers or facets
+// beside thin layers would spoil cells; it is divided where facets are coarser than sizes; both can be turned off.
+// Forecasts use the same functions as the change itself, so that a run and its forecast never disagree about what is
+// done.
 //
 // A deviation that nobody gave is a twentieth of the wanted length, less where the body is thin, and volumes must then
 // stay. Where nobody has asked for remeshing, or the surface is a wrap, a bound or volume that cannot be kept does not
