@@ -84,8 +84,10 @@ void add_options(CLI::App& command, ExportLine& line) {
         ->check(suggest_cell_fields());
     command.add_flag("--msh-ascii", request.msh_ascii, "Write msh as text instead of binary.");
     command
-        .add_option("--patch-type", request.patch_types,
-                    "OpenFOAM's type of a patch: patch (default), wall, symmetry, symmetryPlane. Repeatable.")
+        .add_option(
+            "--patch-type", request.patch_types,
+            "OpenFOAM's type of a patch: patch, wall, symmetry, symmetryPlane; * in NAME stands for any characters. "
+            "Default: as kerf mesh was told, else patch. Repeatable.")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("NAME=TYPE");

@@ -13,38 +13,15 @@
 #include <Eigen/Geometry>
 
 #include "base/core/error.h"
+#include "base/core/name_pattern.h"
 
 namespace kerf {
 
 namespace {
 
 constexpr double on_plane = 1e-6, beside_body = 0.01;  // of the diagonal
-constexpr std::size_t most_names = 30;
-
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i)
-        text += fmt::format("{}'{}'", text.empty() ? "" : ", ", names[i]);
-    if (names.size() > most_names) text += fmt::format(" and {} more", names.size() - most_names);
-    return text;
-}
 
 }  // namespace
-
-bool matches_pattern(const std::string& pattern, const std::string& text) {
-    std::vector<char> matched(text.size() + 1, 0);  // [i]: whether the pattern so far may be the first i characters
-    matched[0] = 1;
-    for (const char c : pattern) {
-        if (c == '*') {
-            for (std::size_t i = 0; i < text.size(); ++i)
-                if (matched[i]) matched[i + 1] = 1;
-            continue;
-        }
-        for (std::size_t i = text.size(); i > 0; --i) matched[i] = matched[i - 1] && text[i - 1] == c;
-        matched[0] = 0;
-    }
-    return matched.back() != 0;
-}
 
 SurfaceSelector::SurfaceSelector(const FeSpace& space, std::vector<std::string> names)
     : space_(space), names_(std::move(names)) {
@@ -74,15 +51,8 @@ SurfaceSelector::SurfaceSelector(const FeSpace& space, std::vector<std::string> 
 
 std::vector<char> SurfaceSelector::match(const std::vector<std::string>& patterns, const std::string& who) const {
     std::vector<char> matched(names_.size(), 0);
-    for (const std::string& pattern : patterns) {
-        bool any = false;
-        for (std::size_t i = 0; i < names_.size(); ++i)
-            if (matches_pattern(pattern, names_[i])) matched[i] = any = true;
-        if (!any)
-            throw Error(ErrorCode::usage,
-                        fmt::format("{} names the patch '{}', which this mesh does not have. It has {}.", who, pattern,
-                                    listed(names_)));
-    }
+    for (const std::string& pattern : patterns)
+        for (const std::int32_t patch : matching_patches(who, pattern, names_)) matched[patch] = 1;
     return matched;
 }
 

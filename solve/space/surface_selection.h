@@ -49,7 +49,4 @@ class SurfaceSelector {
     Vec3 low_, high_;  // of the box around the mesh
 };
 
-/// Whether the pattern, in which '*' stands for any characters, is all of the text. O(n m).
-bool matches_pattern(const std::string& pattern, const std::string& text);
-
 }  // namespace kerf

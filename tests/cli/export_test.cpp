@@ -1,6 +1,7 @@
 // kerf export: where its files go, and what it leaves alone.
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -106,7 +107,7 @@ TEST_F(Export, SaysWhatIsWrong) {
     expect(export_to("run/export", "su2"), 2, "lies in the run");
     expect(export_to("out", "su2", {"--msh-ascii"}), 2, "--msh-ascii is for the format msh");
     expect(export_to("out", "su2", {"--patch-type", "all=wall"}), 2, "--patch-type is for the format openfoam");
-    expect(export_to("out", "openfoam", {"--patch-type", "none=wall"}), 2, "no such patch. It has ");
+    expect(export_to("out", "openfoam", {"--patch-type", "none=wall"}), 2, "which the surface does not have. It has ");
     expect(export_to("out", "su2", {"--split-regions"}), 2, "--split-regions is for the format openfoam");
     expect(export_to("out", "openfoam", {"--split-regions"}), 2, "the surface has one region");
     for (const char* format : {"vtu", "openfoam"})
@@ -115,11 +116,33 @@ TEST_F(Export, SaysWhatIsWrong) {
                2, "--split-regions");
     expect(test::run_kerf({"merge", run_, "-o", folder_.file("a.su2"), "--msh-ascii"}), 2, "end with .msh");
     expect(test::run_kerf({"mesh", test::asset_path("cube"), "-o", folder_.file("out"), "--patch-type", "none=wall"}),
-           2, "no such patch. It has ");
+           2, "which the surface does not have. It has ");
     expect(test::run_kerf({"export", folder_.file("none"), "--format", "su2"}), 7, "is not a finished run");
     expect(test::run_kerf({"mesh", test::asset_path("cube"), "-o", folder_.file("out"), "--format", "obj"}), 2,
            "'obj' is no format");
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"run"});
+}
+
+TEST_F(Export, TypesOfPatchesAreThoseOfTheRunUnlessOthersAreAskedFor) {
+    const auto mesh =
+        test::run_kerf({"mesh", test::asset_path("cube"), "-o", folder_.file("typed"), "-n", "1", "--feature-angle",
+                        "40", "--patch-type", "face_*=wall", "--patch-type", "face_2=symmetry"});
+    ASSERT_EQ(mesh.exit_code, 0) << mesh.log;
+    const auto types = [&](const std::string& to, const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"export", folder_.file("typed"), "--format", "openfoam",
+                                          "-o",     folder_.file(to)};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(test::run_kerf(words).exit_code, 0);
+        const std::string boundary = test::bytes_of_file(folder_.file(to + "/constant/polyMesh/boundary"));
+        std::vector<std::string> found;
+        std::istringstream lines(boundary.substr(boundary.find('(')));
+        for (std::string word; lines >> word;)
+            if (word == "type" && lines >> word) found.push_back(word.substr(0, word.find(';')));
+        return found;
+    };
+    EXPECT_EQ(types("kept", {}), (std::vector<std::string>{"wall", "symmetry", "wall", "wall", "wall", "wall"}));
+    EXPECT_EQ(types("asked", {"--patch-type", "face_1=patch"}),
+              (std::vector<std::string>{"patch", "symmetry", "wall", "wall", "wall", "wall"}));
 }
 
 }  // namespace

@@ -329,18 +329,5 @@ TEST(NodeHolds, KeepAllThatIsSaid) {
     EXPECT_TRUE(noisy.is_global());
 }
 
-TEST(Patterns, StarsStandForAnything) {
-    EXPECT_TRUE(matches_pattern("face_1", "face_1"));
-    EXPECT_FALSE(matches_pattern("face_1", "face_12"));
-    EXPECT_FALSE(matches_pattern("ace_1", "face_1"));
-    EXPECT_TRUE(matches_pattern("*", ""));
-    EXPECT_TRUE(matches_pattern("*", "anything"));
-    EXPECT_TRUE(matches_pattern("a*b*c", "aXbbYc"));
-    EXPECT_FALSE(matches_pattern("a*b*c", "aXYc"));
-    EXPECT_TRUE(matches_pattern("body/face *", "body/face 12"));
-    EXPECT_FALSE(matches_pattern("", "a"));
-    EXPECT_TRUE(matches_pattern("**", "a"));
-}
-
 }  // namespace
 }  // namespace kerf

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/name_pattern.h"
 
 namespace kerf {
 
 namespace {
 
 constexpr std::array<std::string_view, 4> known_types = {"patch", "wall", "symmetry", "symmetryPlane"};
-constexpr std::size_t most_names = 20;  // in a message
 
 }  // namespace
 
@@ -32,14 +32,7 @@ std::vector<PatchType> parse_patch_types(std::span<const std::string> texts) {
 }
 
 void require_patches(std::span<const PatchType> types, std::span<const std::string> patch_names) {
-    for (const PatchType& each : types) {
-        if (std::find(patch_names.begin(), patch_names.end(), each.patch) != patch_names.end()) continue;
-        const std::span<const std::string> first = patch_names.first(std::min(patch_names.size(), most_names));
-        throw Error(ErrorCode::usage, fmt::format("--patch-type names '{}', but the surface has no such patch. It has "
-                                                  "'{}'{}.",
-                                                  each.patch, fmt::join(first, "', '"),
-                                                  first.size() < patch_names.size() ? ", ..." : ""));
-    }
+    for (const PatchType& each : types) matching_patches("--patch-type", each.patch, patch_names);
 }
 
 void require_regions(std::size_t count) {
@@ -49,8 +42,8 @@ void require_regions(std::size_t count) {
 }
 
 std::string type_of_patch(std::span<const PatchType> types, const std::string& patch) {
-    const auto found =
-        std::find_if(types.rbegin(), types.rend(), [&](const PatchType& each) { return each.patch == patch; });
+    const auto found = std::find_if(types.rbegin(), types.rend(),
+                                    [&](const PatchType& each) { return matches_pattern(each.patch, patch); });
     return found == types.rend() ? "patch" : found->type;
 }
 

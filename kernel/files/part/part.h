@@ -170,6 +170,7 @@ struct MeshOutline {
     std::int64_t vertices = 0;           ///< distinct ones
     std::vector<std::string> patch_names;
     std::vector<std::string> region_names = {};  ///< empty if there is one region
+    std::vector<std::string> patch_types = {};   ///< words NAME=TYPE of --patch-type that the run was given
     bool is_whole = true;                        ///< false: parts that could not be meshed may be neighbours of these
     std::vector<PartValues> values = {};         ///< values that all parts have, without their numbers
     int order = 1;                               ///< 2: a node on each edge, too

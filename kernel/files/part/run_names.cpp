@@ -13,6 +13,9 @@ RunNames RunNames::of_report(const nlohmann::json& report) {
         names.patches.push_back(path_of_text(name.get<std::string>()));
     for (const auto& region : input.value("regions", nlohmann::json::array()))
         names.regions.push_back(path_of_text(region.at("name").get<std::string>()));
+    for (const auto& type :
+         report.value("options", nlohmann::json::object()).value("patch-type", nlohmann::json::array()))
+        names.patch_types.push_back(path_of_text(type.get<std::string>()));
     return names;
 }
 

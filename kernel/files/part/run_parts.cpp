@@ -73,6 +73,7 @@ MeshOutline outline_of(const std::string& folder, const nlohmann::json& report) 
         RunNames names = RunNames::of_report(report);
         outline.patch_names = std::move(names.patches);
         outline.region_names = std::move(names.regions);
+        outline.patch_types = std::move(names.patch_types);
         for (const auto& of_part : report.at("parts")) {
             outline.parts.push_back({of_part.at("id"), of_part.at("vertices"), of_part.at("tets")});
             PartExtent& extent = outline.parts.back();

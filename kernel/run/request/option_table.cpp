@@ -200,7 +200,9 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
      "Repeatable.",
      place<&SizeOptions::inside>},
     {"size-on", "", option_group::sizes, "NAME=H",
-     "Edge length H on a patch of the input, as NAME=H, or with % NAME=2%. Repeatable.", place<&SizeOptions::on>},
+     "Edge length H on a patch of the input, as NAME=H, or with % NAME=2%; * in a name stands for any characters. "
+     "Repeatable.",
+     place<&SizeOptions::on>},
     {"size-region", "", option_group::sizes, "NAME=H",
      "Edge length H in a region, in place of --size, as NAME=H. Repeatable.", place<&SizeOptions::in_region>},
     {"size-near", "", option_group::sizes, "NAME=H:D",
@@ -331,7 +333,8 @@ constexpr OptionRow<RunRequest> output_rows[] = {
      "shape; or all, or none. Default min-dihedral.",
      place<&RunRequest::outputs, &OutputOptions::fields>, false},
     {"patch-type", "", option_group::output, "NAME=TYPE",
-     "OpenFOAM's type of a patch: patch (default), wall, symmetry, symmetryPlane. Repeatable.",
+     "OpenFOAM's type of a patch: patch (default), wall, symmetry, symmetryPlane; * in NAME stands for any characters. "
+     "Repeatable.",
      place<&RunRequest::outputs, &OutputOptions::patch_types>, false},
     {"split-regions", "", option_group::output, "",
      "OpenFOAM: one mesh for each region, their walls mapped to each other.",

@@ -153,6 +153,14 @@ std::vector<FormatPlace> places_of(const ExportRequest& request, const std::vect
     return places;
 }
 
+// Types of patches that are asked for come after those that the run was given, so that they count.
+std::vector<PatchType> patch_types_of(const ExportRequest& request, const MeshOutline& outline) {
+    std::vector<PatchType> types = parse_patch_types(outline.patch_types);
+    for (PatchType& type : parse_patch_types(request.patch_types)) types.push_back(std::move(type));
+    require_patches(types, outline.patch_names);
+    return types;
+}
+
 // Throws Error(usage) for an option that none of the formats would obey.
 FormatOptions options_of(const ExportRequest& request, const std::vector<const Format*>& formats) {
     const auto require = [&](bool is_asked, const char* option, const char* format) {
@@ -163,8 +171,7 @@ FormatOptions options_of(const ExportRequest& request, const std::vector<const F
     require(request.msh_ascii, "--msh-ascii", "msh");
     require(!request.patch_types.empty(), "--patch-type", "openfoam");
     require(request.split_regions, "--split-regions", "openfoam");
-    return {parse_cell_fields(request.fields), request.msh_ascii, parse_patch_types(request.patch_types),
-            request.split_regions};
+    return {parse_cell_fields(request.fields), request.msh_ascii, {}, request.split_regions};
 }
 
 void check_request(const ExportRequest& request) {
@@ -194,7 +201,7 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
         check_request(request);
         options = options_of(request, formats);
         parts = open_parts(request.folder);
-        require_patches(options.patch_types, parts->outline().patch_names);  // before there is a folder
+        options.patch_types = patch_types_of(request, parts->outline());  // before there is a folder
         if (options.split_regions) require_regions(parts->outline().region_names.size());
         for (const Format* format : formats)
             require_order(*format, request.order == 0 ? parts->outline().order : request.order);

@@ -16,7 +16,7 @@ struct ExportRequest {
     std::int32_t into = 0;   ///< number of pieces into which the parts are joined; 0: the parts as they are
     std::string fields;      ///< fields of cells in vtu files (parse_cell_fields())
     bool msh_ascii = false;  ///< msh as text
-    std::vector<std::string> patch_types;  ///< words of parse_patch_types(), for openfoam
+    std::vector<std::string> patch_types;  ///< words of parse_patch_types(), for openfoam, beside those of the run
     int threads = 1;                       ///< number of threads of each rank
     bool split_regions = false;            ///< openfoam: one mesh for each region
     int order = 0;                         ///< order of the cells: 1 or 2; 0: that of the run

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "base/core/name_pattern.h"
 #include "base/core/regular_tet.h"
 #include "base/geometry/box.h"
 #include "surface/size/inside/surface_sizes.h"
@@ -95,7 +96,7 @@ bool add_solid(const std::string& text, SizeSources& sources) {
 }
 
 struct PatchSize {
-    std::string name;
+    std::string name;  // '*' stands for any characters
     Length size, reach;
 };
 
@@ -116,17 +117,6 @@ PatchSize parse_near(const std::string& text) {
     return wanted;
 }
 
-std::int32_t find_patch(const char* option, const std::string& name, const std::vector<std::string>& names) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return found - names.begin();
-    constexpr std::size_t most = 20;
-    const auto end = names.begin() + std::min(most, names.size());
-    throw Error(ErrorCode::usage,
-                fmt::format("--{} names the patch '{}', which the surface does not have. It has {}{}.", option, name,
-                            fmt::join(names.begin(), end, ", "),
-                            names.size() > most ? fmt::format(" and {} more", names.size() - most) : ""));
-}
-
 void append(std::vector<SizedTriangle>& all, const std::vector<SizedTriangle>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
@@ -143,11 +133,11 @@ std::vector<SizedTriangle> sizes_of_surface(const SizeOptions& options, const Su
     const double least = least_told_rel * box_around(surface.vertices).diagonal().norm();
     std::vector<SizedTriangle> all;
     const auto add_patch = [&](const char* option, const PatchSize& wanted) {
-        const std::int32_t patch = find_patch(option, wanted.name, patch_names);
-        append(all, sizes_on_patch(surface, patch, wanted.size, wanted.reach));
+        for (const std::int32_t patch : matching_patches(option, wanted.name, patch_names))
+            append(all, sizes_on_patch(surface, patch, wanted.size, wanted.reach));
     };
-    for (const std::string& text : options.on) add_patch("size-on", parse_on(text));
-    for (const std::string& text : options.near) add_patch("size-near", parse_near(text));
+    for (const std::string& text : options.on) add_patch("--size-on", parse_on(text));
+    for (const std::string& text : options.near) add_patch("--size-near", parse_near(text));
     if (options.growth > 0) append(all, sizes_of_edges(surface));
     if (options.chord_error > 0 || options.segments_per_turn > 0)
         append(all,
