@@ -52,7 +52,7 @@ SurfaceSelector::SurfaceSelector(const FeSpace& space, std::vector<std::string> 
 std::vector<char> SurfaceSelector::match(const std::vector<std::string>& patterns, const std::string& who) const {
     std::vector<char> matched(names_.size(), 0);
     for (const std::string& pattern : patterns)
-        for (const std::int32_t patch : matching_patches(who, pattern, names_)) matched[patch] = 1;
+        for (const std::int32_t patch : matching_names(who, "patch", pattern, names_)) matched[patch] = 1;
     return matched;
 }
 

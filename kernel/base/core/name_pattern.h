@@ -39,16 +39,16 @@ inline std::string listed_names(std::span<const std::string> names) {
                        names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "");
 }
 
-/// Returns the numbers of the patches that match the pattern, ascending. Throws Error(usage) if there are none, with
-/// the names that there are; `who` names the pattern: "--size-on".
-inline std::vector<std::int32_t> matching_patches(std::string_view who, std::string_view pattern,
-                                                  std::span<const std::string> names) {
+/// Returns the numbers of the names that match the pattern, ascending. Throws Error(usage) if there are none, with the
+/// names that there are. `who`, such as "--size-on", has given the pattern, `kind` is what it stands for: "patch".
+inline std::vector<std::int32_t> matching_names(std::string_view who, std::string_view kind, std::string_view pattern,
+                                                std::span<const std::string> names) {
     std::vector<std::int32_t> matching;
     for (std::int32_t n = 0; n < count_of(names); ++n)
         if (matches_pattern(pattern, names[n])) matching.push_back(n);
     if (!matching.empty()) return matching;
-    throw Error(ErrorCode::usage, fmt::format("{} names the patch '{}', which the surface does not have. It has {}.",
-                                              who, pattern, listed_names(names)));
+    throw Error(ErrorCode::usage, fmt::format("{} names the {} '{}', which the surface does not have. It has {}.", who,
+                                              kind, pattern, names.empty() ? "none" : listed_names(names)));
 }
 
 }  // namespace kerf

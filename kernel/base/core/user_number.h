@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -66,6 +67,19 @@ std::optional<Number> number_in(std::string_view text) {
     const auto [stop, error] = std::from_chars(text.data(), end, number);
     if (error != std::errc() || stop != end || !std::isfinite(static_cast<double>(number))) return std::nullopt;
     return number;
+}
+
+/// Returns the numbers that make up the text with commas between them; nothing for any other text.
+inline std::vector<double> numbers_in(std::string_view text) {
+    std::vector<double> numbers;
+    while (true) {
+        const std::size_t comma = text.find(',');
+        const std::optional<double> number = number_in<double>(text.substr(0, comma));
+        if (!number) return {};
+        numbers.push_back(*number);
+        if (comma == text.npos) return numbers;
+        text.remove_prefix(comma + 1);
+    }
 }
 
 /// Reads a length, "0.5" or "2%".

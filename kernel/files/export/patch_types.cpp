@@ -32,7 +32,7 @@ std::vector<PatchType> parse_patch_types(std::span<const std::string> texts) {
 }
 
 void require_patches(std::span<const PatchType> types, std::span<const std::string> patch_names) {
-    for (const PatchType& each : types) matching_patches("--patch-type", each.patch, patch_names);
+    for (const PatchType& each : types) matching_names("--patch-type", "patch", each.patch, patch_names);
 }
 
 void require_regions(std::size_t count) {

@@ -28,6 +28,8 @@
 #include "surface/complex/mass_properties.h"
 #include "surface/diagnosis/intersections.h"
 #include "surface/diagnosis/optimisation.h"
+#include "surface/enclosure/enclosure.h"
+#include "surface/regions/region_finder.h"
 #include "surface/regions/regions.h"
 #include "surface/repair/repair.h"
 #include "surface/wrap/wrap.h"
@@ -97,6 +99,16 @@ Array<RegionIndex, double> largest_cells_of(const Soup& soup) {
     return is_any ? largest : Array<RegionIndex, double>();
 }
 
+// Puts the air in the place of the bodies.
+void enclose_bodies(CheckedSoup& checked, const InputOptions& options, const std::function<void()>& check_cancelled) {
+    Soup& soup = checked.soup;
+    checked.orientation = apply_repairs(checked);
+    if (options.feature_angle_deg > 0 && soup.patch_names.size() == 1 && soup.sides.empty())
+        make_feature_patches(soup, options.feature_angle_deg);
+    checked.enclosure = enclosure_around(box_around(soup.vertices), options.air);
+    enclose(soup, *checked.enclosure, options.fill_voids, check_cancelled);
+}
+
 // Makes the input of a surface that was read or given. `advice`: a sentence for one that cannot be meshed.
 Input to_input(CheckedSoup checked, const std::string& path, const InputOptions& options, const char* advice) {
     Input input;
@@ -107,7 +119,9 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
         throw UnfitSurface(message, std::move(checked));
     }
     const std::vector<std::string> gap_notes = notes_on_gaps(checked);
-    input.orientation = apply_repairs(checked);
+    const OrientationReport turned = apply_repairs(checked);
+    input.orientation = checked.enclosure ? checked.orientation : turned;
+    input.enclosure = checked.enclosure;
     input.tidied = checked.tidied;
     input.ladder = std::move(checked.ladder);
     input.wrapped = checked.wrapped;
@@ -273,9 +287,19 @@ CheckedSoup check_files(InputFiles files, const InputChoices& choices, double ne
         files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
     }
     take_points(soup, choices.seeds);
-    diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids);
+    diagnose_regions(checked, files, {options.voids, needle_angle_deg},
+                     options.fill_voids && !options.air.encloses());
     const std::vector<char>& dropped = checked.diagnosis.dropped;
     tidied.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
+    const DiagnosisOptions diagnosis = {options.voids, needle_angle_deg};
+    if (!options.holes.empty() && checked.diagnosis.clean()) {
+        leave_regions_empty(soup, options.holes);
+        checked.diagnosis = diagnose(soup, diagnosis);
+    }
+    if (options.air.encloses() && checked.diagnosis.clean()) {
+        enclose_bodies(checked, options, check_cancelled);
+        checked.diagnosis = diagnose(soup, diagnosis);
+    }
     return checked;
 }
 
@@ -374,7 +398,7 @@ std::int64_t count_changed_volumes(const Input& input) {
     const Array<RegionIndex, double>& before = input.remeshed->volumes_before;
     std::int64_t changed = 0;
     for (const RegionIndex r : now.ids())
-        changed += !(std::abs(now[r] - before[r]) <= largest_volume_change * before[r]);
+        changed += !(std::abs(now[r] - before[r]) <= largest_volume_change * input.reference_volume(before[r]));
     return changed;
 }
 

@@ -1,6 +1,7 @@
 // The way from a surface file to the closed surface that is cut.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "surface/complex/complex.h"
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/diagnosis/orientation.h"
+#include "surface/enclosure/enclosure_options.h"
 #include "surface/remesh/remesh.h"
 #include "surface/repair/repair_report.h"
 #include "surface/size/size_options.h"
@@ -40,6 +42,8 @@ struct CheckedSoup {
     TidyCounts tidied = {};
     RepairReport ladder = {};  ///< the steps of InputOptions::repairs
     std::optional<WrapReport> wrapped = {};
+    OrientationReport orientation = {};         ///< of the bodies, where they were oriented to be enclosed
+    std::optional<Enclosure> enclosure = {};    ///< the box around the bodies: the soup is its air
 };
 
 /// Error(input) for a surface that cannot be meshed as it is, with all that was found.
@@ -115,6 +119,7 @@ struct Input : InputMeasures {
     std::string path;
     std::string file_hash;  ///< hash of the file's bytes, or of the arrays, see hash_text()
     double diagonal = 0;    ///< diagonal of the bounding box
+    std::optional<Enclosure> enclosure = {};  ///< the box around the bodies of the file: the surface is that of its air
     TidyCounts tidied;
     OrientationReport orientation;
     std::int64_t moved_vertices = 0;  ///< vertices moved by the optimisation of the surface
@@ -131,6 +136,14 @@ struct Input : InputMeasures {
     Array<RegionIndex, double> largest_cells = {};
     RepairReport ladder = {};  ///< the steps of InputOptions::repairs
     std::optional<WrapReport> wrapped = {};
+
+    /// The diagonal of the box around the bodies of the file, of which lengths are percentages.
+    double body_diagonal() const { return enclosure ? enclosure->diagonal() : diagonal; }
+    /// The volume of which the change of a region's volume is a share: that of the region or, of air around bodies, that
+    /// of the bodies, if it is less.
+    double reference_volume(double of_region) const {
+        return enclosure ? std::min(of_region, enclosure->body_volume) : of_region;
+    }
 };
 
 /// Reads files (several files and CAD files, too: run/prepare/input_files.h), repairs and diagnoses them. Throws Error

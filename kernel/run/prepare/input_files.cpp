@@ -7,9 +7,7 @@
 #include "run/prepare/input_files.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
@@ -36,58 +34,12 @@ std::string stem_of(const std::string& path) {
     return name.stem().string();
 }
 
-template <class T>
-void append_items(std::vector<T>& all, const std::vector<T>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-}
-
-// Numbers of a file that are those of the soup are not written out.
-void write_out(std::vector<std::int32_t>& numbers, std::size_t count) {
-    if (!numbers.empty()) return;
-    numbers.resize(count);
-    std::iota(numbers.begin(), numbers.end(), 0);
-}
-
-void append_numbers(std::vector<std::int32_t>& all, std::size_t count, std::vector<std::int32_t> more,
-                    std::size_t more_count) {
-    write_out(all, count);
-    write_out(more, more_count);
-    const std::int32_t next = all.empty() ? 0 : *std::max_element(all.begin(), all.end()) + 1;
-    for (const std::int32_t number : more) all.push_back(next + number);
-}
-
-void append_polygons(Soup& all, const Soup& more) {
-    if (all.polygon.empty() && more.polygon.empty()) return;
-    write_out(all.polygon, all.facets.size());
-    const std::int32_t next = all.polygon.empty() ? 0 : all.polygon.back() + 1;
-    for (const std::int32_t polygon : more.unfit_polygons) all.unfit_polygons.push_back(next + polygon);
-    append_numbers(all.polygon, all.facets.size(), more.polygon, more.facets.size());
-}
-
-void append_soup(Soup& all, const Soup& more, const std::string& name) {
-    append_polygons(all, more);
-    if (!all.vertex_number.empty() || !more.vertex_number.empty())
-        append_numbers(all.vertex_number, all.vertices.size(), more.vertex_number, more.vertices.size());
-    const auto first_vertex = count_of(all.vertices);
-    const auto first_patch = count_of(all.patch_names);
-    for (const Triangle& t : more.facets)
-        all.facets.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
-    for (const std::int32_t patch : more.patch) all.patch.push_back(first_patch + patch);
-    for (const auto& [vertices, sharp] : more.model_edges)
-        all.model_edges.push_back({{vertices[0] + first_vertex, vertices[1] + first_vertex}, sharp});
-    const bool has_colours = !all.patch_colours.empty() || !more.patch_colours.empty();
-    if (has_colours) {
-        all.patch_colours.resize(all.patch_names.size());
-        append_items(all.patch_colours, more.patch_colours);
-    }
-    for (const std::string& patch : more.patch_names)
-        all.patch_names.push_back(more.patch_names.size() == 1 ? name : fmt::format("{}/{}", name, patch));
-    if (has_colours) all.patch_colours.resize(all.patch_names.size());
-    append_items(all.vertices, more.vertices);
-    append_items(all.holes, more.holes);
-    append_items(all.seeds, more.seeds);
-    for (const std::string& note : more.notes) all.notes.push_back(fmt::format("{}: {}", name, note));
-    all.is_of_model |= more.is_of_model;
+// A patch is called as the file if that has one patch, else "file/patch".
+void append_file(Soup& all, Soup file, const std::string& name) {
+    for (std::string& patch : file.patch_names)
+        patch = file.patch_names.size() == 1 ? name : fmt::format("{}/{}", name, patch);
+    for (std::string& note : file.notes) note = fmt::format("{}: {}", name, note);
+    append(all, file);
 }
 
 void read_walls_beside(const std::string& path, const FileHash& hash, InputFiles& files) {
@@ -124,8 +76,8 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
     Hasher hasher;
     std::vector<FileHash> hashes;
     std::set<std::string> taken_names;
-    const auto add = [&](const std::string& file, const HashedSoup& read) {
-        const auto& [soup, hash, is_welded] = read;
+    const auto add = [&](const std::string& file, HashedSoup read) {
+        auto& [soup, hash, is_welded] = read;
         if (std::filesystem::exists(walls_path(file)))
             throw Error(ErrorCode::input, fmt::format("{}: such a JSON is for a file alone, but here are several, a "
                                                       "region each. Mesh {} alone, or take the JSON away.",
@@ -141,11 +93,10 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
         hashes.push_back(hash);
         hasher.add(std::span<const std::uint64_t>(hash));
         files.names.push_back(unique_name(stem_of(file), taken_names));
-        append_soup(files.soup, soup, files.names.back());
+        append_file(files.soup, std::move(soup), files.names.back());
         files.file_of_patch.resize(files.soup.patch_names.size(), count_of(files.names) - 1);
     };
-    add(path, first);
-    first = {};
+    add(path, std::move(first));
     for (const std::string& file : options.more_files) add(file, read_surface_or_cad(file, options));
     files.hash = hash_text(hasher.digest());
     return files;

@@ -10,8 +10,8 @@ namespace {
 // Lengths may be shares of the diagonal.
 SizedInput remesh_as(Remeshing how, Input input, RunRequest options, StageListener* listener) {
     options.remeshing = how;
-    options.deviation = options.deviation.of(input.diagonal);
-    options.sizes.resolve_lengths(input.diagonal);
+    options.deviation = options.deviation.of(input.body_diagonal());
+    options.sizes.resolve_lengths(input.body_diagonal());
     return remesh_and_size(std::move(input), options, listener);
 }
 

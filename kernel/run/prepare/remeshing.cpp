@@ -173,10 +173,36 @@ bool has_many_slivers(const SurfaceArrays& surface, const std::vector<char>& is_
     return least * find_slivers(surface.vertices, chosen).count > std::ssize(chosen);
 }
 
+// Beside bodies edges are as they would be without the box of air around them, and on its faces as they are; bodies are
+// on the other side of their facets.
+void want_lengths_of_air(const Input& input, RemeshTask& task) {
+    if (!input.enclosure) return;
+    std::vector<char> is_face;  // by label
+    for (const LabelledFacets::Label& label : task.facets.labels)
+        is_face.push_back(input.enclosure->has_face(input.patch_names[label.patch]));
+    RemeshOptions& options = task.options;
+    const double beside_bodies = options.longest, on_faces = input.enclosure->edge;
+    options.wanted = [is_face, beside_bodies, on_faces, wanted = options.wanted](const Vec3& p, std::int32_t label) {
+        const double usual = is_face[label] != 0 ? on_faces : beside_bodies;
+        return wanted ? std::min(usual, wanted(p, label)) : usual;
+    };
+    options.longest = std::max(beside_bodies, on_faces);
+    options.walls.resize(task.facets.surface.facets.size(), 0);
+    for (std::size_t f = 0; f < options.walls.size(); ++f)
+        if (is_face[task.facets.surface.patch[f]] == 0) options.walls[f] = 1;
+    options.reference_volume = input.reference_volume(input.volume);
+}
+
 // A deviation that is asked for says how much the shape may change; a wrap is another shape than the file's. Where
 // curved cells follow, vertices are put on the faces of the model again, and the edges between them bulge.
 bool may_change_volume(const Input& input, const RunRequest& options) {
     return options.deviation.number() > 0 || input.wrapped || (input.is_cad && options.has_curved_edges());
+}
+
+// Of air around bodies not more than the bodies would have without it: sizes may be wanted far from them.
+double usual_deviation_of(const Input& input, const SizeField& wanted, const SurfaceArrays& surface, Fineness fineness) {
+    const double usual = usual_deviation(wanted, surface, input.body_diagonal(), fineness);
+    return input.enclosure ? std::min(usual, usual_deviation({}, surface, input.body_diagonal(), fineness)) : usual;
 }
 
 // A deviation that nobody has asked for is that of a body which is not slender, see narrow_on_slender_bodies().
@@ -185,16 +211,16 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
     constexpr double share_of_gap = 0.1;  // a wrap is rough where it bridges
     const SizeField wanted = wanted_lengths(options, input);
     RemeshTask task = {label_facets(input.complex),
-                       {.longest = longest_edge(options, input.diagonal), .creases = input.creases}};
+                       {.longest = longest_edge(options, input.body_diagonal()), .creases = input.creases}};
     RemeshOptions& result = task.options;
     result.walls = task.facets.walls;
     for (const LabelledFacets::Label& label : task.facets.labels) result.sides.push_back(label.sides);
     if (!wanted.is_empty()) result.wanted = [wanted](const Vec3& p, std::int32_t) { return wanted.at(p); };
     want_lengths_of_regions(options, wanted, input, task);
     if (options.deviation.number() > 0) {
-        result.deviation = deviation_for(options.deviation, input.diagonal);
+        result.deviation = deviation_for(options.deviation, input.body_diagonal());
     } else {
-        result.deviation = usual_deviation(wanted, surface, input.diagonal, options.sizes.fineness);
+        result.deviation = usual_deviation_of(input, wanted, surface, options.sizes.fineness);
         if (input.wrapped)
             result.deviation = std::max(result.deviation, share_of_gap * input.wrapped->gap);
         else
@@ -212,17 +238,31 @@ RemeshTask remesh_task(const Input& input, const SurfaceArrays& surface, const B
                        std::bit_or<char>());
         task.periodicity->is_kept = true;
     }
+    want_lengths_of_air(input, task);
     return task;
 }
 
-// Makes a deviation that nobody has asked for smaller where most of the body is thin.
-void narrow_on_slender_bodies(double diagonal, RemeshTask& task) {
+SurfaceArrays marked_facets(const SurfaceArrays& surface, const std::vector<char>& marks) {
+    SurfaceArrays marked;
+    marked.vertices = surface.vertices;
+    for (std::size_t f = 0; f < surface.facets.size(); ++f)
+        if (marks[f] != 0) marked.facets.push_back(surface.facets[f]);
+    return marked;
+}
+
+// Makes a deviation that nobody has asked for smaller where most of the body is thin. Of the air around bodies,
+// that of the bodies counts.
+void narrow_on_slender_bodies(const Input& input, RemeshTask& task) {
     if (task.options.share_of_thickness == 0) return;
     double& deviation = task.options.deviation;
-    const SurfaceArrays& surface = task.facets.surface;
+    const std::optional<SurfaceArrays> bodies =
+        input.enclosure ? std::optional(marked_facets(task.facets.surface, task.options.walls)) : std::nullopt;
+    const SurfaceArrays& surface = bodies ? *bodies : task.facets.surface;
+    const std::vector<char> walls = bodies ? std::vector<char>(surface.facets.size(), 1) : task.facets.walls;
     const TriangleTree tree(surface.vertices, surface.facets);
-    const double thickness = median_thickness(surface, tree, task.facets.walls, deviation / share_of_median_thickness);
-    deviation = std::max(smallest_share * diagonal, std::min(deviation, share_of_median_thickness * thickness));
+    const double thickness = median_thickness(surface, tree, walls, deviation / share_of_median_thickness);
+    deviation = std::max(smallest_share * input.body_diagonal(),
+                         std::min(deviation, share_of_median_thickness * thickness));
 }
 
 // Returns a note for users whose solvers join opposite sides, and who want to know whether they still match.
@@ -285,7 +325,9 @@ void refuse_changed_volumes(const Input& input) {
     if (count_changed_volumes(input) == 0) return;
     const Array<RegionIndex, double> now = region_volumes(input);
     const Array<RegionIndex, double>& before = input.remeshed->volumes_before;
-    const auto change = [&](RegionIndex r) { return std::abs(now[r] - before[r]) / before[r]; };
+    const auto change = [&](RegionIndex r) {
+        return std::abs(now[r] - before[r]) / input.reference_volume(before[r]);
+    };
     RegionIndex worst;
     for (const RegionIndex r : now.ids())
         if (!(change(r) <= change(worst))) worst = r;
@@ -300,7 +342,7 @@ void refuse_changed_volumes(const Input& input) {
 Input remeshed(Input input, const SurfaceArrays& before, const BadFacets& bad, const RunRequest& options,
                StageListener* listener) {
     RemeshTask task = remesh_task(input, before, bad, options);
-    narrow_on_slender_bodies(input.diagonal, task);
+    narrow_on_slender_bodies(input, task);
     RemeshOptions& wanted = task.options;
     if (options.remeshing == Remeshing::where_needed) input.notes.push_back(note_of_remeshing(input, bad, wanted));
     if (task.periodicity) input.notes.push_back(note_of_periodicity(*task.periodicity));
@@ -343,7 +385,7 @@ Complex with_pieces(const Complex& before, DividedSurface divided) {
 
 Input divided(Input input, const SurfaceArrays& before, const RunRequest& options, StageListener* listener) {
     const FacetSizes wanted = wanted_on_facets(options, input);
-    check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.diagonal));
+    check_memory(forecast_divided_facets(before, wanted), options, longest_edge(options, input.body_diagonal()));
     DividedSurface result = divide_facets(before, wanted, CancellationCheck(step_counter(listener)));
 
     input.remeshed = {.facets_before = input.facets,

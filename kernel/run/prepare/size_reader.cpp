@@ -51,9 +51,22 @@ SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surfa
     return make_size_field(options, surface, patch_names, std::move(background));
 }
 
-SizeField read_size_field(const SizeOptions& options, const Input& input) {
+SizeField read_size_field(const SizeOptions& given, const Input& input) {
+    SizeOptions options = given;
+    if (input.enclosure && input.enclosure->wake) {
+        const Box& wake = *input.enclosure->wake;
+        options.inside.push_back(fmt::format("box:{},{}={}", fmt::join(wake.min(), ","), fmt::join(wake.max(), ","),
+                                             input.enclosure->wake_edge));
+    }
     return read_size_field(options, options.depends_on_place() ? input.complex.arrays() : SurfaceArrays(),
                            input.patch_names);
+}
+
+SizeOptions sizes_of_cells(const SizeOptions& options, const Input& input) {
+    if (!input.enclosure) return options;
+    SizeOptions sizes = options.constant_max_volume() > 0 ? options : options.with_edge(input.enclosure->edge);
+    if (sizes.growth == 0) sizes.growth = SizeOptions::usual_growth;
+    return sizes;
 }
 
 }  // namespace kerf

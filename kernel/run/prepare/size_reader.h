@@ -16,7 +16,12 @@ namespace kerf {
 SizeField read_size_field(const SizeOptions& options, const SurfaceArrays& surface,
                           const std::vector<std::string>& patch_names);
 
-/// Returns the same over the surface of an input, which is looked at only where sizes depend on the place.
+/// Returns the same over the surface of an input, which is looked at only where sizes depend on the place. Air around
+/// bodies has the size of its wake, too.
 SizeField read_size_field(const SizeOptions& options, const Input& input);
+
+/// Returns the sizes of cells: those of the options or, where these give none for all of the air around bodies, cells
+/// that grow from the edges of the surface to the size of the box's faces.
+SizeOptions sizes_of_cells(const SizeOptions& options, const Input& input);
 
 }  // namespace kerf

@@ -55,6 +55,7 @@ RepairPlan repair_plan_of(const InputOptions& options) {
     RepairPlan plan = parse_repair_plan("repair", asked.plan);
     plan.are_walls = !options.regions.empty();
     plan.voids_are_parity = options.voids == Voids::parity;
+    plan.outside_is_meshed = options.air.encloses();
     if (asked.weld_tolerance.number() > 0) plan.put({RepairKind::merge, asked.weld_tolerance});
     if (asked.keep_largest) plan.put({RepairKind::largest});
     if (asked.fill_hole_edges > 0) plan.put({RepairKind::span, Length(asked.fill_hole_edges)});

@@ -8,6 +8,7 @@
 #include "base/core/user_number.h"
 #include "files/io/cad_body.h"
 #include "surface/diagnosis/diagnosis.h"
+#include "surface/enclosure/enclosure_options.h"
 #include "surface/repair/repair_plan.h"
 #include "surface/wrap/wrap.h"
 
@@ -32,6 +33,8 @@ struct InputOptions {
     std::vector<std::string> regions;      ///< NAME=x,y,z: points of regions, in units after scaling
     std::vector<std::string> more_files;   ///< files whose bodies are meshed with those of the input
     bool fill_voids = false;               ///< the spaces inside of voids are regions
+    std::vector<std::string> holes;        ///< names of regions that are left empty; '*' stands for any characters
+    EnclosureOptions air = {};             ///< the box whose air around the bodies is meshed in their place
     double feature_angle_deg = 0;          ///< patches between sharper edges where the file has one patch; 0: none
     std::int32_t optimisation_sweeps = 0;  ///< number of sweeps over vertices off the feature edges; 0: none moves
     CadOptions cad;                        ///< for STEP, IGES and BREP files

@@ -139,6 +139,26 @@ constexpr OptionRow<InputOptions> input_rows[] = {
     {"region", "", option_group::input, "NAME=x,y,z",
      "The facets are walls, and the region in which this point lies has this name; units after --scale. Repeatable.",
      place<&InputOptions::regions>},
+    {"hole", "", option_group::input, "NAME",
+     "Leave a region empty: the others are meshed around it; * in NAME stands for any characters. Repeatable.",
+     place<&InputOptions::holes>},
+    {"box", "", option_group::air, "BOX",
+     "Mesh the air in a box around the body, not the body: x0,y0,z0,x1,y1,z1, or UPSTREAM,SIDES,DOWNSTREAM, distances "
+     "in multiples of its longest side, as 3,3,8. Patches: inlet, outlet, ground, side_y_min, ...",
+     place<&InputOptions::air, &EnclosureOptions::box>},
+    {"box-size", "", option_group::air, "H",
+     "Edge length on the faces of the box, and largest one of cells. A length, or with % of the diagonal of the body. "
+     "Default: a twentieth of the box's longest side.",
+     place<&InputOptions::air, &EnclosureOptions::edge>, true, air_edge_range},
+    {"wind", "", option_group::air, "", "Direction of the flow, from inlet to outlet. Default x.",
+     [](InputOptions& o) -> OptionField::Value {
+         return choice(o.air.wind, {"x", "-x", "y", "-y", "z", "-z"});
+     }},
+    {"ground", "", option_group::air, "PLANE",
+     "The box ends at this plane, which cuts the body: -0.32, for z = -0.32, or y=-0.32.",
+     place<&InputOptions::air, &EnclosureOptions::ground>},
+    {"wake", "", option_group::air, "H", "Edge length behind the body, up to two of its longest sides.",
+     place<&InputOptions::air, &EnclosureOptions::wake>, true, air_edge_range},
     {"feature-angle",
      "",
      option_group::input,
@@ -384,6 +404,7 @@ void InputOptions::check() const {
     if (wrapping.offset.number() > 0 && !wraps())
         throw Error(ErrorCode::usage, "--offset is for a surface that is wrapped. Give --gap, too, or leave it out.");
     repair_plan_of(*this);
+    air.check();
 }
 
 std::vector<std::string> command_words(InputOptions options) {

@@ -41,6 +41,11 @@ RunChoices choices_of(RunRequest request, int cores_of_rank) {
     choices.input = request.input_options;
     if (request.workers.count == 0) request.workers.count = std::max(1, cores_of_rank);
     request.sizes.check();
+    request.input_options.air.check();
+    if (request.sizes.cells > 0 && request.input_options.air.encloses())
+        throw Error(ErrorCode::usage,
+                    "--cells finds one size for all, but air around a body has fine cells beside it and coarse ones "
+                    "elsewhere. Give --box-size, and --size-on for the body, in its place.");
     check_mesher_options(request.mesher);
     if (request.facets == FacetPolicy::keep && request.cut.contour == ContourMethod::straight)
         throw Error(ErrorCode::usage, "--contour straight splits facets, and --surface keep forbids it. Drop one.");

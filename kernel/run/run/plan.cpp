@@ -79,8 +79,9 @@ void check_budget_before_remeshing(const Input& input, const RunChoices& choices
     RunRequest request = choices.request;
     if (request.dry_run || surface_change(input, request) == SurfaceChange::none) return;
     request.sizes = forecast_sizes(input, request);
-    request.sizes.growth = 0;  // from edges that are to change
-    const MesherOptions mesher(request.mesher, read_size_field(request.sizes, input));
+    SizeOptions sizes = sizes_of_cells(request.sizes, input);
+    sizes.growth = request.sizes.growth = 0;  // from edges that are to change
+    const MesherOptions mesher(request.mesher, read_size_field(sizes, input));
     const double volume = sized_volume_of(input, mesher.size, {}), facets = forecast_changed_facets(input, request);
     constexpr std::int32_t no_limit = std::numeric_limits<std::int32_t>::max();
     const std::int32_t parts =
@@ -146,8 +147,8 @@ PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, S
     Input input = surface ? *std::move(surface) : read_input(request.input, plan.choices.input, listener);
     refuse_changed_input(request, input.file_hash);
     request.input_options.repairs.weld_tolerance = input.ladder.preparation(RepairKind::merge).amount;
-    request.deviation = request.deviation.of(input.diagonal);
-    request.sizes.resolve_lengths(input.diagonal);
+    request.deviation = request.deviation.of(input.body_diagonal());
+    request.sizes.resolve_lengths(input.body_diagonal());
     check_budget_before_remeshing(input, plan.choices, ranks);
     const SurfaceArrays behind = surface_behind(input, request);
     SizedInput sized = remesh_and_size(std::move(input), request, listener);
@@ -160,7 +161,7 @@ PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, S
         if (request.sizes.is_coarse() && radius_edge == MesherChoices().radius_edge) radius_edge = coarse_radius_edge;
         request.sizes.growth = request.sizes.growth_beside_kept_facets();
     }
-    plan.size = read_size_field(request.sizes, input);
+    plan.size = read_size_field(sizes_of_cells(request.sizes, input), input);
     plan.region_sizes = RegionSizes(max_volumes_of_regions(request.sizes, input));
     require_patches(plan.choices.patch_types, input.patch_names);
     if (request.outputs.split_regions) require_regions(input.complex.region_names().size());

@@ -17,12 +17,15 @@
 
 #include "base/core/error.h"
 #include "base/core/ids.h"
+#include "base/core/name_pattern.h"
+#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "surface/complex/mass_properties.h"
 #include "surface/regions/cells.h"
 #include "surface/regions/divided_space.h"
-#include "surface/regions/inside/cell_walk.h"
+#include "surface/regions/cell_walk.h"
 #include "surface/soup/edge_corners.h"
+#include "surface/soup/region_patches.h"
 
 namespace kerf {
 
@@ -314,6 +317,22 @@ void leave_out_single_region(Soup& soup) {
     soup.region_names.clear();
 }
 
+// Walls between an empty region and others are faces of the hole now.
+void call_walls_by_holes(Soup& soup, const std::vector<std::string>& regions, const std::vector<char>& is_empty) {
+    for (std::size_t hole = 0; hole < regions.size(); ++hole) {
+        if (is_empty[hole] == 0) continue;
+        std::vector<std::size_t> walls;
+        for (std::size_t p = 0; p < soup.patch_names.size(); ++p)
+            for (std::size_t other = 0; other < regions.size(); ++other)
+                if (is_empty[other] == 0 &&
+                    soup.patch_names[p] == wall_name(regions, {RegionIndex(hole), RegionIndex(other)}))
+                    walls.push_back(p);
+        const std::vector<std::string>& names = soup.patch_names;
+        if (walls.size() == 1 && std::find(names.begin(), names.end(), regions[hole]) == names.end())
+            soup.patch_names[walls[0]] = regions[hole];
+    }
+}
+
 }  // namespace
 
 bool find_walled_regions(Soup& soup, const std::vector<NamedWall>& walls) {
@@ -371,6 +390,37 @@ bool find_nested_bodies(Soup& soup, const std::vector<std::int32_t>& body_of_fac
     if (!space || !name_by_patches(bodies, *space) || !has_wall(*space) || !are_turned_alike(bodies)) return false;
     give_sides(soup, std::move(*space));
     return true;
+}
+
+void leave_regions_empty(Soup& soup, const std::vector<std::string>& patterns) {
+    const std::vector<std::string> names = soup.region_names;
+    std::vector<char> is_empty(names.size(), 0);
+    for (const std::string& pattern : patterns)
+        for (const std::int32_t region : matching_names("--hole", "region", pattern, names)) is_empty[region] = 1;
+    Array<RegionIndex, RegionIndex> number(names.size(), RegionIndex::none());
+    soup.region_names.clear();
+    for (std::size_t r = 0; r < names.size(); ++r) {
+        if (is_empty[r] != 0) continue;
+        number[RegionIndex(r)] = RegionIndex(soup.region_names.size());
+        soup.region_names.push_back(names[r]);
+    }
+    if (soup.region_names.empty())
+        throw Error(ErrorCode::usage, "--hole leaves no region to be meshed. Name only those that are to be empty.");
+    call_walls_by_holes(soup, names, is_empty);
+    std::vector<char> drop(soup.facets.size(), 0);
+    const auto new_number = [&](RegionIndex region) { return region.is_valid() ? number[region] : region; };
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        FacetSides& sides = soup.sides[f];
+        sides = {new_number(sides.front), new_number(sides.back)};
+        drop[f] = sides.front == sides.back ? 1 : 0;
+        if (sides.back.is_valid()) continue;
+        sides = sides.turned();
+        std::swap(soup.facets[f][1], soup.facets[f][2]);
+    }
+    drop_facets(soup, drop);
+    drop_unused_patches(soup);
+    drop_unused_vertices(soup);
+    leave_out_single_region(soup);
 }
 
 std::vector<Vec3> holes_outside(const Soup& soup) {

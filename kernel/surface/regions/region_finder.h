@@ -61,6 +61,12 @@ bool find_nested_bodies(Soup& soup, const std::vector<std::int32_t>& body_of_fac
 /// Returns the points of Soup::holes that no facets enclose, so that they make no void. Empty if facets do not conform.
 std::vector<Vec3> holes_outside(const Soup& soup);
 
+/// Leaves the regions empty whose names match one of the patterns, in which '*' stands for any characters: a facet
+/// between one of them and another region bounds that alone, and facets that bound nothing else go. A wall A_to_B of an
+/// empty region B is called B, if nothing else is. A single region that is left has no sides. Throws Error(usage) for a
+/// pattern that matches no region, and if no region is left. O(#F).
+void leave_regions_empty(Soup& soup, const std::vector<std::string>& patterns);
+
 /// Makes regions of bounded cells that are none, called "void_1", "void_2", ... A soup without sides must be closed;
 /// the cells inside of an odd number of its shells then become the region "body", or "body_1", ...
 bool fill_voids(Soup& soup);

@@ -12,6 +12,7 @@ namespace kerf {
 struct RemeshOptions {
     double deviation = 0;           ///< largest distance between input and result, both ways; units of the input, > 0
     double share_of_thickness = 0;  ///< largest distance as a share of the body's thickness there; 0: no such limit
+    double reference_volume = 0;    ///< > 0: differences are shares of it where a region has more; 0: of the region
     double volume_tolerance = 1;    ///< of a region, relative: if it is missed by more, all is done again with smaller
                                     ///< deviations
     double longest = 0;             ///< longest edge anywhere, > 0
@@ -64,7 +65,7 @@ struct RemeshReport {
     FacetsByReason facets_by;
     std::int64_t facets_left = 0;  ///< facets of the input kept as they were, because no change of them stayed within
                                    ///< the bound
-    double volume_difference = 0;  ///< of a region against its volume in the input, the largest of all, relative
+    double volume_difference = 0;  ///< of a region against its volume in the input, the largest of all, as a share
 };
 
 /// Returns the sine of the smallest angle of a triangle, 0 for a degenerate one.

@@ -2,7 +2,8 @@
 // into itself, so that the fans are apart: equal coordinates would be welded again. Where both ends of an edge have one
 // fan, the pairs of its facets get middles of their own. Where facets are to be divided at crossings by a later step,
 // places are opened only behind that, because bodies that touch would come apart by a crack; the borders of openings
-// are an exception, since openings are filled before.
+// are an exception, since openings are filled before. Where the outside is what will be meshed, its wedges are parted in
+// place of those of the body.
 //
 // Two kinds of components matter: a "piece" hangs together over edges of any number of facets, a "sheet" only over
 // edges of two. In each piece with edges of more than two, sheets with an open edge are fins. If such edges are left
@@ -145,12 +146,18 @@ class ManifoldOpening {
         if (has_walls(soup_, request_)) return;
         drop_loose();
         request_.check_cancelled();
+        if (request_.outside_is_meshed) turn_all();
         FanSeparation separation = separate_fans(soup_, request_.bound, request_.is_divided_later);
+        if (request_.outside_is_meshed) turn_all();
         report_.largest_move = std::max(report_.largest_move, separation.largest_move);
         for (RepairAction& action : separation.actions) report_.actions.push_back(std::move(action));
     }
 
  private:
+    // Of turned facets those at an edge are a pair between which the outside lies: they come apart into it.
+    void turn_all() {
+        for (Triangle& t : soup_.facets) std::swap(t[1], t[2]);
+    }
     void drop_loose() {
         const bool with_walls = request_.bodies != BodyRepair::regions;
         const LooseSheets loose = SheetSearch(soup_.vertices, soup_.facets, with_walls).find();

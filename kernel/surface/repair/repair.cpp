@@ -74,6 +74,7 @@ class Ladder {
                             .bodies = plan_.bodies,
                             .are_walls = plan_.are_walls,
                             .voids_are_parity = plan_.voids_are_parity,
+                            .outside_is_meshed = plan_.outside_is_meshed,
                             .check_cancelled = check_cancelled_,
                             .plan = &plan_,
                             .round = round,

@@ -61,6 +61,7 @@ struct RepairPlan {
     BodyRepair bodies = BodyRepair::as_found;
     bool are_walls = false;         ///< facets part regions that are named elsewhere: no facet goes, except copies
     bool voids_are_parity = false;  ///< shells within others that cross none stay, whichever way they are turned
+    bool outside_is_meshed = false;  ///< where bodies touch, they are joined, so that no crack is left between them
 
     bool empty() const { return steps.empty(); }
     /// Returns whether there is no step behind the preparations.

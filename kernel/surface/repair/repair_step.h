@@ -19,6 +19,7 @@ struct StepRequest {
     BodyRepair bodies = BodyRepair::as_found;
     bool are_walls = false;                         ///< see RepairPlan
     bool voids_are_parity = false;                  ///< see RepairPlan
+    bool outside_is_meshed = false;                 ///< see RepairPlan
     std::function<void()> check_cancelled = [] {};  ///< to be called now and then; may throw
     const RepairPlan* plan = {};                    ///< the whole plan; none: this step alone
     int round = 0;  ///< the round of renewing; 0: before facets are divided where they cross

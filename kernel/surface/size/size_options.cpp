@@ -5,7 +5,6 @@
 #include "surface/size/size_options.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -33,21 +32,6 @@ constexpr const char* form_near_patch = "NAME=H:D, such as inlet=0.1:2";
     throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --{}. It has the form {}; lengths are positive, in "
                                               "units of the input, or with % of its diagonal.",
                                               text, option, form));
-}
-
-// Numbers with commas between; empty if the text is anything else.
-std::vector<double> numbers_in(std::string_view text) {
-    std::vector<double> numbers;
-    const char *at = text.data(), *const end = at + text.size();
-    while (true) {
-        double number = 0;
-        const auto [stop, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || !std::isfinite(number)) return {};
-        numbers.push_back(number);
-        if (stop == end) return numbers;
-        if (*stop != ',') return {};
-        at = stop + 1;
-    }
 }
 
 bool has_normal_volume(double edge) { return std::isnormal(regular_tet_volume(edge)); }
@@ -133,7 +117,7 @@ std::vector<SizedTriangle> sizes_of_surface(const SizeOptions& options, const Su
     const double least = least_told_rel * box_around(surface.vertices).diagonal().norm();
     std::vector<SizedTriangle> all;
     const auto add_patch = [&](const char* option, const PatchSize& wanted) {
-        for (const std::int32_t patch : matching_patches(option, wanted.name, patch_names))
+        for (const std::int32_t patch : matching_names(option, "patch", wanted.name, patch_names))
             append(all, sizes_on_patch(surface, patch, wanted.size, wanted.reach));
     };
     for (const std::string& text : options.on) add_patch("--size-on", parse_on(text));

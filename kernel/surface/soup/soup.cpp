@@ -119,6 +119,44 @@ std::vector<std::int32_t> numbers_in_file(std::vector<std::int32_t> own, const s
     return own;
 }
 
+template <class T>
+void append_items(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+// Numbers in the file that are those of the soup are not written out.
+void write_out(std::vector<std::int32_t>& numbers, std::size_t count) {
+    if (!numbers.empty()) return;
+    numbers.resize(count);
+    std::iota(numbers.begin(), numbers.end(), 0);
+}
+
+void append_numbers(std::vector<std::int32_t>& all, std::size_t count, std::vector<std::int32_t> more,
+                    std::size_t more_count) {
+    write_out(all, count);
+    write_out(more, more_count);
+    const std::int32_t next = all.empty() ? 0 : *std::max_element(all.begin(), all.end()) + 1;
+    for (const std::int32_t number : more) all.push_back(next + number);
+}
+
+void append_polygons(Soup& all, const Soup& more) {
+    if (all.polygon.empty() && more.polygon.empty()) return;
+    write_out(all.polygon, all.facets.size());
+    const std::int32_t next = all.polygon.empty() ? 0 : all.polygon.back() + 1;
+    for (const std::int32_t polygon : more.unfit_polygons) all.unfit_polygons.push_back(next + polygon);
+    append_numbers(all.polygon, all.facets.size(), more.polygon, more.facets.size());
+}
+
+void append_patches(Soup& all, const Soup& more) {
+    const auto first = count_of(all.patch_names);
+    for (const std::int32_t patch : more.patch) all.patch.push_back(first + patch);
+    const bool has_colours = !all.patch_colours.empty() || !more.patch_colours.empty();
+    if (has_colours) all.patch_colours.resize(all.patch_names.size());
+    append_items(all.patch_names, more.patch_names);
+    append_items(all.patch_colours, more.patch_colours);
+    if (has_colours) all.patch_colours.resize(all.patch_names.size());
+}
+
 }  // namespace
 
 std::vector<std::int32_t> Soup::file_facets(const std::vector<std::int32_t>& own) const {
@@ -140,6 +178,24 @@ std::int64_t weld_within(Soup& soup, double tolerance) {
         if (found < 0) grid.enter(v);
     }
     return renumber(soup, std::move(representative));
+}
+
+void append(Soup& all, const Soup& more) {
+    KERF_CHECK(all.sides.empty() && more.sides.empty());
+    append_polygons(all, more);
+    if (!all.vertex_number.empty() || !more.vertex_number.empty())
+        append_numbers(all.vertex_number, all.vertices.size(), more.vertex_number, more.vertices.size());
+    append_patches(all, more);
+    const auto first = count_of(all.vertices);
+    for (const Triangle& t : more.facets) all.facets.push_back({t[0] + first, t[1] + first, t[2] + first});
+    for (const auto& [vertices, sharp] : more.model_edges)
+        all.model_edges.push_back({{vertices[0] + first, vertices[1] + first}, sharp});
+    append_items(all.vertices, more.vertices);
+    append_items(all.holes, more.holes);
+    append_items(all.seeds, more.seeds);
+    append_items(all.notes, more.notes);
+    all.is_of_model |= more.is_of_model;
+    all.may_end_inside |= more.may_end_inside;
 }
 
 void scale(Soup& soup, double factor) {

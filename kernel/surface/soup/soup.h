@@ -77,6 +77,10 @@ std::int64_t weld_exactly(Soup& soup);
 /// may become degenerate. Changes the geometry. Returns the number of vertices removed. Expected O(#V), deterministic.
 std::int64_t weld_within(Soup& soup, double tolerance);
 
+/// Appends facets, vertices and patches, and all else that a soup has; numbers in the file go on behind the last of
+/// `all`. Requires soups without sides. O(#V + #F).
+void append(Soup& all, const Soup& more);
+
 /// Multiplies all coordinates.
 void scale(Soup& soup, double factor);
 

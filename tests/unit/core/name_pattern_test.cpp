@@ -21,9 +21,9 @@ TEST(Patterns, StarsStandForAnything) {
 
 TEST(Patterns, NoMatchIsRefusedWithTheNamesThatThereAre) {
     const std::vector<std::string> names = {"side_1", "side_2", "top"};
-    EXPECT_EQ(matching_patches("--size-on", "side*", names), (std::vector<std::int32_t>{0, 1}));
+    EXPECT_EQ(matching_names("--size-on", "patch", "side*", names), (std::vector<std::int32_t>{0, 1}));
     try {
-        matching_patches("--size-on", "wall*", names);
+        matching_names("--size-on", "patch", "wall*", names);
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);

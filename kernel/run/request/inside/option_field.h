@@ -14,13 +14,14 @@ namespace kerf {
 /// The headings under which help and manual list the options, in this order.
 namespace option_group {
 inline constexpr const char* input = "Input";
+inline constexpr const char* air = "Air around the body";
 inline constexpr const char* cuts = "Cuts";
 inline constexpr const char* sizes = "Sizes";
 inline constexpr const char* meshing = "Meshing";
 inline constexpr const char* output = "Output";
 inline constexpr const char* running = "Running";
 inline constexpr const char* expert = "Expert";
-inline constexpr const char* all[] = {input, cuts, sizes, meshing, output, running, expert};
+inline constexpr const char* all[] = {input, air, cuts, sizes, meshing, output, running, expert};
 }  // namespace option_group
 
 /// One option: its name on the command line and in the config file, and the place of its value.

@@ -8,9 +8,10 @@
 
 namespace kerf {
 
-/// Returns the largest difference of a region's volume from that in the input, relative to the latter. `sides` has the
-/// regions beside each patch; empty: one region behind all facets.
-double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result, const std::vector<FacetSides>& sides);
+/// Returns the largest difference of a region's volume from that in the input, as a share of the latter or, if that is
+/// less, of `reference`; 0: of the latter. `sides` has the regions beside each patch; empty: one region behind all facets.
+double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result, const std::vector<FacetSides>& sides,
+                         double reference);
 
 /// Moves the vertices of `result` off the input until each region has its volume again, by balance_volumes(): chords of
 /// a curved surface leave out the space between them and it. Vertices between flat facets and curved ones move within
