@@ -134,19 +134,87 @@ void write_dictionary(ExportFiles& files, const std::string& folder, const std::
     file.close();
 }
 
-// Second order, and enough for potentialFoam as it is.
-constexpr std::string_view schemes =
-    "ddtSchemes\n{\n    default         steadyState;\n}\n"
-    "gradSchemes\n{\n    default         Gauss linear;\n}\n"
-    "divSchemes\n{\n    default         none;\n    div(phi,U)      bounded Gauss linear;\n"
-    "    div(div(phi,U)) Gauss linear;\n}\n"
-    "laplacianSchemes\n{\n    default         Gauss linear corrected;\n}\n"
-    "interpolationSchemes\n{\n    default         linear;\n}\n"
-    "snGradSchemes\n{\n    default         corrected;\n}\n";
-constexpr std::string_view solution =
-    "solvers\n{\n    \"(Phi|p)\"\n    {\n        solver          PCG;\n        preconditioner  DIC;\n"
-    "        tolerance       1e-08;\n        relTol          0.01;\n    }\n}\n"
-    "potentialFlow\n{\n    nNonOrthogonalCorrectors 10;\n}\n";
+// Of second order, and enough for potentialFoam and, with k and omega or epsilon or without turbulence, simpleFoam as
+// they are. Corrections for faces that are not orthogonal are limited, as tetrahedra beside sharp edges have angles of
+// 80 degrees.
+constexpr std::string_view schemes = R"foam(ddtSchemes
+{
+    default         steadyState;
+}
+gradSchemes
+{
+    default         Gauss linear;
+    "grad\((U|k|omega|epsilon)\)" cellLimited Gauss linear 1;
+}
+divSchemes
+{
+    default         none;
+    div(phi,U)      bounded Gauss linearUpwind grad(U);
+    "div\(phi,(k|omega|epsilon)\)" bounded Gauss limitedLinear 1;
+    div(div(phi,U)) Gauss linear;
+    div((nuEff*dev2(T(grad(U))))) Gauss linear;
+}
+laplacianSchemes
+{
+    default         Gauss linear limited corrected 0.5;
+}
+interpolationSchemes
+{
+    default         linear;
+}
+snGradSchemes
+{
+    default         limited corrected 0.5;
+}
+wallDist
+{
+    method          meshWave;
+}
+)foam";
+constexpr std::string_view solution = R"foam(solvers
+{
+    Phi
+    {
+        solver          GAMG;
+        smoother        DIC;
+        tolerance       1e-08;
+        relTol          0;
+    }
+    p
+    {
+        solver          GAMG;
+        smoother        DIC;
+        tolerance       1e-08;
+        relTol          0.01;
+    }
+    "(U|k|omega|epsilon)"
+    {
+        solver          smoothSolver;
+        smoother        symGaussSeidel;
+        tolerance       1e-08;
+        relTol          0.1;
+    }
+}
+potentialFlow
+{
+    nNonOrthogonalCorrectors 10;
+}
+SIMPLE
+{
+    nNonOrthogonalCorrectors 1;
+}
+relaxationFactors
+{
+    fields
+    {
+        p               0.3;
+    }
+    equations
+    {
+        "(U|k|omega|epsilon)" 0.7;
+    }
+}
+)foam";
 
 void write_schemes(ExportFiles& files, const std::string& folder) {
     write_dictionary(files, folder, "fvSchemes", schemes);

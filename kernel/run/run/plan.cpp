@@ -89,6 +89,15 @@ void check_budget_before_remeshing(const Input& input, const RunChoices& choices
     check_budget(choices, mesher, parts, facets, volume, Facets::follow_size);
 }
 
+// Bodies and the ground are walls of the air, unless a type is asked for: what is asked for comes last and counts.
+void put_walls_around_air(const Input& input, std::vector<std::string>& patch_types) {
+    if (!input.enclosure) return;
+    std::vector<std::string> types;
+    for (const std::string& patch : input.patch_names)
+        if (!input.enclosure->has_face(patch) || patch == Enclosure::ground) types.push_back(patch + "=wall");
+    patch_types.insert(patch_types.begin(), types.begin(), types.end());
+}
+
 bool keeps_most_facets(const Input& input) { return !input.remeshed || 2 * input.remeshed->facets_kept > input.facets; }
 
 // The processors of the first rank's host, which that rank uses alone while the others wait.
@@ -163,6 +172,8 @@ PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, S
     }
     plan.size = read_size_field(sizes_of_cells(request.sizes, input), input);
     plan.region_sizes = RegionSizes(max_volumes_of_regions(request.sizes, input));
+    put_walls_around_air(input, request.outputs.patch_types);
+    plan.choices.patch_types = parse_patch_types(request.outputs.patch_types);
     require_patches(plan.choices.patch_types, input.patch_names);
     if (request.outputs.split_regions) require_regions(input.complex.region_names().size());
     const double volume = sized_volume_of(input, plan.size, plan.region_sizes);
@@ -183,6 +194,7 @@ class PlanArchive {
     void plan(RunPlan& plan, Array<RegionIndex, double>& largest_of_regions) {
         RunRequest& request = plan.choices.request;
         archive_(request.input, request.parts, request.mesher.radius_edge, plan.size, largest_of_regions);
+        archive_(request.outputs.patch_types);
         length(request.input_options.repairs.weld_tolerance);
         length(request.deviation);
         sizes(request.sizes);
@@ -254,6 +266,7 @@ PlannedRun plan_of_bytes(const Bytes& told, RunPlan own) {
     Array<RegionIndex, double> largest_of_regions;
     archive.plan(plan, largest_of_regions);
     plan.region_sizes = RegionSizes(std::move(largest_of_regions));
+    plan.choices.patch_types = parse_patch_types(plan.request().outputs.patch_types);
     archive.input(input);
     std::vector<std::string> names;
     reader(names);

@@ -78,7 +78,7 @@ std::array<std::array<std::string, 2>, 3> names_of_faces(Wind wind, const std::o
         names[axis] = {fmt::format("side_{}_min", axis_names[axis]), fmt::format("side_{}_max", axis_names[axis])};
     names[axis_of(wind)] = {"inlet", "outlet"};
     if (!is_upwards(wind)) std::swap(names[axis_of(wind)][0], names[axis_of(wind)][1]);
-    if (ground) names[ground->axis][0] = "ground";
+    if (ground) names[ground->axis][0] = Enclosure::ground;
     return names;
 }
 

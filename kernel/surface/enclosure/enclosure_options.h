@@ -45,6 +45,7 @@ struct Enclosure {
     double body_volume = 0;    ///< volume of the box that is not meshed, known once bodies are enclosed
 
     double diagonal() const { return bodies.diagonal().norm(); }  ///< of the box around the bodies
+    static constexpr const char* ground = "ground";  ///< name of the face that cuts the bodies
     /// Whether a patch of this name is a face of the box.
     bool has_face(const std::string& patch) const;
 };
