@@ -10,7 +10,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 kerf=build/kerf into=assets/gallery cad=
-groups=(cap pipe stages surfaces packing lattice regions reference stress bracket cad)
+groups=(cap pipe stages surfaces packing lattice regions flow reference stress bracket cad)
 asked=()
 while [[ $# -gt 0 ]]; do
     case $1 in
@@ -41,6 +41,11 @@ draw_cap() {
 
 draw_pipe() {
     draw viewer.png assets/pipe_with_holes.stl -n 8 --node 3 --stage contour --state "$untimed" --ui --resolution 1280x800
+}
+
+draw_flow() {
+    "$kerf" mesh assets/flow/car.stl -o "$work/tunnel" -n 4 --box 1,1,3 --ground 0 --wake 0.2 -q
+    draw tunnel.png "$work/tunnel" --clip=-y=0.5 --view front --no-legend --antialias 2 --resolution 1200x420
 }
 
 # Each stage of the first cut.

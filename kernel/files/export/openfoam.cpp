@@ -134,9 +134,9 @@ void write_dictionary(ExportFiles& files, const std::string& folder, const std::
     file.close();
 }
 
-// Of second order, and enough for potentialFoam and, with k and omega or epsilon or without turbulence, simpleFoam as
-// they are. Corrections for faces that are not orthogonal are limited, as tetrahedra beside sharp edges have angles of
-// 80 degrees.
+// Of second order but for turbulence, and enough as they are for potentialFoam and for simpleFoam, with k and omega or
+// epsilon or without turbulence. Corrections for faces that are not orthogonal are limited, as tetrahedra beside sharp
+// edges have angles of 80 degrees.
 constexpr std::string_view schemes = R"foam(ddtSchemes
 {
     default         steadyState;
@@ -150,13 +150,13 @@ divSchemes
 {
     default         none;
     div(phi,U)      bounded Gauss linearUpwind grad(U);
-    "div\(phi,(k|omega|epsilon)\)" bounded Gauss limitedLinear 1;
+    "div\(phi,(k|omega|epsilon)\)" bounded Gauss upwind;
     div(div(phi,U)) Gauss linear;
     div((nuEff*dev2(T(grad(U))))) Gauss linear;
 }
 laplacianSchemes
 {
-    default         Gauss linear limited corrected 0.5;
+    default         Gauss linear limited corrected 0.33;
 }
 interpolationSchemes
 {
@@ -164,7 +164,7 @@ interpolationSchemes
 }
 snGradSchemes
 {
-    default         limited corrected 0.5;
+    default         limited corrected 0.33;
 }
 wallDist
 {

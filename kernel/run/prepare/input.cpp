@@ -287,8 +287,7 @@ CheckedSoup check_files(InputFiles files, const InputChoices& choices, double ne
         files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
     }
     take_points(soup, choices.seeds);
-    diagnose_regions(checked, files, {options.voids, needle_angle_deg},
-                     options.fill_voids && !options.air.encloses());
+    diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids && !options.air.encloses());
     const std::vector<char>& dropped = checked.diagnosis.dropped;
     tidied.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
     const DiagnosisOptions diagnosis = {options.voids, needle_angle_deg};

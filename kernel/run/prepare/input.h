@@ -42,8 +42,8 @@ struct CheckedSoup {
     TidyCounts tidied = {};
     RepairReport ladder = {};  ///< the steps of InputOptions::repairs
     std::optional<WrapReport> wrapped = {};
-    OrientationReport orientation = {};         ///< of the bodies, where they were oriented to be enclosed
-    std::optional<Enclosure> enclosure = {};    ///< the box around the bodies: the soup is its air
+    OrientationReport orientation = {};       ///< of the bodies, where they were oriented to be enclosed
+    std::optional<Enclosure> enclosure = {};  ///< the box around the bodies: the soup is its air
 };
 
 /// Error(input) for a surface that cannot be meshed as it is, with all that was found.
@@ -117,8 +117,8 @@ struct InputMeasures {
 /// Surfaces ready to be cut, and the facts about them that reports tell.
 struct Input : InputMeasures {
     std::string path;
-    std::string file_hash;  ///< hash of the file's bytes, or of the arrays, see hash_text()
-    double diagonal = 0;    ///< diagonal of the bounding box
+    std::string file_hash;                    ///< hash of the file's bytes, or of the arrays, see hash_text()
+    double diagonal = 0;                      ///< diagonal of the bounding box
     std::optional<Enclosure> enclosure = {};  ///< the box around the bodies of the file: the surface is that of its air
     TidyCounts tidied;
     OrientationReport orientation;
@@ -139,8 +139,8 @@ struct Input : InputMeasures {
 
     /// The diagonal of the box around the bodies of the file, of which lengths are percentages.
     double body_diagonal() const { return enclosure ? enclosure->diagonal() : diagonal; }
-    /// The volume of which the change of a region's volume is a share: that of the region or, of air around bodies, that
-    /// of the bodies, if it is less.
+    /// The volume of which the change of a region's volume is a share: that of the region or, of air around bodies,
+    /// that of the bodies, if it is less.
     double reference_volume(double of_region) const {
         return enclosure ? std::min(of_region, enclosure->body_volume) : of_region;
     }

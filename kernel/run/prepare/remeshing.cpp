@@ -200,7 +200,8 @@ bool may_change_volume(const Input& input, const RunRequest& options) {
 }
 
 // Of air around bodies not more than the bodies would have without it: sizes may be wanted far from them.
-double usual_deviation_of(const Input& input, const SizeField& wanted, const SurfaceArrays& surface, Fineness fineness) {
+double usual_deviation_of(const Input& input, const SizeField& wanted, const SurfaceArrays& surface,
+                          Fineness fineness) {
     const double usual = usual_deviation(wanted, surface, input.body_diagonal(), fineness);
     return input.enclosure ? std::min(usual, usual_deviation({}, surface, input.body_diagonal(), fineness)) : usual;
 }
@@ -261,8 +262,8 @@ void narrow_on_slender_bodies(const Input& input, RemeshTask& task) {
     const std::vector<char> walls = bodies ? std::vector<char>(surface.facets.size(), 1) : task.facets.walls;
     const TriangleTree tree(surface.vertices, surface.facets);
     const double thickness = median_thickness(surface, tree, walls, deviation / share_of_median_thickness);
-    deviation = std::max(smallest_share * input.body_diagonal(),
-                         std::min(deviation, share_of_median_thickness * thickness));
+    deviation =
+        std::max(smallest_share * input.body_diagonal(), std::min(deviation, share_of_median_thickness * thickness));
 }
 
 // Returns a note for users whose solvers join opposite sides, and who want to know whether they still match.
@@ -325,9 +326,7 @@ void refuse_changed_volumes(const Input& input) {
     if (count_changed_volumes(input) == 0) return;
     const Array<RegionIndex, double> now = region_volumes(input);
     const Array<RegionIndex, double>& before = input.remeshed->volumes_before;
-    const auto change = [&](RegionIndex r) {
-        return std::abs(now[r] - before[r]) / input.reference_volume(before[r]);
-    };
+    const auto change = [&](RegionIndex r) { return std::abs(now[r] - before[r]) / input.reference_volume(before[r]); };
     RegionIndex worst;
     for (const RegionIndex r : now.ids())
         if (!(change(r) <= change(worst))) worst = r;

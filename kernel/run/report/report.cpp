@@ -270,6 +270,12 @@ std::string regions_text(const RunReport& report) {
     return order.size() > most ? text + fmt::format(" and {} more", order.size() - most) : text;
 }
 
+std::string air_text(const Enclosure& enclosure) {
+    return fmt::format("box from ({:.4g}) to ({:.4g}), edges {:.3g} on its faces; bodies take {:.6g} of it",
+                       fmt::join(enclosure.box.min(), ", "), fmt::join(enclosure.box.max(), ", "), enclosure.edge,
+                       enclosure.body_volume);
+}
+
 void add_input(ReportLines& lines, const RunReport& report, bool all) {
     const Input& input = report.input;
     if (all)
@@ -281,6 +287,7 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
         for (const RepairAction& action : step.actions)
             lines.add("repair", fmt::format("{}: {}", name(step.kind), to_text(action)));
     if (input.wrapped) lines.add("wrapped", to_text(*input.wrapped));
+    if (input.enclosure) lines.add("air", air_text(*input.enclosure));
     for (const std::string& note : input.notes) lines.add("note", note);
     if (input.moved_vertices > 0)
         lines.add("optimised", fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices),
@@ -346,9 +353,11 @@ std::string volume_text(const RunReport& report) {
     const double before = volume_before_remeshing(input);
     const double volume = input.volume + (report.curve ? report.curve->volume_gain : 0);
     const bool is_as_read = input.ladder.steps.empty() && !input.ladder.changed() && !input.wrapped;
-    const char* of = is_as_read ? "the file" : "the repaired surface";
+    const char* of = input.enclosure ? "the box without bodies" : is_as_read ? "the file" : "the repaired surface";
     if (volume == before) return fmt::format("{:.7g}, as {} has it", volume, of);
-    return fmt::format("{:.7g}; {} has {:.7g}, difference {:+.1e}", volume, of, before, (volume - before) / before);
+    return fmt::format("{:.7g}; {} has {:.7g}, difference {:+.1e}", volume, of, before,
+                       (volume - before) / input.reference_volume(before)) +
+           (input.enclosure ? " of the bodies" : "");
 }
 
 std::string ranks_text(const RunReport& report) {

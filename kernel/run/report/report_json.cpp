@@ -37,6 +37,21 @@ Json columns(const Eigen::Matrix3d& m) {
     return json;
 }
 
+Json json_of_box(const Box& box) {
+    Json corners = Json::array();
+    for (const Vec3& corner : {box.min(), box.max()}) corners.push_back({corner.x(), corner.y(), corner.z()});
+    return corners;
+}
+
+Json air_json(const Enclosure& enclosure) {
+    Json json = {{"box", json_of_box(enclosure.box)},
+                 {"bodies", json_of_box(enclosure.bodies)},
+                 {"volume_of_bodies", enclosure.body_volume},
+                 {"edge", enclosure.edge}};
+    if (enclosure.wake) json["wake"] = {{"box", json_of_box(*enclosure.wake)}, {"edge", enclosure.wake_edge}};
+    return json;
+}
+
 Json input_json(const Input& input) {
     Json json = {{"path", path_text(std::filesystem::absolute(input.path).lexically_normal().string())},
                  {"hash", input.file_hash},
@@ -74,6 +89,7 @@ Json input_json(const Input& input) {
                         {"facets", input.wrapped->facets},
                         {"distance_to_input", input.wrapped->distance_to_input},
                         {"distance_from_visible_input", input.wrapped->distance_from_input}};
+    if (input.enclosure) json["air"] = air_json(*input.enclosure);
     if (input.remeshed)
         json["remeshing"] = {{"facets_before", input.remeshed->facets_before},
                              {"facets_kept", input.remeshed->facets_kept},

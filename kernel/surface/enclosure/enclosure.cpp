@@ -1,7 +1,8 @@
 // Bodies and box become one arrangement of facets, which divides space into cells. A walk through the cells from the
 // outside tells of each whether it is in the box and in which body: crossing a facet of the box changes the first, one
-// of a body leads to the region on its other side. A piece of a face and of a body may be one facet, as where a building
-// stands on the ground; it is crossed as both at once. The air is the largest cell that is in the box and in no body.
+// of a body leads to the region on its other side. A piece of a face and of a body may be one facet, as where a
+// building stands on the ground; it is crossed as both at once. The air is the largest cell that is in the box and in
+// no body.
 #include "surface/enclosure/enclosure.h"
 
 #include <algorithm>
@@ -104,9 +105,8 @@ std::string extent_text(const Box& box) {
 }
 
 [[noreturn]] void refuse_box(const char* what, const Enclosure& enclosure) {
-    throw Error(ErrorCode::usage,
-                fmt::format("{}: the body lies {}, and the box {}. Correct --box or --ground.", what,
-                            extent_text(enclosure.bodies), extent_text(enclosure.box)));
+    throw Error(ErrorCode::usage, fmt::format("{}: the body lies {}, and the box {}. Correct --box or --ground.", what,
+                                              extent_text(enclosure.bodies), extent_text(enclosure.box)));
 }
 
 // The number of the cell of air that counts. Notes what is left out.
@@ -128,10 +128,11 @@ std::int32_t choose_air(const std::vector<CellPlace>& places, const std::vector<
     if (air < 0) refuse_box("There is no air in the box", enclosure);
     if (is_body_cut) notes.push_back("The body reaches beyond the box of air, and is cut off at its faces.");
     if (spaces > 1)
-        notes.push_back(fmt::format("{} of the air in the box {} closed off from the rest and left out, {:.2g} % of its "
-                                    "volume.",
-                                    spaces == 2 ? "1 space" : fmt::format("{} spaces", spaces - 1),
-                                    spaces == 2 ? "is" : "are", 100 * (all - volumes[air]) / all));
+        notes.push_back(
+            fmt::format("{} of the air in the box {} closed off from the rest and left out, {:.2g} % of its "
+                        "volume.",
+                        spaces == 2 ? "1 space" : fmt::format("{} spaces", spaces - 1), spaces == 2 ? "is" : "are",
+                        100 * (all - volumes[air]) / all));
     return air;
 }
 
@@ -167,16 +168,16 @@ void enclose(Soup& soup, Enclosure& enclosure, bool keeps_bodies, const std::fun
     weld_exactly(soup);
     Arrangement arrangement = arrange(soup.vertices, soup.facets, check_cancelled);
     if (!arrangement.unresolved.empty())
-        throw Error(ErrorCode::input,
-                    fmt::format("The body cannot be cut by the box of air near {}. Move the box or the ground a little.",
-                                place_text(arrangement.unresolved.front().where)));
+        throw Error(
+            ErrorCode::input,
+            fmt::format("The body cannot be cut by the box of air near {}. Move the box or the ground a little.",
+                        place_text(arrangement.unresolved.front().where)));
     const std::vector<std::int32_t> parent = arrangement.parent;
     const std::vector<char> all(parent.size(), 1), none(parent.size(), 0);
     take_divided_facets(soup, std::move(arrangement), all, none);
     std::optional<DividedSpace> space = divide_space(soup);
     if (!space) refuse_box("Body and box of air do not divide space", enclosure);
-    const std::vector<CellPlace> places =
-        places_of_cells(space->cells, crossings_of(space->single, parent, bodies));
+    const std::vector<CellPlace> places = places_of_cells(space->cells, crossings_of(space->single, parent, bodies));
     const std::vector<double> volumes = cell_volumes(soup.vertices, space->single.facets, space->cells);
     const std::int32_t air = choose_air(places, volumes, enclosure, soup.notes);
     enclosure.body_volume = enclosure.box.volume() - volumes[air];

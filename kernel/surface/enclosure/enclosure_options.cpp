@@ -1,3 +1,6 @@
+// Texts become a box with a place: multiples are of the longest side of the box around the bodies, the ground replaces
+// the low end of its axis, and names of faces follow from the wind. Each text has one parser, which check() calls for
+// its errors alone.
 #include "surface/enclosure/enclosure_options.h"
 
 #include <algorithm>
@@ -141,12 +144,13 @@ Enclosure enclosure_around(const Box& bodies, const EnclosureOptions& options) {
         placed.box.min()[ground->axis] = ground->at;
     }
     if (!(placed.box.sizes().minCoeff() > 0))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--box {}{} is a box from ({:.6g}) to ({:.6g}), which has no volume. The body lies from "
-                                "({:.6g}) to ({:.6g}).",
-                                options.box, ground ? fmt::format(" with --ground {}", options.ground) : "",
-                                fmt::join(placed.box.min(), ", "), fmt::join(placed.box.max(), ", "),
-                                fmt::join(bodies.min(), ", "), fmt::join(bodies.max(), ", ")));
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--box {}{} is a box from ({:.6g}) to ({:.6g}), which has no volume. The body lies from "
+                        "({:.6g}) to ({:.6g}).",
+                        options.box, ground ? fmt::format(" with --ground {}", options.ground) : "",
+                        fmt::join(placed.box.min(), ", "), fmt::join(placed.box.max(), ", "),
+                        fmt::join(bodies.min(), ", "), fmt::join(bodies.max(), ", ")));
     placed.face_names = names_of_faces(options.wind, ground);
     const double edge = options.edge.of(placed.diagonal());
     placed.edge = edge > 0 ? edge : share_of_longest_side * placed.box.sizes().maxCoeff();
@@ -155,8 +159,9 @@ Enclosure enclosure_around(const Box& bodies, const EnclosureOptions& options) {
         placed.wake = wake_of(bodies, placed.box, options.wind);
         placed.wake_edge = options.wake.of(placed.diagonal());
         if (placed.wake->isEmpty() || !(placed.wake->sizes().minCoeff() > 0))
-            throw Error(ErrorCode::usage, "--wake is for the space behind the body, but none of it is in the box. Make "
-                                          "the box longer, or leave it out.");
+            throw Error(ErrorCode::usage,
+                        "--wake is for the space behind the body, but none of it is in the box. Make "
+                        "the box longer, or leave it out.");
     }
     return placed;
 }

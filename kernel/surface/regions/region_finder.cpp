@@ -18,12 +18,11 @@
 #include "base/core/error.h"
 #include "base/core/ids.h"
 #include "base/core/name_pattern.h"
-#include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "surface/complex/mass_properties.h"
+#include "surface/regions/cell_walk.h"
 #include "surface/regions/cells.h"
 #include "surface/regions/divided_space.h"
-#include "surface/regions/cell_walk.h"
 #include "surface/soup/edge_corners.h"
 #include "surface/soup/region_patches.h"
 

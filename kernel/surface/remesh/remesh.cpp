@@ -178,7 +178,8 @@ Inspection restore_volumes_within_bound(const InspectedInput& input, const Remes
         if (!as_it_is) as_it_is = inspect(input, kept, options.deviation, result, check_cancelled);
         return *as_it_is;
     };
-    if (volume_difference(input.surface, result.surface, options.sides, options.reference_volume) <= same_volume) return inspect_as_it_is();
+    if (volume_difference(input.surface, result.surface, options.sides, options.reference_volume) <= same_volume)
+        return inspect_as_it_is();
     std::vector<char> is_fixed = corners_of_kept(input.surface, kept, result.surface);
     ChangedSurface moved = result;
     for (int round = 0; round < most_restorations; ++round) {
@@ -319,7 +320,8 @@ Remeshed remesh(const SurfaceArrays& surface, const RemeshOptions& asked) {
         if (inspection.has_passed()) {
             report.distance_to_input = inspection.distance_to_input;
             report.distance_from_input = inspection.distance_from_input;
-            report.volume_difference = volume_difference(surface, result.surface, options.sides, options.reference_volume);
+            report.volume_difference =
+                volume_difference(surface, result.surface, options.sides, options.reference_volume);
             report.facets_left = std::count(kept.begin(), kept.end(), char{1}) -
                                  std::count(options.kept.begin(), options.kept.end(), char{1});
             if (report.volume_difference <= options.volume_tolerance || rounds_for_volume == most_rounds_for_volume) {

@@ -2,8 +2,8 @@
 // into itself, so that the fans are apart: equal coordinates would be welded again. Where both ends of an edge have one
 // fan, the pairs of its facets get middles of their own. Where facets are to be divided at crossings by a later step,
 // places are opened only behind that, because bodies that touch would come apart by a crack; the borders of openings
-// are an exception, since openings are filled before. Where the outside is what will be meshed, its wedges are parted in
-// place of those of the body.
+// are an exception, since openings are filled before. Where the outside is what will be meshed, its wedges are parted
+// in place of those of the body.
 //
 // Two kinds of components matter: a "piece" hangs together over edges of any number of facets, a "sheet" only over
 // edges of two. In each piece with edges of more than two, sheets with an open edge are fins. If such edges are left

@@ -59,8 +59,8 @@ struct RepairPlan {
     std::vector<RepairStep> steps;        ///< ascending by kind, each once
     Length bound = Length::percent(0.1);  ///< the largest move of a vertex of the input from its place, > 0
     BodyRepair bodies = BodyRepair::as_found;
-    bool are_walls = false;         ///< facets part regions that are named elsewhere: no facet goes, except copies
-    bool voids_are_parity = false;  ///< shells within others that cross none stay, whichever way they are turned
+    bool are_walls = false;          ///< facets part regions that are named elsewhere: no facet goes, except copies
+    bool voids_are_parity = false;   ///< shells within others that cross none stay, whichever way they are turned
     bool outside_is_meshed = false;  ///< where bodies touch, they are joined, so that no crack is left between them
 
     bool empty() const { return steps.empty(); }

@@ -279,5 +279,23 @@ TEST(FillVoids, OfRegionsHaveNumbersBehindTheirs) {
     EXPECT_EQ(volumes_of(soup).at("void_1"), 1);
 }
 
+TEST(RegionFinder, EmptyRegionsLeaveHolesInTheOthers) {
+    Soup soup = test::join(test::box(Vec3::Zero(), Vec3(4, 4, 4), 2), test::box(Vec3(1, 1, 1), Vec3(3, 3, 3), 1));
+    soup.patch_names = {"shell", "core"};
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) soup.patch[f] = f < 48 ? 0 : 1;
+    ASSERT_TRUE(find_given_bodies(soup, {0, 1}, {"shell", "core"}));
+    ASSERT_EQ(volumes_of(soup), (std::map<std::string, double>{{"core", 8}, {"shell", 56}}));
+    Soup hollow = soup;
+    leave_regions_empty(hollow, {"c*"});
+    EXPECT_TRUE(hollow.sides.empty()) << "a single region needs none";
+    EXPECT_EQ(enclosed_volume(hollow.vertices, hollow.facets), 56);
+    EXPECT_EQ(hollow.patch_names, (std::vector<std::string>{"shell_outer", "core"}));
+    Soup core = soup;
+    leave_regions_empty(core, {"shell"});
+    EXPECT_EQ(enclosed_volume(core.vertices, core.facets), 8);
+    EXPECT_THROW(leave_regions_empty(soup, {"*"}), Error) << "nothing is left";
+    EXPECT_THROW(leave_regions_empty(soup, {"bone"}), Error);
+}
+
 }  // namespace
 }  // namespace kerf

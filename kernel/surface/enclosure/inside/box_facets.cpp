@@ -1,3 +1,6 @@
+// Each axis has one list of grid lines, so that faces beside each other have the same points on their common edge, to
+// the last bit, and become one by welding. The diagonals of squares alternate, which makes vertices of four and eight
+// facets in turn and no direction the longer one.
 #include "surface/enclosure/inside/box_facets.h"
 
 #include <algorithm>

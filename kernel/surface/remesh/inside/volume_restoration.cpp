@@ -146,13 +146,14 @@ class FacesOfInput {
 
 }  // namespace
 
-double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result,
-                         const std::vector<FacetSides>& sides, double reference) {
+double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result, const std::vector<FacetSides>& sides,
+                         double reference) {
     const Array<RegionIndex, double> wanted = volumes_of(input, sides), now = volumes_of(result, sides);
     double largest = 0;
     for (const RegionIndex r : wanted.ids())
-        largest = std::max(largest, std::abs(now[r] - wanted[r]) /
-                                        (reference > 0 ? std::min(reference, std::abs(wanted[r])) : std::abs(wanted[r])));
+        largest =
+            std::max(largest, std::abs(now[r] - wanted[r]) /
+                                  (reference > 0 ? std::min(reference, std::abs(wanted[r])) : std::abs(wanted[r])));
     return largest;
 }
 

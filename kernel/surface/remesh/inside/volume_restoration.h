@@ -9,7 +9,8 @@
 namespace kerf {
 
 /// Returns the largest difference of a region's volume from that in the input, as a share of the latter or, if that is
-/// less, of `reference`; 0: of the latter. `sides` has the regions beside each patch; empty: one region behind all facets.
+/// less, of `reference`; 0: of the latter. `sides` has the regions beside each patch; empty: one region behind all
+/// facets.
 double volume_difference(const SurfaceArrays& input, const SurfaceArrays& result, const std::vector<FacetSides>& sides,
                          double reference);
 
