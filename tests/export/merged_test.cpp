@@ -8,6 +8,7 @@
 #include "base/core/error.h"
 #include "export/cases.h"
 #include "export/merged_readers.h"
+#include "export/more_merged_readers.h"
 #include "files/export/format.h"
 #include "files/export/inside/by_patch.h"
 #include "files/export/inside/word_names.h"
@@ -53,12 +54,19 @@ std::vector<std::string> upper_case_words(const MeshOutline& outline) {
     return names;
 }
 
+std::vector<std::string> unv_words(const MeshOutline& outline) {
+    return word_names(outline.patch_names, {.most_characters = 40, .ignores_case = true});
+}
+
 const std::vector<MergedFormat> merged_formats = {
     {"medit", test::read_medit, false, true, rank_from_one, numbers<1>},
     {"tetgen", test::read_tetgen, false, true, rank_from_one, numbers<1>},
     {"abaqus", test::read_abaqus, true, true, rank_from_one, upper_case_words},
     {"su2", test::read_su2, false, false, rank_from_one, words},
     {"vtu", test::read_vtu, true, false, leaf, numbers<0>},
+    {"vtk", test::read_vtk, true, false, leaf, numbers<0>},
+    {"unv", test::read_unv, false, true, rank_from_one, unv_words},
+    {"feb", test::read_feb, false, true, rank_from_one, words},
 };
 
 double area(const std::vector<Vec3>& points, const GlobalTriangle& corners) {
@@ -144,6 +152,8 @@ void check_tets(const PartSource& parts, const MergedFormat& format, const Merge
         for (const std::int32_t body : parts.bodies().of_tets(PartIndex(rank), parts.load(PartIndex(rank))))
             bodies.push_back(body + 1);
     }
+    if (format.read == test::read_unv || format.read == test::read_feb)  // body by body
+        std::stable_sort(bodies.begin(), bodies.end());
     EXPECT_EQ(mesh.body, bodies);
 }
 
@@ -227,7 +237,8 @@ TEST(Merged, NumbersThatAFormatCannotHoldAreRefusedBeforeAByte) {
     const test::TemporaryFolder folder;
     MadeParts parts({one_tet({Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, {"all"})});
     const std::map<std::string, std::int64_t> limits = {
-        {"medit", 2147483647}, {"tetgen", 2147483647}, {"abaqus", 999999999}};
+        {"medit", 2147483647}, {"tetgen", 2147483647}, {"abaqus", 999999999}, {"vtk", 2147483647},
+        {"unv", 499999999},    {"feb", 2147483647},    {"med", 2147483647},   {"cgns", 1073741823}};
     const auto refuses = [&](const std::string& name, std::int64_t& count, std::int64_t value) {
         const std::int64_t before = std::exchange(count, value);
         ExportFiles files(folder.file("out"));

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "export/merged_readers.h"
+#include "export/more_merged_readers.h"
 #include "export/msh_reader.h"
 #include "export/regions_cases.h"
 #include "files/export/format.h"
@@ -80,6 +81,9 @@ TEST(Regions, AreTheMaterialsOfMergedFiles) {
         check("tetgen", test::read_tetgen);
         check("abaqus", test::read_abaqus);
         check("vtu", test::read_vtu);
+        check("vtk", test::read_vtk);
+        check("unv", test::read_unv);
+        check("feb", test::read_feb);
     });
 }
 

@@ -7,6 +7,7 @@
 #include "base/core/error.h"
 #include "export/bent_run.h"
 #include "export/merged_readers.h"
+#include "export/more_merged_readers.h"
 #include "export/msh_reader.h"
 #include "files/export/format.h"
 #include "files/export/merged_file.h"
@@ -69,7 +70,10 @@ TEST(SecondOrder, MergedFilesHaveTheNodesOfEdges) {
         const BentRun run(each);
         for (const auto& [name, read, has_triangles] : {std::tuple{"medit", &test::read_medit, true},
                                                         {"tetgen", &test::read_tetgen, false},
-                                                        {"abaqus", &test::read_abaqus, false}}) {
+                                                        {"abaqus", &test::read_abaqus, false},
+                                                        {"vtk", &test::read_vtk, true},
+                                                        {"unv", &test::read_unv, true},
+                                                        {"feb", &test::read_feb, true}}) {
             SCOPED_TRACE(each.name + " as " + name);
             const test::TemporaryFolder folder;
             ExportFiles files(folder.file("out"));

@@ -11,6 +11,7 @@
 #include "files/export/format.h"
 #include "files/export/inside/hdf5_arrays.h"
 #include "files/export/inside/hdf5_file.h"
+#include "files/export/inside/hdf5_rows.h"
 #include "files/export/inside/materials.h"
 #include "files/export/whole_mesh.h"
 #include "files/io/vtk_cell_types.h"
@@ -20,51 +21,6 @@
 namespace kerf {
 
 namespace {
-
-// Writes values of an array, one behind the other from a row on, through a buffer.
-template <class T>
-class Hdf5Rows {
- public:
-    Hdf5Rows(const Hdf5Bytes& file, std::string_view name, std::int64_t first_row)
-        : file_(file),
-          begin_(file.place_of(name, 0)),
-          row_size_(file.place_of(name, 1) - begin_),
-          place_(begin_ + first_row * row_size_) {
-        values_.reserve(most_values);
-    }
-
-    /// The next value is the first of this row.
-    void go_to(std::int64_t row) {
-        const std::int64_t wanted = begin_ + row * row_size_;
-        if (wanted == place_ + std::ssize(values_) * std::int64_t{sizeof(T)}) return;
-        flush();
-        place_ = wanted;
-    }
-    void put(T value) {
-        if (values_.size() == most_values) flush();
-        values_.push_back(value);
-    }
-    void flush() {
-        file_.write(values_.data(), values_.size() * sizeof(T), place_);
-        place_ += values_.size() * sizeof(T);
-        values_.clear();
-    }
-
- private:
-    static constexpr std::size_t most_values = (std::size_t{1} << 20) / sizeof(T);
-
-    const Hdf5Bytes& file_;
-    std::int64_t begin_, row_size_;
-    std::int64_t place_;  // of the first value in the buffer
-    std::vector<T> values_;
-};
-
-// Calls take(f) for the triangles on patches.
-template <class Take>
-void for_each_patch_facet(const Part& part, Take take) {
-    for (std::size_t f = 0; f < part.facets.size(); ++f)
-        if (part.is_listed(f)) take(f);
-}
 
 // The rows of one part in all arrays.
 class Hdf5Piece {
@@ -130,7 +86,7 @@ class Hdf5Piece {
         const bool is_linear = part_.order() == 1;
         for (std::int64_t t = 0; t < part_.tet_count(); ++t)
             is_linear ? put(part_.mesh.tets[t], vtk_tetra) : put(part_.nodes_of_tet(t), vtk_quadratic_tetra);
-        for_each_patch_facet(part_, [&](std::size_t f) {
+        for_each_listed_facet(part_, [&](std::size_t f) {
             is_linear ? put(part_.facets[f], vtk_triangle) : put(part_.nodes_of_facet(f), vtk_quadratic_triangle);
         });
         offsets.put(offset);
@@ -145,7 +101,7 @@ class Hdf5Piece {
         Hdf5Rows<std::int32_t> patch(file_, "VTKHDF/CellData/Patch", own_.cells);
         for (std::int64_t cell = 0; cell < extent.tets + extent.patch_facets; ++cell) part.put(part_.id.value());
         for (std::int64_t cell = 0; cell < extent.tets; ++cell) patch.put(-1);
-        for_each_patch_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f]); });
+        for_each_listed_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f]); });
         part.flush();
         patch.flush();
     }
@@ -181,7 +137,7 @@ class Hdf5Piece {
                 put(piece, t);
                 put(whole, t);
             }
-            for_each_patch_facet(part_, [&](std::size_t f) {
+            for_each_listed_facet(part_, [&](std::size_t f) {
                 const std::int32_t tet = part_.tet_at_facet[f];
                 for (std::size_t c = 0; c < width; ++c) piece.put(tet < 0 ? NAN : values.number(width * tet + c));
             });
@@ -205,7 +161,7 @@ class Hdf5Piece {
         Hdf5Rows<Id> facets(file_, "viz/topology/facets", outline_.first_patch_facet(index_));
         for (const Tetrahedron& tet : part_.mesh.tets)
             for (const std::int64_t id : global_corners(part_, tet)) cells.put(id);
-        for_each_patch_facet(part_, [&](std::size_t f) {
+        for_each_listed_facet(part_, [&](std::size_t f) {
             for (const std::int64_t id : nodes_of_facet(part_, f)) facets.put(id);
         });
         cells.flush();
@@ -223,7 +179,7 @@ class Hdf5Piece {
         Hdf5Rows<std::int32_t> patch(file_, "viz/patch", outline_.first_patch_facet(index_));
         for (const std::int32_t of_tet : parts_.bodies().of_tets(index_, part_)) body.put(of_tet + 1);
         for (std::int64_t tet = 0; tet < part_.tet_count(); ++tet) part.put(part_.id.value());
-        for_each_patch_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f] + 1); });
+        for_each_listed_facet(part_, [&](std::size_t f) { patch.put(part_.patch[f] + 1); });
         body.flush();
         part.flush();
         patch.flush();
@@ -236,7 +192,7 @@ class Hdf5Piece {
             piece.put(of_tet);
             whole.put(of_tet + 1);
         }
-        for_each_patch_facet(part_, [&](std::size_t f) { piece.put(region_behind(part_, f).value()); });
+        for_each_listed_facet(part_, [&](std::size_t f) { piece.put(region_behind(part_, f).value()); });
         piece.flush();
         whole.flush();
     }
@@ -253,7 +209,7 @@ void make_hdf5(const MeshOutline& outline, ExportFiles& files, const std::string
     Hdf5Content content;
     content.groups = {"VTKHDF", "VTKHDF/PointData", "VTKHDF/CellData", "geometry", "viz", "viz/topology"};
     if (!outline.values.empty())
-        for (const char* group : {"fields", "fields/vertices", "fields/cells"}) content.groups.push_back(group);
+        content.groups.insert(content.groups.end(), {"fields", "fields/vertices", "fields/cells"});
     content.arrays = arrays_of(outline);
     content.attributes = {{"VTKHDF", "Version", std::vector<std::int32_t>{1, 0}},
                           {"VTKHDF", "Type", "UnstructuredGrid"},

@@ -54,6 +54,13 @@ class CellNodes {
 CellNodes nodes_of_tet(const Part& part, std::int64_t t);
 CellNodes nodes_of_facet(const Part& part, std::int64_t f);
 
+/// Calls take(f) with the boundary triangles that files list (Part::is_listed()).
+template <class Take>
+void for_each_listed_facet(const Part& part, const Take& take) {
+    for (std::size_t f = 0; f < part.facets.size(); ++f)
+        if (part.is_listed(f)) take(f);
+}
+
 /// Returns the content that must be loaded of parts for the nodes of their boundary triangles.
 PartContent patch_content(const MeshOutline& outline);
 

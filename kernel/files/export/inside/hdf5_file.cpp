@@ -82,10 +82,14 @@ hid_t file_type(Hdf5Type type) {
     switch (type) {
         case Hdf5Type::byte:
             return H5T_STD_U8LE;
+        case Hdf5Type::character:
+            return H5T_STD_I8LE;
         case Hdf5Type::int32:
             return H5T_STD_I32LE;
         case Hdf5Type::int64:
             return H5T_STD_I64LE;
+        case Hdf5Type::real32:
+            return H5T_IEEE_F32LE;
         case Hdf5Type::real:
             break;
     }
@@ -95,31 +99,38 @@ hid_t file_type(Hdf5Type type) {
 // Makes the file with all arrays, which have no values yet.
 class Hdf5Creation {
  public:
-    explicit Hdf5Creation(const std::string& path)
-        : path_(path), file_(created(path), H5Fclose, path), array_properties_(property_list(H5P_DATASET_CREATE)) {
+    Hdf5Creation(const std::string& path, bool tracks_order)
+        : path_(path),
+          tracks_order_(tracks_order),
+          file_(created(path, tracks_order), H5Fclose, path),
+          array_properties_(property_list(H5P_DATASET_CREATE)) {
         check(H5Pset_layout(array_properties_, H5D_CONTIGUOUS));
         check(H5Pset_alloc_time(array_properties_, H5D_ALLOC_TIME_EARLY));
         check(H5Pset_fill_time(array_properties_, H5D_FILL_TIME_NEVER));
     }
 
-    void make_groups(const std::vector<const char*>& names) {
+    void make_groups(const std::vector<std::string>& names) {
         const Hdf5Id properties = property_list(H5P_GROUP_CREATE);
-        for (const char* name : names) open(H5Gcreate2(file_, name, H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose);
+        if (tracks_order_) track_order(properties);
+        for (const std::string& name : names)
+            open(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose);
     }
 
     void make(const Hdf5Array& array) {
         const hsize_t size[] = {static_cast<hsize_t>(array.rows), static_cast<hsize_t>(array.columns)};
         const Hdf5Id space = open(H5Screate_simple(array.columns ? 2 : 1, size, nullptr), H5Sclose);
-        make_array(array.name.c_str(), file_type(array.type), space);
+        const Hdf5Id made = make_array(array.name, file_type(array.type), space);
+        if (!array.bytes.empty())
+            check(H5Dwrite(made, file_type(array.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.bytes.data()));
     }
 
-    // Makes an array of names, each of as many bytes as the longest, in UTF-8, filled up with zero bytes.
+    // Makes an array of names, in UTF-8, filled up with zero bytes.
     void make_names(const Hdf5Names& array) {
-        std::size_t length = 1;
+        std::size_t length = std::max<std::size_t>(array.characters, 1);
         for (const std::string& each : array.names) length = std::max(length, each.size());
         std::string bytes;
         for (const std::string& each : array.names) bytes += each + std::string(length - each.size(), '\0');
-        const Hdf5Id type = string_type(length, H5T_CSET_UTF8);
+        const Hdf5Id type = array.characters ? characters_type(length) : string_type(length, H5T_CSET_UTF8);
         const hsize_t size = array.names.size();
         const Hdf5Id space = open(H5Screate_simple(1, &size, nullptr), H5Sclose);
         const Hdf5Id made = make_array(array.name, type, space);
@@ -130,13 +141,18 @@ class Hdf5Creation {
         if (const auto* text = std::get_if<std::string>(&attribute.value)) {
             const Hdf5Id type = string_type(text->size(), H5T_CSET_ASCII);
             const Hdf5Id space = open(H5Screate(H5S_SCALAR), H5Sclose);
-            set(attribute, type, space, text->data());
-            return;
+            return set(attribute, type, space, text->data());
         }
-        const auto& values = std::get<std::vector<std::int32_t>>(attribute.value);
-        const hsize_t size = values.size();
-        const Hdf5Id space = open(H5Screate_simple(1, &size, nullptr), H5Sclose);
-        set(attribute, H5T_STD_I32LE, space, values.data());
+        if (const auto* values = std::get_if<std::vector<std::int32_t>>(&attribute.value)) {
+            const hsize_t size = values->size();
+            const Hdf5Id space = open(H5Screate_simple(1, &size, nullptr), H5Sclose);
+            return set(attribute, H5T_STD_I32LE, space, values->data());
+        }
+        const Hdf5Id space = open(H5Screate(H5S_SCALAR), H5Sclose);
+        if (const auto* number = std::get_if<std::int32_t>(&attribute.value))
+            set(attribute, H5T_STD_I32LE, space, number);
+        else
+            set(attribute, H5T_IEEE_F64LE, space, &std::get<double>(attribute.value));
     }
 
     void close() {
@@ -146,10 +162,15 @@ class Hdf5Creation {
  private:
     static void track_no_times(hid_t properties) { H5Pset_obj_track_times(properties, false); }
 
-    static hid_t created(const std::string& path) {
+    static void track_order(hid_t properties) {
+        H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    }
+
+    static hid_t created(const std::string& path, bool tracks_order) {
         const Hdf5Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, path),
             access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
         track_no_times(creation);
+        if (tracks_order) track_order(creation);
         H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
         H5Pset_file_locking(access, false, true);
         H5Pset_alignment(access, page_size, page_size);
@@ -175,18 +196,22 @@ class Hdf5Creation {
         return open(type, H5Tclose);
     }
 
-    Hdf5Id make_array(const char* name, hid_t type, hid_t space) const {
-        return open(H5Dcreate2(file_, name, type, space, H5P_DEFAULT, array_properties_, H5P_DEFAULT), H5Dclose);
+    Hdf5Id characters_type(hsize_t count) const { return open(H5Tarray_create2(H5T_STD_I8LE, 1, &count), H5Tclose); }
+
+    Hdf5Id make_array(const std::string& name, hid_t type, hid_t space) const {
+        return open(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, array_properties_, H5P_DEFAULT),
+                    H5Dclose);
     }
 
     void set(const Hdf5Attribute& attribute, hid_t type, hid_t space, const void* value) {
-        const Hdf5Id of = open(H5Acreate_by_name(file_, attribute.object, attribute.name, type, space, H5P_DEFAULT,
-                                                 H5P_DEFAULT, H5P_DEFAULT),
+        const Hdf5Id of = open(H5Acreate_by_name(file_, attribute.object.c_str(), attribute.name, type, space,
+                                                 H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                                H5Aclose);
         check(H5Awrite(of, type, value));
     }
 
     std::string path_;
+    bool tracks_order_;
     Hdf5Id file_;
     Hdf5Id array_properties_;
 };
@@ -195,7 +220,7 @@ class Hdf5Creation {
 
 void make_hdf5_file(const std::string& path, const Hdf5Content& content) {
     const Hdf5Turn turn;
-    Hdf5Creation file(path);
+    Hdf5Creation file(path, content.tracks_order);
     file.make_groups(content.groups);
     for (const Hdf5Array& array : content.arrays) file.make(array);
     for (const Hdf5Names& names : content.names) file.make_names(names);

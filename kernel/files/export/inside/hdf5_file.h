@@ -9,30 +9,46 @@
 
 namespace kerf {
 
-enum class Hdf5Type { byte, int32, int64, real };
+enum class Hdf5Type { byte, character, int32, int64, real32, real };
 
-constexpr std::int64_t size_of(Hdf5Type type) { return type == Hdf5Type::byte ? 1 : type == Hdf5Type::int32 ? 4 : 8; }
+constexpr std::int64_t size_of(Hdf5Type type) {
+    switch (type) {
+        case Hdf5Type::byte:
+        case Hdf5Type::character:
+            return 1;
+        case Hdf5Type::int32:
+        case Hdf5Type::real32:
+            return 4;
+        case Hdf5Type::int64:
+        case Hdf5Type::real:
+            break;
+    }
+    return 8;
+}
 
 struct Hdf5Array {
     std::string name;  ///< name with its groups
     Hdf5Type type;
     std::int64_t rows;
     std::int64_t columns = 0;  ///< 0: the array has one dimension
+    std::string bytes = {};    ///< all values, of an array that is written at once; else empty
 };
 
 struct Hdf5Attribute {
-    const char* object;  ///< group or array
+    std::string object;  ///< group or array
     const char* name;
-    std::variant<std::string, std::vector<std::int32_t>> value;
+    std::variant<std::string, std::vector<std::int32_t>, std::int32_t, double> value;
 };
 
 struct Hdf5Names {
-    const char* name;
+    std::string name;
     std::vector<std::string> names;  ///< UTF-8
+    std::size_t characters = 0;      ///< 0: strings as long as the longest; else each is an array of so many characters
 };
 
 struct Hdf5Content {
-    std::vector<const char*> groups;
+    bool tracks_order = false;  ///< groups know the order in which their members were made
+    std::vector<std::string> groups;
     std::vector<Hdf5Array> arrays;
     std::vector<Hdf5Attribute> attributes;
     std::vector<Hdf5Names> names;
