@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# meshio and VTK read what kerf merge writes: merged_test.sh KERF EXPORT_CASES PYTHON ASSETS
+# meshio, VTK, Gmsh and the tools of MED and CGNS read what kerf merge writes: merged_test.sh KERF EXPORT_CASES PYTHON ASSETS
 set -euo pipefail
 
 kerf=$1 cases=$2 python=$3
@@ -10,7 +10,7 @@ for surface in "$folder"/*.stl; do
     name=$(basename "$surface" .stl)
     # shellcheck disable=SC2046  # the words of the file are arguments
     "$kerf" mesh "$surface" -o "$folder/$name" $(cat "$folder/$name.args") -q
-    for ending in mesh su2 inp vtu; do
+    for ending in mesh su2 inp vtu vtk unv med cgns feb; do
         "$kerf" merge "$folder/$name" -o "$folder/$name.merged.$ending"
     done
     "$python" "$(dirname "$0")/read_merged.py" "$folder/$name" "$folder/$name.merged"

@@ -3,8 +3,8 @@ the part files.
 
 usage: python3 read_merged.py DIR STEM
 
-DIR is the folder of the run; STEM.mesh, STEM.inp, STEM.su2 and STEM.vtu are merged from it. Equal are the numbers of
-vertices, tetrahedra and parts, the volume, and the area of every patch. Prints them as JSON; the exit code is 1 if a
+DIR is the folder of the run; STEM.mesh, STEM.inp, STEM.su2, STEM.vtu and the files of merged_formats.py are merged from
+it. Equal are the numbers of vertices, tetrahedra and parts, the volume, and the area of every patch. Prints them as JSON; the exit code is 1 if a
 law does not hold.
 """
 
@@ -14,6 +14,8 @@ import json
 import pathlib
 import sys
 
+import gmsh
+import merged_formats
 import meshio
 import numpy as np
 import vtk
@@ -180,6 +182,18 @@ def read_abaqus(path, patches):
     }
 
 
+def read_by_others(path, names, patches):
+    """Names are words in all formats but VTK's, and patches come in their order there. Materials are bodies."""
+    mesh = merged_formats.read(path)
+    areas = mesh.areas()
+    require(len(areas) == len(patches), f"{path} has a name for each patch with triangles")
+    bodies = sorted(mesh.cells_by_region())
+    require(bodies == ["volume"] or bodies == sorted(f"body_{k + 1}" for k in range(len(bodies))), f"{path} has bodies")
+    by_patch = {names.index(name): area for name, area in areas.items()} if path.endswith(".vtk") else dict(
+        zip(patches, areas.values()))
+    return {"vertices": mesh.nodes, "tets": len(mesh.tets), "parts": None, "volume": mesh.volume(), "areas": by_patch}
+
+
 def compare(path, whole, found):
     for count in ("vertices", "tets"):
         require(found[count] == whole[count], f"{path} has as many {count} as the parts")
@@ -202,8 +216,11 @@ def main():
         compare(f"{stem}.inp", whole, read_abaqus(f"{stem}.inp", patches))
         compare(f"{stem}.vtu", whole, read_vtu_by_meshio(f"{stem}.vtu", whole["names"]))
         compare(f"{stem}.vtu", whole, read_vtu_by_vtk(f"{stem}.vtu", whole["names"]))
+        gmsh.initialize()
+        for ending in merged_formats.ENDINGS:
+            compare(f"{stem}.{ending}", whole, read_by_others(f"{stem}.{ending}", whole["names"], patches))
         print(json.dumps({**whole, "parts": len(whole["parts"]), "areas": len(patches), "names": len(whole["names"])}))
-    except Broken as broken:
+    except (Broken, merged_formats.Unfit) as broken:
         print(json.dumps({"broken_law": str(broken)}))
         sys.exit(1)
 

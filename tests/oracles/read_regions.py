@@ -1,5 +1,5 @@
 """Makes a body of three regions with Gmsh, and counts the cells of each region in what Kerf has written of it: with VTK,
-meshio, Gmsh, h5py, DOLFINx, and by the words of OpenFOAM's checkMesh and TetGen.
+meshio, Gmsh, h5py, DOLFINx, and by the words of OpenFOAM's checkMesh, TetGen, and the tools of MED and CGNS.
 
 usage: python3 read_regions.py make FILE.msh
        python3 read_regions.py judge DIR
@@ -16,6 +16,7 @@ import sys
 
 import gmsh
 import h5py
+import merged_formats
 import meshio
 import numpy as np
 import vtk
@@ -127,6 +128,15 @@ def judge_meshio(folder, regions, patches, names):
     require_same({"outside": triangles}, {"outside": patches["outside"]}, "whole.su2")
 
 
+def judge_others(folder, regions, patches):
+    for ending in merged_formats.ENDINGS:
+        path = folder / f"whole.{ending}"
+        mesh = merged_formats.read(path)
+        words = {name: name if ending == "vtk" else word for name, word in REGIONS.items()}
+        require_same(mesh.cells_by_region(), {words[name]: count for name, count in regions.items()}, path)
+        require_same(mesh.triangles_by_patch(), patches, path)
+
+
 def judge_dolfinx(path, regions):
     with XDMFFile(MPI.COMM_SELF, str(path), "r") as file:
         tags = file.read_meshtags(file.read_mesh(name="mesh"), name="mesh")
@@ -143,6 +153,7 @@ def judge(folder):
     for pattern in ("whole.msh", "whole22.msh", "parts/mesh_*.msh"):
         judge_gmsh(sorted(folder.glob(pattern)), regions, patches)
     judge_meshio(folder, regions, patches, names)
+    judge_others(folder, regions, patches)
     with h5py.File(folder / "whole.h5") as file:
         called = [name.decode() for name in file["viz/region_names"]]
         require_same(by_number(file["viz/region"][:], called), regions, "whole.h5")
@@ -163,7 +174,7 @@ def main():
             make(sys.argv[2])
         else:
             judge(pathlib.Path(sys.argv[2]))
-    except Broken as broken:
+    except (Broken, merged_formats.Unfit) as broken:
         print(broken, file=sys.stderr)
         sys.exit(1)
     finally:

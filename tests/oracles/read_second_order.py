@@ -1,11 +1,11 @@
 """Reads files with cells of order 2 with the programs of others, and compares their counts and the volume with the
 report of the run, which has straight edges: the nodes of edges lie in their middles. Of a second run, whose edges are
-curved, Gmsh finds the volume that its report has.
+curved, Gmsh and the readers of merged_formats.py find the volume that its report has.
 
 usage: python3 read_second_order.py RUN CURVED_RUN
 
 Read are whole.msh, old.msh, whole.mesh, whole.inp, parts/mesh_1.msh ..., hdf5/mesh.h5 and hdf5/mesh.xdmf in the current
-folder, and CURVED_RUN/export/msh. Prints a line of JSON; the exit code is 1 if a law does not hold.
+folder, CURVED_RUN/export/msh, and CURVED_RUN.vtk and so on. Prints a line of JSON; the exit code is 1 if a law does not hold.
 """
 
 import contextlib
@@ -15,6 +15,7 @@ import pathlib
 import sys
 
 import gmsh
+import merged_formats
 import meshio
 import numpy as np
 import vtk
@@ -111,6 +112,15 @@ def check_curved(run):
     require(sum(part[1] for part in parts) == report["totals"]["tets"], f"Gmsh counts the tetrahedra of {run}")
     expected = report["totals"]["volume"] + report["curve"]["volume_gain"]
     require(np.isclose(sum(part[3] for part in parts), expected, rtol=1e-9), f"Gmsh finds the volume of {run}")
+    for ending in merged_formats.ENDINGS:
+        mesh = merged_formats.read(f"{run}.{ending}")
+        require(mesh.nodes > report["totals"]["vertices"] and len(mesh.tets) == report["totals"]["tets"],
+                f"{run}.{ending} has the nodes and the tetrahedra")
+        require(np.isclose(mesh.volume(), expected, rtol=1e-12), f"{run}.{ending} has the volume, with no cell inverted")
+        middles = (mesh.triangles[:, [0, 1, 2]] + mesh.triangles[:, [1, 2, 0]]) / 2
+        off = np.linalg.norm(mesh.triangles[:, 3:] - middles, axis=2)
+        longest = np.linalg.norm(mesh.triangles[:, [0, 1, 2]] - mesh.triangles[:, [1, 2, 0]], axis=2)
+        require(np.all(off < 0.2 * longest), f"{run}.{ending} has the nodes of triangles near their edges")
     least = min(part[4] for part in parts)
     require(0 < least < 1, f"Gmsh finds curved cells in {run}, all of them valid")
     return least
@@ -202,7 +212,7 @@ def main():
         check_dolfinx(expected)
         check_petsc(expected)
         of_curved = check_curved(sys.argv[2])
-    except Broken as broken:
+    except (Broken, merged_formats.Unfit) as broken:
         print(json.dumps({"broken_law": str(broken)}))
         sys.exit(1)
     print(json.dumps({"nodes": expected.nodes, "tets": expected.tets, "least_jacobians": [least, of_curved]}))

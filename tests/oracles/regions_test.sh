@@ -17,7 +17,9 @@ logged() {
 
 "$python" "$here/read_regions.py" make "$folder/in.msh"
 "$kerf" mesh "$folder/in.msh" -o "$folder/run" -n 6 --size 0.25 -q
-for ending in vtu msh mesh inp su2 node h5; do "$kerf" merge "$folder/run" -o "$folder/whole.$ending"; done
+for ending in vtu msh mesh inp su2 node h5 vtk unv med cgns feb; do
+    "$kerf" merge "$folder/run" -o "$folder/whole.$ending"
+done
 "$kerf" merge "$folder/run" -o "$folder/whole22.msh" --msh-version 2.2
 "$kerf" export "$folder/run" --format msh -o "$folder/parts"
 "$kerf" export "$folder/run" --format hdf5 -o "$folder/hdf5"

@@ -19,6 +19,7 @@ tetgen -r whole.node >tetgen.log
 tets() { awk '!/^#/ { print $1; exit }' "$1"; }
 [ "$(tets whole.ele)" = "$(tets whole.1.ele)" ] || { cat tetgen.log && exit 1; }
 "$kerf" mesh "$assets/cylinder.stl" -o curved -n 3 --surface remesh --order 2 --format msh -q
+for ending in vtk unv med cgns feb; do "$kerf" merge curved -o "curved.$ending" -q; done
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 "$python" "$here/read_second_order.py" run curved
 "$python" "$here/compute_with_calculix.py" whole.inp corners.mesh
