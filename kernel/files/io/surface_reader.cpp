@@ -16,6 +16,8 @@
 #include "files/io/cad_body.h"
 #include "files/io/compressed.h"
 #include "files/io/file_bytes.h"
+#include "files/io/inside/image_formats.h"
+#include "files/io/inside/mesh_scanners.h"
 #include "files/io/inside/stl_format.h"
 #include "files/io/inside/text_scanner.h"
 #include "files/io/threemf_file.h"
@@ -99,7 +101,8 @@ bool is_vtk_xml(std::string_view bytes, std::string_view word) {
 
 // Returns the content without the bytes that some programs append, for formats without a binary kind.
 std::string_view body_of(std::string_view bytes, Reader read) {
-    const bool may_be_binary = read == read_stl || read == read_ply || read == read_gmsh || read == read_vtu;
+    constexpr std::array binary_readers = {read_stl, read_ply, read_gmsh, read_vtu, read_vtk};
+    const bool may_be_binary = std::find(binary_readers.begin(), binary_readers.end(), read) != binary_readers.end();
     return may_be_binary ? bytes : without_padding(bytes);
 }
 
@@ -118,8 +121,14 @@ bool is_nastran(std::string_view bytes) {
     return has_line(head, "BEGIN BULK") || has_line(head, "GRID") || has_line(head, "CTRIA3") || has_line(head, "CEND");
 }
 
-// Refuses, by name, formats of meshes that are known but not read: the bytes of some look like another format.
+// Refuses, by name, formats that are known but not read: the bytes of some look like another format.
 void refuse_foreign(std::string_view bytes, const std::string& path) {
+    if (const std::string_view image = image_format_of(bytes); !image.empty())
+        throw Error(ErrorCode::input, path + ": " + image_refusal(image));
+    if (bytes.starts_with("***tess"))
+        throw Error(ErrorCode::input, path +
+                                          ": this is a tessellation of Neper, whose cells are no triangles. Mesh it "
+                                          "with neper -M, and give the .msh.");
     const auto refuse = [&](const char* format) {
         throw Error(ErrorCode::input, path + ": this is " + format +
                                           ", which cannot be read here. Convert it to VTK's .vtu or Gmsh's .msh, for "
@@ -127,7 +136,6 @@ void refuse_foreign(std::string_view bytes, const std::string& path) {
     };
     if (bytes.starts_with("\x89HDF\r\n"))
         refuse(name_in_archive(path).ends_with(".med") ? "a MED file of Salome (HDF5)" : "an HDF5 file");
-    if (bytes.starts_with("# vtk DataFile")) refuse("a file of VTK's older format (.vtk)");
     if (is_nastran(bytes)) refuse("input of NASTRAN");
     for (const char* keyword : {"*HEADING", "*Heading", "*heading", "*NODE", "*Node", "*node"})
         if (bytes.starts_with(keyword)) refuse("input of Abaqus");
@@ -136,6 +144,7 @@ void refuse_foreign(std::string_view bytes, const std::string& path) {
 Reader recognise(std::string_view bytes, const std::string& path) {
     if (is_binary_stl(bytes)) return read_stl;
     refuse_foreign(bytes, path);
+    if (is_legacy_vtk(bytes)) return read_vtk;
     if (is_utf16(bytes)) throw Error(ErrorCode::input, path + ": the text is UTF-16. Save it as ASCII or UTF-8.");
     const std::string_view word = first_word(bytes, path);
     if (word == "ply") return read_ply;
@@ -157,7 +166,8 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     throw Error(ErrorCode::input,
                 path +
                     ": the format is not recognised. Give STL, OBJ, PLY, OFF, Gmsh's .msh, MEDIT's .mesh as text, "
-                    "VTK's .vtu, TetGen's .smesh or .poly, STEP, IGES, BREP or 3MF, plain or compressed with gzip or "
+                    "VTK's .vtp, .vtu or .vtk, TetGen's .smesh or .poly, STEP, IGES, BREP or 3MF, plain or compressed "
+                    "with gzip or "
                     "zstd.");
 }
 

@@ -11,25 +11,26 @@
 namespace kerf {
 
 /// Reads STL (binary or ASCII), OBJ, PLY (ASCII, both binary endians), OFF, Gmsh MSH 2 or 4.1 (ASCII, both binary
-/// endians), MEDIT .mesh (ASCII), VTK's VTU (see scan_vtu()), TetGen .smesh or .poly, each also compressed with gzip or
-/// zstd, in double precision where the format has it. The content tells the format. The ending is only asked where the
-/// content leaves a doubt: .smesh or .poly for a list of numbers whose first line is not that of TetGen's nodes, .smesh
-/// for a first facet that is broken over lines. STL triangles are welded exactly; other formats keep their vertices as
-/// they are.
+/// endians), MEDIT .mesh (ASCII), VTK's .vtp, .vtu and legacy .vtk (see scan_vtu()), TetGen .smesh or .poly, each also
+/// compressed with gzip or zstd, in double precision where the format has it. The content tells the format. The ending
+/// is only asked where the content leaves a doubt: .smesh or .poly for a list of numbers whose first line is not that
+/// of TetGen's nodes, .smesh for a first facet that is broken over lines. STL triangles are welded exactly; other
+/// formats keep their vertices as they are.
 ///
-/// STL solids, OBJ groups (else objects, else materials), Gmsh's physical groups (else surfaces), MEDIT references and
-/// TetGen markers become patches. Polygons are cut into fans, see find_fan(); polygons that are not planar or that no
-/// fan covers are in Soup::unfit_polygons. Facets of TetGen that have several polygons or holes, or that no fan covers,
-/// are triangulated, see triangulate_facet(). Other volume elements, curves and points are passed over; Soup::notes
-/// says so. TetGen's hole points are in Soup::holes, its regions in Soup::seeds, by the names "region_ATTRIBUTE".
-/// Numbers beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is NaN.
+/// STL solids, OBJ groups (else objects, else materials), Gmsh's physical groups (else surfaces), MEDIT references,
+/// VTK's cell array Patch and TetGen markers become patches. Polygons are cut into fans, see find_fan(); polygons that
+/// are not planar or that no fan covers are in Soup::unfit_polygons. Facets of TetGen that have several polygons or
+/// holes, or that no fan covers, are triangulated, see triangulate_facet(). Other volume elements, curves and points
+/// are passed over; Soup::notes says so. TetGen's hole points are in Soup::holes, its regions in Soup::seeds, by the
+/// names "region_ATTRIBUTE". Numbers beyond the doubles are read as the nearest, that is infinite or zero, and "nan" is
+/// NaN.
 ///
-/// Tetrahedra of one volume (.msh, .mesh, .vtu) are passed over, too; without triangles their skin is the surface.
-/// Tetrahedra of two or more volumes give Soup::sides and Soup::region_names: the facets are all faces between two
-/// regions and the faces that only one tetrahedron has, each once, the smaller region, or the only one, behind it.
+/// Tetrahedra of one volume (.msh, .mesh, .vtu, .vtk) are passed over, too; without triangles their skin is the
+/// surface. Tetrahedra of two or more volumes give Soup::sides and Soup::region_names: the facets are all faces between
+/// two regions and the faces that only one tetrahedron has, each once, the smaller region, or the only one, behind it.
 /// Their patch is that of the file's triangle there; else "outer", or "A_to_B" between the regions A and B. Triangles
 /// at which no region ends are left out. Volumes are Gmsh's physical groups (else volumes), MEDIT's references
-/// ("region_N") and VTU's cell arrays, see scan_vtu(); volumes of the same name are one region. So are the volumes of
+/// ("region_N") and VTK's cell arrays, see scan_vtu(); volumes of the same name are one region. So are the volumes of
 /// an MSH 4.1 without tetrahedra whose $Entities say which surfaces bound them, see gmsh::sides_of_surfaces().
 ///
 /// Throws Error(io) for a file that cannot be opened or read, Error(input) for content that is empty, truncated, or
@@ -62,6 +63,7 @@ Soup read_off(std::string_view bytes, const std::string& path);
 Soup read_gmsh(std::string_view bytes, const std::string& path);
 Soup read_medit(std::string_view bytes, const std::string& path);
 Soup read_tetgen(std::string_view bytes, const std::string& path);
-Soup read_vtu(std::string_view bytes, const std::string& path);
+Soup read_vtu(std::string_view bytes, const std::string& path);  ///< .vtp, too
+Soup read_vtk(std::string_view bytes, const std::string& path);
 
 }  // namespace kerf

@@ -33,6 +33,7 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
 }
 
 void scan_by_content(std::string_view bytes, const std::string& path, SoupBuilder& builder) {
+    if (is_legacy_vtk(bytes)) return scan_vtk(bytes, path, builder);
     TextScanner scanner(bytes, path, '#');
     const std::string_view word = scanner.at_end() ? std::string_view() : scanner.next_word();
     if (word.starts_with('$')) return scan_gmsh(bytes, path, builder);
@@ -40,7 +41,7 @@ void scan_by_content(std::string_view bytes, const std::string& path, SoupBuilde
     if (word.starts_with('<')) return scan_vtu(bytes, path, builder);
     throw Error(ErrorCode::input, path +
                                       ": this is no volume mesh that can be read. Give Gmsh's .msh, MEDIT's .mesh as "
-                                      "text, VTK's .vtu, TetGen's .node or .ele, or the folder of a run.");
+                                      "text, VTK's .vtu or .vtk, TetGen's .node or .ele, or the folder of a run.");
 }
 
 // The cube of the extent must be a normal number, and so must that of a billionth of it.

@@ -23,8 +23,8 @@ struct TetFile {
     std::vector<RegionIndex> region_of_tet = {};  ///< #T, of several regions; not of read_tets_with_scalars()
 };
 
-/// Reads Gmsh MSH 2 or 4.1 (text, binary of both orders of bytes), MEDIT .mesh (text) and VTK's VTU (see scan_vtu()),
-/// each also compressed with gzip or zstd, and TetGen's .node and .ele, of which either may be named.
+/// Reads Gmsh MSH 2 or 4.1 (text, binary of both orders of bytes), MEDIT .mesh (text), VTK's VTU and legacy .vtk (see
+/// scan_vtu()), each also compressed with gzip or zstd, and TetGen's .node and .ele, of which either may be named.
 ///
 /// Cells of second order are read by their corners, and all other nodes are left out. Tetrahedra of negative
 /// orientation are turned. Throws Error(io) for a file that cannot be opened, Error(input) for content that is

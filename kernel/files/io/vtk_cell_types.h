@@ -5,7 +5,8 @@
 
 namespace kerf {
 
-inline constexpr std::uint8_t vtk_vertex = 1, vtk_poly_line = 4, vtk_triangle = 5, vtk_tetra = 10;
+inline constexpr std::uint8_t vtk_vertex = 1, vtk_poly_vertex = 2, vtk_poly_line = 4, vtk_triangle = 5,
+                              vtk_triangle_strip = 6, vtk_polygon = 7, vtk_quad = 9, vtk_tetra = 10;
 /// Cells with a node on each edge, behind the corners.
 inline constexpr std::uint8_t vtk_quadratic_triangle = 22, vtk_quadratic_tetra = 24;
 

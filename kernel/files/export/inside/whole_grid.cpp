@@ -1,5 +1,6 @@
-// Arrays are written as they are read off the parts, one part at a time: first what tetrahedra have, then what triangles
-// on patches have, in the order of the tree. VTK's XML has values as they lie in memory, its legacy files big endian.
+// Arrays are written as they are read off the parts, one part at a time: first what tetrahedra have, then what
+// triangles on patches have, in the order of the tree. VTK's XML has values as they lie in memory, its legacy files big
+// endian.
 #include "files/export/inside/whole_grid.h"
 
 #include <algorithm>

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <new>
+#include <tuple>
 
 #include <pugixml.hpp>
 
 #include "base/core/error.h"
+#include "files/io/inside/image_formats.h"
 #include "files/io/inside/text_scanner.h"
+#include "files/io/vtk_cell_types.h"
 
 namespace kerf::vtu {
 
@@ -43,11 +46,13 @@ void check_parsed(const pugi::xml_parse_result& result, std::string_view text, c
 
 void read_root(const pugi::xml_node& root, File& file, const std::string& path) {
     const std::string_view type = root.attribute("type").value();
-    if (type == "PUnstructuredGrid")
+    if (type == "PUnstructuredGrid" || type == "PPolyData")
         fail(path, "this is a list of parts. Name the folder of the run or one of the parts.");
-    if (type != "UnstructuredGrid")
+    if (type == "ImageData" || type == "PImageData") fail(path, image_refusal("an image of VTK"));
+    if (type != "UnstructuredGrid" && type != "PolyData")
         fail(path, "VTK's " + std::string(type.substr(0, 40)) +
-                       " is no mesh of tetrahedra. Save it as an unstructured grid (.vtu).");
+                       " is no surface and no mesh of tetrahedra. Save it as a surface (.vtp) or an unstructured grid "
+                       "(.vtu).");
     file.has_long_headers = root.attribute("header_type").value() == std::string_view("UInt64");
     file.order =
         root.attribute("byte_order").value() == std::string_view("BigEndian") ? std::endian::big : std::endian::little;
@@ -82,17 +87,6 @@ Array read_array(const pugi::xml_node& element, std::string_view text, const std
     return array;
 }
 
-// Returns the name that an array of cells has here; empty for arrays that are not read. "front" and "back" may be
-// written in any case.
-std::string cell_array_of(std::string_view name, std::string_view type) {
-    if (name == "Neighbour") return "Neighbour";
-    if (!type.starts_with("Int") && !type.starts_with("UInt")) return {};
-    if (std::find(region_arrays.begin(), region_arrays.end(), name) != region_arrays.end()) return std::string(name);
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-    return lower == front_array || lower == back_array ? lower : std::string();
-}
-
 bool is_scalar(const pugi::xml_node& array) {
     const std::string_view components = array.attribute("NumberOfComponents").value();
     return components.empty() || components == "1";
@@ -107,9 +101,26 @@ void for_each_array(const pugi::xml_node& around, const char* section, const Tak
                 take(std::string(array.attribute("Name").value()), array);
 }
 
+// Reads the lists of cells of a surface, in the order in which its cells are counted.
+void read_lists(const pugi::xml_node& element, std::string_view text, const std::string& path, Piece& piece) {
+    for (const auto& [list, number, type] : {std::tuple{"Verts", "NumberOfVerts", vtk_poly_vertex},
+                                             {"Lines", "NumberOfLines", vtk_poly_line},
+                                             {"Polys", "NumberOfPolys", vtk_polygon},
+                                             {"Strips", "NumberOfStrips", vtk_triangle_strip}}) {
+        const CellList cells{list, type, count_in(element, number, path)};
+        for_each_array(element, list, [&](const std::string& name, const pugi::xml_node& array) {
+            piece.arrays.try_emplace(cells.element + "/" + name, read_array(array, text, path));
+        });
+        piece.cells += cells.cells;
+        piece.lists.push_back(cells);
+    }
+}
+
 // Of arrays of one name the first counts.
 Piece read_piece(const pugi::xml_node& element, std::string_view text, const std::string& path) {
-    Piece piece{count_in(element, "NumberOfPoints", path), count_in(element, "NumberOfCells", path), {}, {}};
+    Piece piece;
+    piece.points = count_in(element, "NumberOfPoints", path);
+    piece.cells = count_in(element, "NumberOfCells", path);
     for_each_array(element, "Points", [&](const std::string&, const pugi::xml_node& array) {
         piece.arrays.try_emplace("Points", read_array(array, text, path));
     });
@@ -117,7 +128,9 @@ Piece read_piece(const pugi::xml_node& element, std::string_view text, const std
         piece.arrays.try_emplace(name, read_array(array, text, path));
     });
     for_each_array(element, "CellData", [&](const std::string& name, const pugi::xml_node& array) {
-        const std::string known = is_scalar(array) ? cell_array_of(name, array.attribute("type").value()) : "";
+        const std::string_view type = array.attribute("type").value();
+        const bool is_integer = type.starts_with("Int") || type.starts_with("UInt");
+        const std::string known = is_scalar(array) ? cell_array_of(name, is_integer) : "";
         if (!known.empty()) piece.arrays.try_emplace(known, read_array(array, text, path));
     });
     for_each_array(element, "PointData", [&](const std::string& name, const pugi::xml_node& array) {
@@ -127,8 +140,6 @@ Piece read_piece(const pugi::xml_node& element, std::string_view text, const std
 }
 
 }  // namespace
-
-void fail(const std::string& path, const std::string& what) { throw Error(ErrorCode::input, path + ": " + what); }
 
 File read_structure(std::string_view bytes, const std::string& path) {
     const std::size_t appended = find_appended(bytes, path);
@@ -142,12 +153,15 @@ File read_structure(std::string_view bytes, const std::string& path) {
     File file;
     read_root(root, file, path);
     file.appended = bytes.substr(appended);
-    const pugi::xml_node grid = root.child("UnstructuredGrid");
+    const pugi::xml_node grid = root.child(root.attribute("type").value());
     for_each_array(grid, "FieldData", [&](const std::string& name, const pugi::xml_node& array) {
-        if (name == "RegionNames") file.region_names = read_array(array, text, path);
-        if (name == "RegionNumbers") file.region_numbers = read_array(array, text, path);
+        if (std::find(name_arrays.begin(), name_arrays.end(), name) != name_arrays.end())
+            file.fields[name] = read_array(array, text, path);
     });
-    for (const pugi::xml_node& piece : grid.children("Piece")) file.pieces.push_back(read_piece(piece, text, path));
+    for (const pugi::xml_node& element : grid.children("Piece")) {
+        file.pieces.push_back(read_piece(element, text, path));
+        if (grid.name() == std::string_view("PolyData")) read_lists(element, text, path, file.pieces.back());
+    }
     return file;
 }
 
