@@ -51,7 +51,9 @@ void heed_unit(CLI::App& app, InputOptions& options) {
 }
 
 void add_surface_output(CLI::App& app, std::string& output) {
-    app.add_option("-o,--output", output, "Surface, .obj (with patches) or .stl.")->required()->type_name("FILE");
+    app.add_option("-o,--output", output, "Surface: .obj, .vtp, .vtk (with patches), .ply, .off, .stl.")
+        ->required()
+        ->type_name("FILE");
 }
 
 void add_run_options(CLI::App& app, RunRequest& options) {

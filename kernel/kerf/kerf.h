@@ -109,8 +109,9 @@ ClosedSurface surface_of_regions(std::span<const std::array<double, 3>> vertices
 ClosedSurface surface_from_file(const std::string& path, const NamedOptions& options = {},
                                 const IsCancelled& is_cancelled = {});
 
-/// Writes an .obj with patches, of several regions with a closed group for each instead, or an .stl, whose coordinates
-/// have 7 digits. Throws Error(usage) for another ending, and for regions in an .stl, Error(io).
+/// Writes an .obj with patches, of several regions with a closed group for each instead, a .vtp or .vtk with patches
+/// and regions, a .ply or .off without, or an .stl, whose coordinates have 7 digits. Throws Error(usage) for another
+/// ending, and for regions in a file that cannot tell them apart, Error(io).
 void surface_to_file(const ClosedSurface& surface, const std::string& path);
 
 /// The answer of `kerf check` about a surface.

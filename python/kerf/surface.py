@@ -132,8 +132,9 @@ class Surface(_kerf.Surface):
         return Surface._of(self._remesh(caller(progress), size=size, deviation=deviation, **options))
 
     def save(self, path: Path) -> None:
-        """Writes an .obj: all digits and the patches, or of several regions a closed group for each; or an .stl, of one
-        region, without patches and with 7 digits. Raises UsageError for another ending, FileError."""
+        """Writes an .obj: all digits and the patches, or of several regions a closed group for each; a .vtp or .vtk:
+        patches and regions; a .ply or .off: one region, no patches; or an .stl: the same with 7 digits. Raises
+        UsageError for another ending, FileError."""
         self._save(encoded(path))
 
     def __repr__(self) -> str:

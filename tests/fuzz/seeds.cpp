@@ -27,6 +27,7 @@ std::string fuzzer_of(const std::string& name) {
     const std::string ending = fs::path(name).extension().string().substr(1);
     if (ending == "msh") return "gmsh";
     if (ending == "mesh") return "medit";
+    if (ending == "vtp") return "vtu";
     return ending == "smesh" || ending == "poly" ? "tetgen" : ending;
 }
 

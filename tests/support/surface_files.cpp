@@ -77,15 +77,20 @@ std::string deflated(const std::string& bytes) {
 // One piece of VTU, array by array.
 class VtuText {
  public:
-    explicit VtuText(const VtuStyle& style) : style_(style) { text_.precision(17); }
-    void begin(std::size_t points, std::size_t cells) {
-        text_ << "<?xml version=\"1.0\"?>\n<!-- a > b -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-                 "byte_order='"
-              << (style_.is_big_endian ? "Big" : "Little") << "Endian'"
+    explicit VtuText(const VtuStyle& style, const std::string& kind = "UnstructuredGrid") : style_(style), kind_(kind) {
+        text_.precision(17);
+    }
+    void begin() {
+        text_ << "<?xml version=\"1.0\"?>\n<!-- a > b -->\n<VTKFile type=\"" << kind_
+              << "\" version=\"1.0\" byte_order='" << (style_.is_big_endian ? "Big" : "Little") << "Endian'"
               << (style_.has_long_headers ? " header_type=\"UInt64\"" : "")
-              << (is_compressed() ? " compressor=\"vtkZLibDataCompressor\"" : "")
-              << ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << points << "\" NumberOfCells=\"" << cells
-              << "\">\n";
+              << (is_compressed() ? " compressor=\"vtkZLibDataCompressor\"" : "") << ">\n<" << kind_ << ">\n";
+    }
+    /// Begins the piece with these attributes of numbers.
+    void begin_piece(const std::vector<std::pair<std::string, std::size_t>>& numbers) {
+        text_ << "<Piece";
+        for (const auto& [name, number] : numbers) text_ << " NumberOf" << name << "=\"" << number << "\"";
+        text_ << ">\n";
     }
     template <class Write>
     void section(const std::string& name, const Write& write) {
@@ -113,7 +118,7 @@ class VtuText {
         text_ << "</DataArray>\n";
     }
     std::string finish() {
-        text_ << "</Piece>\n</UnstructuredGrid>\n";
+        text_ << "</Piece>\n</" << kind_ << ">\n";
         if (!appended_.empty())
             text_ << "<AppendedData encoding=\""
                   << (style_.values == VtuStyle::Values::appended_base64 ? "base64" : "raw") << "\">\n_" << appended_
@@ -154,6 +159,7 @@ class VtuText {
     }
 
     VtuStyle style_;
+    std::string kind_;
     std::ostringstream text_;
     std::string appended_;
 };
@@ -412,7 +418,8 @@ std::string to_vtu(const Soup& soup, const std::vector<Tetrahedron>& tets, const
     add(3, UndirectedEdge{0, 1});
     for (const Triangle& facet : soup.facets) add(5, facet);
     VtuText out(style);
-    out.begin(soup.vertices.size(), types.size());
+    out.begin();
+    out.begin_piece({{"Points", soup.vertices.size()}, {"Cells", types.size()}});
     out.array("Points", "Float64", "Points", points);
     out.section("Cells", [&] {
         out.array("", "Int64", "connectivity", corners);
@@ -422,6 +429,138 @@ std::string to_vtu(const Soup& soup, const std::vector<Tetrahedron>& tets, const
     std::vector<std::int32_t> of_cells(types.size() - soup.facets.size(), -1);
     of_cells.insert(of_cells.end(), neighbours.begin(), neighbours.end());
     if (!neighbours.empty()) out.array("CellData", "Int32", "Neighbour", of_cells);
+    return out.finish();
+}
+
+namespace {
+
+std::vector<double> coordinates_of(const Soup& soup) {
+    std::vector<double> coordinates;
+    for (const Vec3& p : soup.vertices) coordinates.insert(coordinates.end(), p.begin(), p.end());
+    return coordinates;
+}
+
+// The names of the patches, each with a zero byte behind it.
+std::vector<std::uint8_t> bytes_of_names(const Soup& soup) {
+    std::vector<std::uint8_t> bytes;
+    for (const std::string& name : soup.patch_names)
+        bytes.insert(bytes.end(), name.c_str(), name.c_str() + name.size() + 1);
+    return bytes;
+}
+
+}  // namespace
+
+std::string to_vtp(const Soup& soup, const VtuStyle& style) {
+    std::vector<std::int64_t> corners, ends;
+    for (const Triangle& facet : soup.facets) {
+        corners.insert(corners.end(), facet.begin(), facet.end());
+        ends.push_back(static_cast<std::int64_t>(corners.size()));
+    }
+    std::vector<std::int32_t> patch = {-1};  // of the line
+    patch.insert(patch.end(), soup.patch.begin(), soup.patch.end());
+    VtuText out(style, "PolyData");
+    out.begin();
+    out.array("FieldData", "UInt8", "PatchNames", bytes_of_names(soup));
+    out.begin_piece({{"Points", soup.vertices.size()}, {"Lines", 1}, {"Polys", soup.facets.size()}});
+    out.array("Points", "Float64", "Points", coordinates_of(soup));
+    out.section("Lines", [&] {
+        out.array("", "Int64", "connectivity", std::vector<std::int64_t>{0, 1});
+        out.array("", "Int64", "offsets", std::vector<std::int64_t>{2});
+    });
+    out.section("Polys", [&] {
+        out.array("", "Int64", "connectivity", corners);
+        out.array("", "Int64", "offsets", ends);
+    });
+    out.array("CellData", "Int32", "Patch", patch);
+    return out.finish();
+}
+
+namespace {
+
+using VtkCells = std::vector<std::vector<std::int32_t>>;
+
+// Writes numbers as text or as big-endian bytes.
+class VtkText {
+ public:
+    explicit VtkText(const VtkStyle& style) : style_(style) {
+        text_.precision(17);
+        text_ << "# vtk DataFile Version " << (style.is_version_5 ? "5.1" : "3.0") << "\na title\n"
+              << (style.is_binary ? "BINARY" : "ASCII") << "\nDATASET "
+              << (style.is_grid ? "UNSTRUCTURED_GRID" : "POLYDATA") << "\n";
+    }
+    void line(const std::string& text) { text_ << text << "\n"; }
+    template <class Value>
+    void values(const std::vector<Value>& values) {
+        std::string bytes;
+        for (const Value& value : values)
+            if (style_.is_binary)
+                append(bytes, value, true);
+            else
+                text_ << +value << " ";
+        text_ << bytes << "\n";
+    }
+    void cells(const std::string& keyword, const VtkCells& cells) {
+        std::vector<std::int32_t> counted;
+        std::vector<std::int64_t> ends = {0}, corners;
+        for (const auto& cell : cells) {
+            counted.push_back(static_cast<std::int32_t>(cell.size()));
+            counted.insert(counted.end(), cell.begin(), cell.end());
+            corners.insert(corners.end(), cell.begin(), cell.end());
+            ends.push_back(static_cast<std::int64_t>(corners.size()));
+        }
+        if (!style_.is_version_5) {
+            line(keyword + " " + std::to_string(cells.size()) + " " + std::to_string(counted.size()));
+            return values(counted);
+        }
+        line(keyword + " " + std::to_string(ends.size()) + " " + std::to_string(corners.size()));
+        line("OFFSETS vtktypeint64");
+        values(ends);
+        line("CONNECTIVITY vtktypeint64");
+        values(corners);
+    }
+    std::string finish() const { return text_.str(); }
+
+ private:
+    VtkStyle style_;
+    std::ostringstream text_;
+};
+
+void write_grid_cells(const Soup& soup, const std::vector<Tetrahedron>& tets, VtkText& out) {
+    VtkCells cells = {{0, 1}};
+    std::vector<std::int32_t> types = {3};
+    for (const Tetrahedron& tet : tets) cells.emplace_back(tet.begin(), tet.end());
+    types.insert(types.end(), tets.size(), 10);
+    for (const Triangle& facet : soup.facets) cells.emplace_back(facet.begin(), facet.end());
+    types.insert(types.end(), soup.facets.size(), 5);
+    out.cells("CELLS", cells);
+    out.line("CELL_TYPES " + std::to_string(types.size()));
+    out.values(types);
+}
+
+}  // namespace
+
+std::string to_vtk(const Soup& soup, const VtkStyle& style, const std::vector<Tetrahedron>& tets) {
+    VtkText out(style);
+    out.line("POINTS " + std::to_string(soup.vertices.size()) + " double");
+    out.values(coordinates_of(soup));
+    if (style.is_grid) {
+        write_grid_cells(soup, tets, out);
+    } else {
+        VtkCells triangles;
+        for (const Triangle& facet : soup.facets) triangles.emplace_back(facet.begin(), facet.end());
+        out.cells("LINES", {{0, 1}});
+        out.cells("POLYGONS", triangles);
+    }
+    std::vector<std::int32_t> patch(1 + (style.is_grid ? tets.size() : 0), -1);
+    patch.insert(patch.end(), soup.patch.begin(), soup.patch.end());
+    const std::vector<std::uint8_t> names = bytes_of_names(soup);
+    out.line("FIELD FieldData 1");
+    out.line("PatchNames 1 " + std::to_string(names.size()) + " unsigned_char");
+    out.values(names);
+    out.line("CELL_DATA " + std::to_string(patch.size()));
+    out.line("SCALARS Patch int 1");
+    out.line("LOOKUP_TABLE default");
+    out.values(patch);
     return out.finish();
 }
 
@@ -438,6 +577,10 @@ std::vector<SurfaceFile> to_all_mesh_formats(const Soup& boundary, const std::ve
         for (const bool is_big_endian : {false, true})
             files.push_back({"vtu_" + std::to_string(static_cast<int>(values)) + (is_big_endian ? "_big.vtu" : ".vtu"),
                              to_vtu(boundary, tets, {values, is_big_endian, !is_big_endian})});
+    for (const VtkStyle& style :
+         {VtkStyle{false, false, true}, {true, false, true}, {false, true, true}, {true, true, true}})
+        files.push_back({std::string(style.is_binary ? "binary" : "text") + (style.is_version_5 ? "_5.vtk" : "_3.vtk"),
+                         to_vtk(boundary, style, tets)});
     return files;
 }
 
@@ -458,6 +601,13 @@ std::vector<SurfaceFile> to_all_formats(const Soup& soup) {
         files.push_back({version + "_little.msh", to_msh(soup, {is_msh41, true, false})});
         files.push_back({version + "_big.msh", to_msh(soup, {is_msh41, true, true})});
     }
+    for (const bool is_binary : {false, true})
+        for (const bool is_version_5 : {false, true})
+            files.push_back({std::string(is_binary ? "binary" : "text") + (is_version_5 ? "_5.vtk" : "_3.vtk"),
+                             to_vtk(soup, {is_binary, is_version_5})});
+    using enum VtuStyle::Values;
+    files.push_back({"text.vtp", to_vtp(soup, {text})});
+    files.push_back({"appended.vtp", to_vtp(soup, {compressed_appended, true, true})});
     return files;
 }
 

@@ -53,6 +53,15 @@ struct VtuStyle {
 std::string to_vtu(const Soup& soup, const std::vector<Tetrahedron>& tets, const VtuStyle& style,
                    const std::vector<std::int32_t>& neighbours = {});
 
+/// The same with the triangles as polygons of a surface, and the patches as a cell array, but without tetrahedra.
+std::string to_vtp(const Soup& soup, const VtuStyle& style);
+
+struct VtkStyle {
+    bool is_binary = false, is_version_5 = false, is_grid = false;
+};
+/// VTK's legacy format: a line and the triangles, as a surface or a grid, of a grid with the tetrahedra before them.
+std::string to_vtk(const Soup& soup, const VtkStyle& style, const std::vector<Tetrahedron>& tets = {});
+
 struct SurfaceFile {
     std::string name;  ///< of the format, with the usual ending
     std::string bytes;

@@ -32,8 +32,8 @@ Kind kind_of_file(const fs::path& path) {
     fs::path name = lower(path.filename().string());
     if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
     const std::string extension = name.extension().string();
-    constexpr const char* surfaces[] = {".stl",  ".obj",  ".ply", ".off",  ".msh", ".vtu",  ".mesh", ".smesh",
-                                        ".poly", ".step", ".stp", ".iges", ".igs", ".brep", ".3mf"};
+    constexpr const char* surfaces[] = {".stl",   ".obj",  ".ply",  ".off", ".msh",  ".vtu", ".vtp",  ".vtk", ".mesh",
+                                        ".smesh", ".poly", ".step", ".stp", ".iges", ".igs", ".brep", ".3mf"};
     if (std::find(std::begin(surfaces), std::end(surfaces), extension) != std::end(surfaces)) return Kind::surface;
     if (extension.ends_with("trace")) return Kind::trace;
     return extension == ".jsonl" ? Kind::events : Kind::other;

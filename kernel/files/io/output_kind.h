@@ -34,7 +34,7 @@ inline constexpr OutputKind picture = {"picture", [](std::string_view text) {
                                        }};
 inline constexpr OutputKind surface = {"surface", [](std::string_view text) {
                                            return text.starts_with("Binary STL of Kerf") ||
-                                                  text.starts_with("# Surface of Kerf\n");
+                                                  text.substr(0, 100).find("Surface of Kerf") != text.npos;
                                        }};
 inline constexpr OutputKind vtu = {"VTU file", [](std::string_view text) {
                                        return text.starts_with(

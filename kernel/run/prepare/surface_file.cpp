@@ -1,12 +1,15 @@
 #include "run/prepare/surface_file.h"
 
+#include <array>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/core/error.h"
 #include "files/io/obj_writer.h"
 #include "files/io/stl_writer.h"
+#include "files/io/surface_writers.h"
 
 namespace kerf {
 
@@ -31,34 +34,62 @@ void write_regions(const std::string& path, const Complex& complex) {
               {complex.region_names().begin(), complex.region_names().end()});
 }
 
-void write(const std::string& path, const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
-           const std::vector<std::int32_t>& patch, const std::vector<std::string>& patch_names) {
-    if (ending_of(path) == ".obj")
-        write_obj(path, vertices, facets, patch, patch_names);
-    else
-        write_stl(path, vertices, facets);
+void write_as_obj(const std::string& path, const Soup& soup) {
+    write_obj(path, soup.vertices, soup.facets, soup.patch, soup.patch_names);
+}
+void write_as_stl(const std::string& path, const Soup& soup) { write_stl(path, soup.vertices, soup.facets); }
+
+// How a format tells several regions apart.
+enum class Regions { none, as_groups, as_sides };
+
+struct SurfaceFormat {
+    const char* ending;
+    Regions regions;
+    void (*write)(const std::string& path, const Soup& soup);
+};
+
+constexpr std::array surface_formats = {
+    SurfaceFormat{".obj", Regions::as_groups, write_as_obj}, SurfaceFormat{".stl", Regions::none, write_as_stl},
+    SurfaceFormat{".ply", Regions::none, write_ply},         SurfaceFormat{".off", Regions::none, write_off},
+    SurfaceFormat{".vtp", Regions::as_sides, write_vtp},     SurfaceFormat{".vtk", Regions::as_sides, write_vtk}};
+
+const SurfaceFormat& format_of(const std::string& what, const std::string& path) {
+    const std::string ending = ending_of(path);
+    for (const SurfaceFormat& format : surface_formats)
+        if (format.ending == ending) return format;
+    throw Error(ErrorCode::usage,
+                fmt::format("{} is {}, but surfaces are written as .obj, .stl, .ply, .off, .vtp or .vtk.", what, path));
+}
+
+Soup soup_of(const Complex& complex, const std::vector<std::string>& patch_names) {
+    SurfaceArrays surface = complex.arrays();
+    Soup soup{std::move(surface.vertices), std::move(surface.facets), std::move(surface.patch), patch_names};
+    if (complex.region_count() == 1) return soup;
+    for (std::int32_t f = 0; f < complex.facet_count(); ++f) soup.sides.push_back(complex.sides(f));
+    soup.region_names.assign(complex.region_names().begin(), complex.region_names().end());
+    return soup;
 }
 
 }  // namespace
 
 void require_surface_file(const std::string& what, const std::string& path, std::int32_t region_count) {
-    const std::string ending = ending_of(path);
-    if (ending != ".obj" && ending != ".stl")
-        throw Error(ErrorCode::usage, fmt::format("{} is {}, but surfaces are written as .obj or .stl.", what, path));
-    if (region_count > 1 && ending == ".stl")
-        throw Error(ErrorCode::usage, fmt::format("{} is {}, but the surface has {} regions, which an .stl cannot tell "
-                                                  "apart. Write an .obj.",
-                                                  what, path, region_count));
+    const SurfaceFormat& format = format_of(what, path);
+    if (region_count > 1 && format.regions == Regions::none)
+        throw Error(ErrorCode::usage, fmt::format("{} is {}, but the surface has {} regions, which {} cannot tell "
+                                                  "apart. Write an .obj or a .vtp.",
+                                                  what, path, region_count, format.ending));
 }
 
 void write_surface(const std::string& path, const Complex& complex, const std::vector<std::string>& patch_names) {
-    if (complex.region_count() > 1) return write_regions(path, complex);
-    const SurfaceArrays surface = complex.arrays();
-    write(path, surface.vertices, surface.facets, surface.patch, patch_names);
+    const SurfaceFormat& format = format_of("path", path);
+    if (complex.region_count() > 1 && format.regions == Regions::as_groups) return write_regions(path, complex);
+    format.write(path, soup_of(complex, patch_names));
 }
 
 void write_surface(const std::string& path, const Soup& soup) {
-    write(path, soup.vertices, soup.facets, soup.patch, soup.patch_names);
+    Soup facets = soup;
+    facets.sides.clear();
+    format_of("path", path).write(path, facets);
 }
 
 }  // namespace kerf

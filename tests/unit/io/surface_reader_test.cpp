@@ -121,6 +121,65 @@ TEST(SurfaceReader, GivesBackWhatGmshHolds) {
             }
 }
 
+TEST(SurfaceReader, GivesBackWhatVtkHolds) {
+    using enum VtuStyle::Values;
+    for (const Soup& soup : shapes()) {
+        std::vector<std::string> files;
+        for (const auto values : {text, base64, compressed_base64, appended, compressed_appended, appended_base64})
+            for (const bool is_big_endian : {false, true})
+                files.push_back(to_vtp(soup, {values, is_big_endian, !is_big_endian}));
+        for (const bool is_binary : {false, true})
+            for (const bool is_version_5 : {false, true})
+                for (const bool is_grid : {false, true})
+                    files.push_back(to_vtk(soup, {is_binary, is_version_5, is_grid}));
+        for (const std::string& bytes : files) {
+            SCOPED_TRACE(soup.patch_names.front() + " of " + bytes.substr(0, 120));
+            const Soup read = read_bytes(bytes);
+            expect_same(read, soup);
+            EXPECT_EQ(read.patch, soup.patch);
+            EXPECT_EQ(read.patch_names, soup.patch_names);
+            EXPECT_EQ(read.notes, std::vector<std::string>{"1 cell that is no tetrahedron or triangle was ignored."});
+        }
+    }
+}
+
+TEST(VtkReader, ReadsPolygonsStripsAndAllKindsOfArrays) {
+    const std::string text =
+        "# vtk DataFile Version 4.2\n\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 1\n"
+        "METADATA\nINFORMATION 0\n\nTRIANGLE_STRIPS 1 5\n4 0 1 3 2\nPOLYGONS 2 9\n3 0 1 4\n4 3 2 1 0\n"
+        "CELL_DATA 3\nSCALARS temperature float\nLOOKUP_TABLE own\n1 2 3\nLOOKUP_TABLE own 1\n1 1 1 1\n"
+        "COLOR_SCALARS c 3\n0 0 0 0 0 0 0 0 0\nVECTORS v double\n1 2 3 4 5 6 7 8 9\nFIELD f 2\n"
+        "two%20words 2 3 int\n1 2 3 4 5 6\nPatch 1 3 short\n4 1 4\nPOINT_DATA 5\nNORMALS n float\n"
+        "0 0 1 0 0 1 0 0 1 0 0 1 0 0 1\nTEXTURE_COORDINATES t 2 float\n0 0 0 0 0 0 0 0 0 0\n";
+    const Soup soup = read_bytes(text);
+    // Polygons come before strips, whatever their order in the file, and the arrays of cells count them so.
+    EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 4}, {3, 2, 1}, {3, 1, 0}, {0, 1, 3}, {3, 1, 2}}));
+    EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"patch_4", "patch_1"}));
+    EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 1, 0, 0}));
+}
+
+TEST(VtkReader, NamesThePlaceAndTheCause) {
+    const std::string head = "# vtk DataFile Version 3.0\na title\nASCII\nDATASET ";
+    const std::string points = head + "POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n";
+    for (const auto& [bytes, expected] : std::vector<std::array<std::string, 2>>{
+             {head.substr(0, 40), "ends too early"},
+             {"# vtk DataFile Version 3.0\na\nTEXT\n", "line 3: neither ASCII nor BINARY"},
+             {head + "STRUCTURED_POINTS\n", "an image of VTK"},
+             {head + "RECTILINEAR_GRID\n", "is no surface"},
+             {head + "POLYDATA\nPOINTS 3 fload\n", "line 5: the type \"fload\" is unknown"},
+             {points, "holds no facets"},
+             {points + "POLYGONS 1 4\n3 0 1 3\n", "cell 0: a facet names vertex number 3"},
+             {points + "POLYGONS 1 4\n4 0 1 2\n", "line 8: cell 0 (counted from 0) ends behind the list"},
+             {points + "POLYGONS 1 4\n3 0 1\n", "ends too early"},
+             {points + "POLYGONS 1 400000000000\n3 0 1 2\n", "more than it can hold"},
+             {points + "FACETS 1\n", "line 7: the keyword \"facets\" is unknown"},
+             {points + "POLYGONS 1 4\n3 0 1 2\nCELL_DATA 2\nSCALARS Patch int\nLOOKUP_TABLE default\n1 2\n",
+              "array Patch has 2 values for 1 cells"},
+             {head + "UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\n",
+              "1 cells and 0 types"}})
+        EXPECT_NE(message_of(bytes).find(expected), std::string::npos) << message_of(bytes);
+}
+
 TEST(SurfaceReader, WeldsTheCornersOfStl) {
     for (const Soup& soup : shapes()) {
         SCOPED_TRACE(soup.patch_names.front());
@@ -147,7 +206,7 @@ TEST(SurfaceReader, TellsEveryFormatByItsContentWhateverTheEnding) {
         for (const SurfaceFile& file : to_all_formats(soup)) {
             const Soup expected = read_bytes(file.bytes, fs::path(file.name).extension());
             for (const char* ending :
-                 {"", ".stl", ".obj", ".ply", ".off", ".msh", ".mesh", ".smesh", ".poly", ".txt"}) {
+                 {"", ".stl", ".obj", ".ply", ".off", ".msh", ".mesh", ".smesh", ".poly", ".vtk", ".txt"}) {
                 SCOPED_TRACE(file.name + " as " + ending);
                 expect_same(read_bytes(file.bytes, ending), expected);
             }
@@ -231,6 +290,9 @@ TEST(SurfaceReader, KeepsIndicesInRangeOnDamagedFiles) {
                                                            {to_msh(soup, {false, false, false}), ".msh"},
                                                            {to_msh(soup, {true, true, true}), ".msh"},
                                                            {to_medit(soup), ".mesh"},
+                                                           {to_vtk(soup, {false, false, false}), ".vtk"},
+                                                           {to_vtk(soup, {true, true, true}), ".vtk"},
+                                                           {to_vtp(soup, {}), ".vtp"},
                                                            {to_tetgen(soup, 0, false), ".smesh"},
                                                            {to_tetgen(soup, 1, true), ".poly"}};
     for (const auto& [bytes, ending] : files)
@@ -655,12 +717,10 @@ TEST(MeditReader, TakesTrianglesWithReferencesAndPassesOverTheRest) {
 }
 
 TEST(SurfaceReader, NamesFormatsThatItDoesNotRead) {
-    const std::string hdf5("\x89HDF\r\n\x1a\n\0\0\0\0\0\0\0\0", 16), vtk = "# vtk DataFile Version 3.0\na cube\n";
+    const std::string hdf5("\x89HDF\r\n\x1a\n\0\0\0\0\0\0\0\0", 16);
     const std::vector<std::array<std::string, 3>> cases = {
         {hdf5, ".h5", "this is an HDF5 file"},
         {hdf5, ".med", "this is a MED file"},
-        {vtk + "ASCII\nDATASET POLYDATA\n", ".vtk", "VTK's older format"},
-        {vtk + "BINARY\nDATASET POLYDATA\nPOINTS 1 float\n" + std::string(12, '\0'), ".vtk", "VTK's older format"},
         {"$ a comment\nSOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", ".bdf", "input of NASTRAN"},
         {"GRID           1              0.      0.      0.\n", ".nas", "input of NASTRAN"},
         {"*HEADING\n*NODE\n1, 0, 0, 0\n", ".inp", "input of Abaqus"}};
@@ -670,6 +730,27 @@ TEST(SurfaceReader, NamesFormatsThatItDoesNotRead) {
         EXPECT_NE(message.find("Convert it to"), std::string::npos) << message;
     }
     EXPECT_EQ(read_bytes("$Comments\nGRID\n$EndComments\n" + to_msh(box(), {})).facets.size(), 12u);
+}
+
+TEST(SurfaceReader, NamesFilesThatAreNoSurfaces) {
+    const std::string zeros(400, '\0'), header = "\x5c\x01" + std::string(342, '\0');
+    for (const auto& [bytes, name] : std::vector<std::array<std::string, 2>>{
+             {"NRRD0004\ntype: short\n\n" + zeros, "NRRD"},
+             {header + "n+1" + zeros, "NIfTI"},
+             {header + "ni1" + zeros, "NIfTI"},
+             {"ObjectType = Image\nNDims = 3\nElementDataFile = a.raw\n", "MetaImage"},
+             {std::string(128, '\0') + "DICM" + zeros, "DICOM"},
+             {"<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\">\n</VTKFile>\n", "an image of VTK"}}) {
+        const std::string message = message_of(bytes), archived = message_of(gzip(bytes));
+        for (const std::string& each : {message, archived}) {
+            EXPECT_NE(each.find(name), std::string::npos) << each;
+            EXPECT_NE(each.find("Make a surface of it first"), std::string::npos) << each;
+        }
+    }
+    const std::string tess = message_of("***tess\n **format\n   3.4\n", ".tess");
+    EXPECT_NE(tess.find("tessellation of Neper"), std::string::npos) << tess;
+    for (const char* text : {"some geometry\n1 2 3\n", "8 12\n0 0 0\n1 0 0\n"})
+        EXPECT_NE(message_of(text, ".tri").find("not recognised"), std::string::npos);
 }
 
 TEST(SurfaceReader, NotesPolygonsThatNoFanCovers) {
