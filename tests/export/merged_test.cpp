@@ -13,6 +13,7 @@
 #include "files/export/inside/by_patch.h"
 #include "files/export/inside/word_names.h"
 #include "files/export/whole_mesh.h"
+#include "files/io/surface_reader.h"
 #include "files/part/bodies.h"
 #include "files/part/run_parts.h"
 #include "support/temporary_folder.h"
@@ -196,6 +197,33 @@ TEST(Merged, IsTheMeshOfAllParts) {
     }
 }
 
+TEST(Merged, SurfaceIsThatOfAllParts) {
+    for (const test::ExportCase& each : test::export_cases()) {
+        SCOPED_TRACE(each.name);
+        const RunParts parts(test::run_of(each));
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file("out"));
+        find_format("vtp").write_merged(parts, {}, files, "whole");
+        const Soup surface = read_surface(folder.file("out/whole.vtp"));
+        EXPECT_EQ(std::ssize(surface.facets), parts.outline().patch_facets());
+        std::map<std::string, double> areas;
+        double enclosed = 0, filled = 0;
+        for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+            const auto& [a, b, c] = surface.facets[f];
+            areas[surface.patch_names[static_cast<std::size_t>(surface.patch[f])]] += area(surface.vertices, {a, b, c});
+            const auto at = [&](std::int32_t v) { return surface.vertices[static_cast<std::size_t>(v)]; };
+            enclosed += at(a).dot(at(b).cross(at(c))) / 6;
+        }
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            const Part part = parts.load(index);
+            for (const auto& [a, b, c, d] : part.mesh.tets) filled += volume(part.mesh.vertices, {a, b, c, d});
+        }
+        EXPECT_NEAR(enclosed, filled, 1e-9 * filled) << "closed, and seen from outside";
+        for (const auto& [patch, wanted] : areas_of(parts, parts.outline().patch_names))
+            EXPECT_NEAR(areas[patch], wanted, 1e-9 * wanted) << patch;
+    }
+}
+
 // Parts that are made up by the tests.
 class MadeParts : public PartSource {
  public:
@@ -237,8 +265,8 @@ TEST(Merged, NumbersThatAFormatCannotHoldAreRefusedBeforeAByte) {
     const test::TemporaryFolder folder;
     MadeParts parts({one_tet({Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, {"all"})});
     const std::map<std::string, std::int64_t> limits = {
-        {"medit", 2147483647}, {"tetgen", 2147483647}, {"abaqus", 999999999}, {"vtk", 2147483647},
-        {"unv", 499999999},    {"feb", 2147483647},    {"med", 2147483647},   {"cgns", 1073741823}};
+        {"medit", 2147483647}, {"tetgen", 2147483647}, {"abaqus", 999999999}, {"vtk", 2147483647}, {"unv", 499999999},
+        {"feb", 2147483647},   {"med", 2147483647},    {"cgns", 1073741823},  {"vtp", 2147483647}};
     const auto refuses = [&](const std::string& name, std::int64_t& count, std::int64_t value) {
         const std::int64_t before = std::exchange(count, value);
         ExportFiles files(folder.file("out"));

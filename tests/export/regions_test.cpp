@@ -11,6 +11,7 @@
 #include "export/regions_cases.h"
 #include "files/export/format.h"
 #include "files/export/inside/hdf5_arrays.h"
+#include "files/io/surface_reader.h"
 #include "files/part/joined_surfaces.h"
 #include "support/all_formats.h"
 #include "support/temporary_folder.h"
@@ -136,6 +137,35 @@ TEST(Regions, TrianglesOfVtuHaveThoseBehindThem) {
         for (const std::string& name : parts.outline().region_names) names += name + '\0';
         const auto bytes = file.values<char>("RegionNames");
         EXPECT_EQ(std::string(bytes.begin(), bytes.end()), names);
+    });
+}
+
+TEST(Regions, OfTheSurfaceAloneHaveTheVolumeOfTheirCells) {
+    test::for_each_regions_source([](const PartSource& parts) {
+        if (dynamic_cast<const JoinedParts*>(&parts)) return;  // walls inside of a piece are gone
+        const test::TemporaryFolder folder;
+        ExportFiles files(folder.file("out"));
+        find_format("vtp").write_merged(parts, {}, files, "whole");
+        const Soup surface = read_surface(folder.file("out/whole.vtp"));
+        EXPECT_EQ(surface.region_names, parts.outline().region_names);
+        std::map<RegionIndex, double> enclosed, filled;
+        for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+            const auto at = [&](std::size_t i) {
+                return surface.vertices[static_cast<std::size_t>(surface.facets[f][i])];
+            };
+            const double volume = at(0).dot(at(1).cross(at(2))) / 6;
+            enclosed[surface.sides[f].back] += volume;
+            enclosed[surface.sides[f].front] -= volume;
+        }
+        for (const PartIndex index : parts.outline().parts.ids()) {
+            const Part part = parts.load(index);
+            for (std::int32_t t = 0; t < part.tet_count(); ++t) {
+                const auto& [a, b, c, d] = part.mesh.tets[static_cast<std::size_t>(t)];
+                const auto at = [&](std::int32_t v) { return part.mesh.vertices[static_cast<std::size_t>(v)]; };
+                filled[part.region_of(t)] += (at(b) - at(a)).cross(at(c) - at(a)).dot(at(d) - at(a)) / 6;
+            }
+        }
+        for (const auto& [region, volume] : filled) EXPECT_NEAR(enclosed[region], volume, 1e-9 * volume);
     });
 }
 

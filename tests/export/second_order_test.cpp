@@ -190,7 +190,7 @@ TEST(SecondOrder, FormatsWithoutSuchCellsRefuseThemBeforeTheFirstByte) {
         }
         EXPECT_TRUE(folder.names().empty());
     }
-    EXPECT_EQ(refused, 2) << "openfoam and su2";
+    EXPECT_EQ(refused, 3) << "openfoam, su2 and vtp";
 }
 
 // ---- as users start it ----

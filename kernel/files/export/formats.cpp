@@ -10,7 +10,7 @@
 // A line for each file of this folder that defines `extern const Format NAME_format`.
 #define KERF_FORMATS(format)                                                                                       \
     format(vtu) format(msh) format(openfoam) format(mfem) format(hdf5) format(medit) format(tetgen) format(abaqus) \
-        format(su2) format(vtk) format(unv) format(med) format(cgns) format(feb)
+        format(su2) format(vtk) format(unv) format(med) format(cgns) format(feb) format(vtp)
 
 namespace kerf {
 

@@ -125,7 +125,7 @@ void write_off(const std::string& path, const Soup& soup) {
     write_output_file(path, text);
 }
 
-void write_vtp(const std::string& path, const Soup& soup) {
+std::string vtp_text(const Soup& soup) {
     using namespace surface_writers;
     check(soup);
     TextArray corners = integers("connectivity"), ends = integers("offsets");
@@ -133,16 +133,18 @@ void write_vtp(const std::string& path, const Soup& soup) {
         corners.add_row(soup.facets[f]);
         ends.add_row(std::array{3 * (f + 1)});
     }
-    write_output_file(path,
-                      "<?xml version=\"1.0\"?>\n<!-- Surface of Kerf -->\n"
-                      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n" +
-                          xml_arrays("FieldData", field_arrays(soup)) +
-                          fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
-                                      "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
-                                      soup.vertices.size(), soup.facets.size()) +
-                          xml_arrays("CellData", cell_arrays(soup)) + xml_arrays("Points", {points_of(soup)}, 3) +
-                          xml_arrays("Polys", {corners, ends}) + "</Piece>\n</PolyData>\n</VTKFile>\n");
+    return "<?xml version=\"1.0\"?>\n<!-- Surface of Kerf -->\n"
+           "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n" +
+           xml_arrays("FieldData", field_arrays(soup)) +
+           fmt::format(
+               "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+               "NumberOfPolys=\"{}\">\n",
+               soup.vertices.size(), soup.facets.size()) +
+           xml_arrays("CellData", cell_arrays(soup)) + xml_arrays("Points", {points_of(soup)}, 3) +
+           xml_arrays("Polys", {corners, ends}) + "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
+
+void write_vtp(const std::string& path, const Soup& soup) { write_output_file(path, vtp_text(soup)); }
 
 void write_vtk(const std::string& path, const Soup& soup) {
     using namespace surface_writers;

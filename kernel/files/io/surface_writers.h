@@ -16,6 +16,7 @@ void write_off(const std::string& path, const Soup& soup);
 /// the field data PatchNames, and of several regions those on the sides of each facet (Soup::sides) as arrays front and
 /// back, named by RegionNames: see scan_vtu(), which reads all of it. Throw Error(io).
 void write_vtp(const std::string& path, const Soup& soup);
+std::string vtp_text(const Soup& soup);  ///< what write_vtp() writes
 void write_vtk(const std::string& path, const Soup& soup);
 
 }  // namespace kerf

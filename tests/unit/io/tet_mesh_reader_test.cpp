@@ -150,7 +150,7 @@ TEST_F(TetFiles, ThatCannotBeMeasuredAreRefusedByName) {
     expect_refused({"few_nodes.vtu", replaced(vtu, "10 10 ", "24 10 ")}, "type 24");
     expect_refused({"hexahedra.vtu", replaced(vtu, "10 10 ", "25 10 ")}, "type 25");
     expect_refused({"list.pvtu", replaced(vtu, "type=\"Un", "type=\"PUn")}, "list of parts");
-    expect_refused({"image.vti", replaced(vtu, "UnstructuredGrid", "an image of VTK")}, "ImageData");
+    expect_refused({"image.vti", replaced(vtu, "UnstructuredGrid", "ImageData")}, "an image of VTK");
     expect_refused({"lz4.vtu", replaced(vtu, "byte_order", "compressor=\"vtkLZ4DataCompressor\" byte_order")}, "LZ4");
     expect_refused({"cut.vtu", vtu.substr(0, vtu.find("offsets"))}, "a tag does not end");
     expect_refused({"short.vtu", vtu.substr(0, vtu.find("<DataArray", vtu.find("Cells>")))}, "no array");
