@@ -29,8 +29,8 @@ CLI::App* add_command(CLI::App& kerf, const char* name, const char* text, const 
     CLI::App* command = kerf.add_subcommand(name, text);
     command
         ->add_option("input", request->inputs,
-                     "Closed surfaces, a region each if there are several: STL, OBJ, PLY, OFF, .msh, .vtu, .mesh, "
-                     ".smesh or .poly, CAD file: STEP, IGES, BREP, "
+                     "Closed surfaces, a region each if there are several: STL, OBJ, PLY, OFF, .msh, .vtu, .vtp, .vtk, "
+                     ".mesh, .smesh or .poly, CAD file: STEP, IGES, BREP, "
                      "or 3MF; also as .gz or .zst.")
         ->type_name("INPUT");
     add_run_options(*command, request->options);

@@ -93,7 +93,7 @@ bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPL
 
 bool can_be_measured(const std::string& file) {
     const std::string ending = std::filesystem::path(file).extension().string();
-    return ending == ".msh" || ending == ".mesh" || ending == ".vtu" || ending == ".node";
+    return ending == ".msh" || ending == ".mesh" || ending == ".vtu" || ending == ".vtk" || ending == ".node";
 }
 
 // The command that a user is likely to run next; empty if another program takes the result.

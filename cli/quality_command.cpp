@@ -50,8 +50,9 @@ void add_quality_command(CLI::App& kerf, int& exit_code) {
     const auto request = std::make_shared<QualityRequest>();
     CLI::App* command = kerf.add_subcommand("quality", "Measure the cells of a mesh, alone or beside another one.");
     command
-        ->add_option("mesh", request->mesh,
-                     "Folder of a run, or .msh (Gmsh), .mesh (MEDIT), .vtu, .node or .ele (TetGen) of any program.")
+        ->add_option(
+            "mesh", request->mesh,
+            "Folder of a run, or .msh (Gmsh), .mesh (MEDIT), .vtu, .vtk, .node or .ele (TetGen) of any program.")
         ->required()
         ->type_name("DIR|FILE");
     command->add_flag("--json", request->json, "Print everything as JSON.");

@@ -89,7 +89,8 @@ class Run(_kerf.Run):
                order: int = 0, workers: int = 0, progress: Progress = None) -> list[str]:
         """Writes the parts in the formats of solvers, as `kerf export`, and returns the paths of the files.
 
-        format         one of vtu, msh, openfoam, mfem, hdf5, medit, tetgen, abaqus, su2, or several
+        format         one of vtu, msh, openfoam, mfem, hdf5, medit, tetgen, abaqus, su2, vtk, unv, med, cgns,
+                       feb, vtp, or several
         path           a folder: one format goes into it, several into sub-folders; None: they become part of the run,
                        in export/FORMAT
         into           pieces into which the parts are joined; 0: as they are

@@ -155,7 +155,7 @@ def _unpickled(points: np.ndarray, triangles: np.ndarray, patches: np.ndarray, n
 
 
 def read(path: Union[Path, Sequence[Path]], **options: object) -> Surface:
-    """The surface of a file of any format that `kerf mesh` reads: STL, OBJ, PLY, OFF, MSH, MEDIT, VTU, .poly, 3MF, CAD.
+    """The surface of a file of any format that `kerf mesh` reads: STL, OBJ, PLY, OFF, MSH, MEDIT, VTK, .poly, 3MF, CAD.
 
     path       of the file; of several, as a list, each is a region
     options    those of the surface: scale, weld, fill_holes, keep_largest, voids, unit, ...: kerf.options() lists them;

@@ -20,8 +20,9 @@ import tempfile
 import time
 
 ASSETS = pathlib.Path(__file__).resolve().parents[2] / "assets"
-FORMATS = ("vtu", "msh", "openfoam", "mfem", "hdf5", "medit", "tetgen", "abaqus", "su2")
-ENDINGS = ("vtu", "msh", "h5", "mesh", "node", "inp", "su2")
+FORMATS = ("vtu", "msh", "openfoam", "mfem", "hdf5", "medit", "tetgen", "abaqus", "su2", "vtk", "unv",
+           "med", "cgns", "feb", "vtp")
+ENDINGS = ("vtu", "msh", "h5", "mesh", "node", "inp", "su2", "vtk", "unv", "med", "cgns", "feb", "vtp")
 
 
 def timed(*command):

@@ -10,7 +10,7 @@ for surface in "$folder"/*.stl; do
     name=$(basename "$surface" .stl)
     # shellcheck disable=SC2046  # the words of the file are arguments
     "$kerf" mesh "$surface" -o "$folder/$name" $(cat "$folder/$name.args") -q
-    for ending in mesh su2 inp vtu vtk unv med cgns feb; do
+    for ending in mesh su2 inp vtu vtk unv med cgns feb vtp; do
         "$kerf" merge "$folder/$name" -o "$folder/$name.merged.$ending"
     done
     "$python" "$(dirname "$0")/read_merged.py" "$folder/$name" "$folder/$name.merged"

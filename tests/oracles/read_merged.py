@@ -194,6 +194,21 @@ def read_by_others(path, names, patches):
     return {"vertices": mesh.nodes, "tets": len(mesh.tets), "parts": None, "volume": mesh.volume(), "areas": by_patch}
 
 
+def require_surface(path, whole):
+    """The surface alone, with the patches in the order of the names."""
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    surface = reader.GetOutput()
+    corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    patch = vtk_to_numpy(surface.GetCellData().GetArray("Patch"))
+    found = area_by_patch(vtk_to_numpy(surface.GetPoints().GetData()), corners, patch)
+    require(found.keys() == whole["areas"].keys(), f"{path} has the patches of the parts")
+    require(np.allclose([found[p] for p in found], [whole["areas"][p] for p in found], rtol=1e-9), f"{path} has areas")
+    text = bytes(vtk_to_numpy(surface.GetFieldData().GetArray("PatchNames"))).decode()
+    require(text.split("\0")[:-1] == whole["names"], f"VTK reads the names of the patches in {path}")
+
+
 def compare(path, whole, found):
     for count in ("vertices", "tets"):
         require(found[count] == whole[count], f"{path} has as many {count} as the parts")
@@ -219,6 +234,7 @@ def main():
         gmsh.initialize()
         for ending in merged_formats.ENDINGS:
             compare(f"{stem}.{ending}", whole, read_by_others(f"{stem}.{ending}", whole["names"], patches))
+        require_surface(f"{stem}.vtp", whole)
         print(json.dumps({**whole, "parts": len(whole["parts"]), "areas": len(patches), "names": len(whole["names"])}))
     except (Broken, merged_formats.Unfit) as broken:
         print(json.dumps({"broken_law": str(broken)}))

@@ -12,7 +12,8 @@ import kerf
 from conftest import CUBE_POINTS, CUBE_TRIANGLES
 from region_boxes import two_boxes
 
-FORMATS = ["vtu", "msh", "openfoam", "mfem", "hdf5", "medit", "tetgen", "abaqus", "su2"]
+FORMATS = ["vtu", "msh", "openfoam", "mfem", "hdf5", "medit", "tetgen", "abaqus", "su2", "vtk", "unv", "med", "cgns",
+           "feb", "vtp"]
 
 
 def kerf_program(*arguments):
