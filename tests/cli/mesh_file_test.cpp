@@ -39,7 +39,7 @@ class MeshFile : public testing::Test {
 
 TEST_F(MeshFile, IsWhatKerfMergeMakesOfTheRun) {
     ASSERT_EQ(mesh("run", {"-q"}).exit_code, 0);
-    for (const char* ending : {".msh", ".mesh", ".vtu", ".inp", ".su2", ".node"}) {
+    for (const char* ending : {".msh", ".mesh", ".vtu", ".inp", ".su2", ".node", ".vtk", ".med", ".cgns"}) {
         SCOPED_TRACE(ending);
         fs::create_directory(folder_.file("a"));
         fs::create_directory(folder_.file("b"));

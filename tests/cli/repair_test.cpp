@@ -64,12 +64,15 @@ TEST_F(RepairCommand, WhatIsCleanIsCopiedByteForByteAndSaidToBe) {
 
 TEST_F(RepairCommand, WhatIsCleanHasTheSameFacetsInAnotherFormat) {
     const Soup before = read_surface(test::asset_path("hollow_box"));
-    const ChildResult result = repair(test::asset_path("hollow_box"));
-    EXPECT_EQ(result.exit_code, 0) << result.log;
-    expect_said(result.log, {"the output has the same facets"});
-    const Soup after = read_surface(out_);
-    EXPECT_EQ(after.facets, before.facets);
-    EXPECT_TRUE(after.vertices == before.vertices);
+    for (const char* name : {"out.obj", "out.ply", "out.off", "out.vtp", "out.vtk"}) {
+        out_ = folder_.file(name);
+        const ChildResult result = repair(test::asset_path("hollow_box"));
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        expect_said(result.log, {"the output has the same facets"});
+        const Soup after = read_surface(out_);
+        EXPECT_EQ(after.facets, before.facets) << name;
+        EXPECT_TRUE(after.vertices == before.vertices) << name;
+    }
 }
 
 TEST_F(RepairCommand, EachStepIsSaidWithCountsAndWhatTheResultIs) {
@@ -104,14 +107,19 @@ TEST_F(RepairCommand, WhatIsLeftIsSaidWithWhatToDoNext) {
 TEST_F(RepairCommand, SeveralFilesAreBodiesThatMayBecomeRegions) {
     const std::string left = write(test::box(Vec3(0, 0, 0), Vec3(1, 1, 1)), "left.off"),
                       right = write(test::box(Vec3(1, 0, 0), Vec3(2, 1, 1)), "right.off");
-    const ChildResult result = repair(left, {right, "--repair", "none"});
-    EXPECT_EQ(result.exit_code, 0) << result.log;
-    const std::string text = test::output_of(test::run_kerf({"check", out_}));
-    expect_said(text, {"left: volume 1", "right: volume 1", "It can be meshed."});
-    out_ = folder_.file("out.stl");
-    const ChildResult as_stl = repair(left, {right, "--repair", "none"});
-    EXPECT_EQ(as_stl.exit_code, 2) << as_stl.log;
-    expect_said(as_stl.log, {"2 regions", "Write an .obj"});
+    for (const char* name : {"out.obj", "out.vtp", "out.vtk"}) {
+        out_ = folder_.file(name);
+        const ChildResult result = repair(left, {right, "--repair", "none"});
+        EXPECT_EQ(result.exit_code, 0) << result.log;
+        const std::string text = test::output_of(test::run_kerf({"check", out_}));
+        expect_said(text, {"left: volume 1", "right: volume 1", "It can be meshed."});
+    }
+    for (const char* name : {"out.stl", "out.ply", "out.off"}) {
+        out_ = folder_.file(name);
+        const ChildResult refused = repair(left, {right, "--repair", "none"});
+        EXPECT_EQ(refused.exit_code, 2) << refused.log;
+        expect_said(refused.log, {"2 regions", "Write an .obj"});
+    }
 }
 
 // Two boxes whose sides are nearer than what 32-bit floats tell apart.

@@ -165,25 +165,16 @@ void write_nodes(const PartSource& parts, const Hdf5Bytes& file) {
     for (Hdf5Rows<double>* axis : {&x, &y, &z}) axis->flush();
 }
 
-// Writes cells of one group; `number`: that of the first of them.
-void write_cells(const CellGroup& group, std::span<const GroupCell> cells, std::int64_t number, const Hdf5Bytes& file) {
-    const std::int64_t first_node = (number - group.first) * std::ssize(cells.front().nodes);
-    Hdf5Rows<std::int32_t> rows(file, nodes_of(group) + "/ data", first_node);
-    for (const GroupCell& cell : cells)
-        for (const std::int64_t node : cell.nodes) rows.put(node + 1);
-    rows.flush();
-}
-
 void write_elements(const PartSource& parts, const CellGroups& groups, const Hdf5Bytes& file) {
-    std::int64_t number = 0;
-    for_each_tet_by_material(parts, groups, [&](std::span<const GroupCell> cells) {
-        write_cells(groups.materials[cells.front().patch], cells, number, file);
-        number += cells.size();
-    });
-    for_each_triangle_by_patch(parts, groups, [&](std::span<const GroupCell> cells) {
-        write_cells(groups.patches[cells.front().patch], cells, number, file);
-        number += cells.size();
-    });
+    const auto write = [&](const CellGroup& group, std::int64_t first, std::span<const GroupCell> cells) {
+        const std::int64_t nodes = cells.front().nodes.size();
+        Hdf5Rows<std::int32_t> rows(file, nodes_of(group) + "/ data", (first - group.first) * nodes);
+        for (const GroupCell& cell : cells)
+            for (const std::int64_t node : cell.nodes) rows.put(node + 1);
+        rows.flush();
+    };
+    for_each_tet_by_material(parts, groups, write);
+    for_each_triangle_by_patch(parts, groups, write);
 }
 
 // Words are names of nodes below the base and the zone, beside those that are there anyway.

@@ -64,16 +64,13 @@ void write_mesh(const PartSource& parts, const CellGroups& groups, ExportFile& f
     const int order = parts.outline().order;
     const GroupElement elements{"Elements", order == 1 ? " type=\"tet4\"" : " type=\"tet10\"", "elem"};
     const GroupElement surfaces{"Surface", "", order == 1 ? "tri3" : "tri6", parts.outline().tets()};
-    std::int64_t number = 0;
     file.write("<Mesh>\n");
     write_nodes(parts, file);
-    for_each_tet_by_material(parts, groups, [&](std::span<const GroupCell> cells) {
-        write_cells(elements, groups.materials[cells.front().patch], cells, number, file);
-        number += cells.size();
+    for_each_tet_by_material(parts, groups, [&](const CellGroup& material, std::int64_t first, auto cells) {
+        write_cells(elements, material, cells, first, file);
     });
-    for_each_triangle_by_patch(parts, groups, [&](std::span<const GroupCell> cells) {
-        write_cells(surfaces, groups.patches[cells.front().patch], cells, number, file);
-        number += cells.size();
+    for_each_triangle_by_patch(parts, groups, [&](const CellGroup& patch, std::int64_t first, auto cells) {
+        write_cells(surfaces, patch, cells, first, file);
     });
     file.write("</Mesh>\n");
 }

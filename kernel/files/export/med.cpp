@@ -177,12 +177,12 @@ class ElementRows {
 
 void write_elements(const PartSource& parts, const CellGroups& groups, const Hdf5Bytes& file) {
     ElementRows tets(file, tets_of(parts.outline()));
-    for_each_tet_by_material(parts, groups, [&](std::span<const GroupCell> cells) {
+    for_each_tet_by_material(parts, groups, [&](const CellGroup&, std::int64_t, auto cells) {
         for (const auto& [material, nodes] : cells) tets.put(nodes, family_of_material(groups, material));
     });
     tets.flush();
     ElementRows triangles(file, triangles_of(parts.outline()));
-    for_each_triangle_by_patch(parts, groups, [&](std::span<const GroupCell> cells) {
+    for_each_triangle_by_patch(parts, groups, [&](const CellGroup&, std::int64_t, auto cells) {
         for (const auto& [patch, nodes] : cells) triangles.put(nodes, family_of_patch(patch));
     });
     triangles.flush();

@@ -72,34 +72,26 @@ void write_nodes(const PartSource& parts, ExportFile& file) {
     end_dataset(file);
 }
 
-// Writes elements and counts them.
-class Elements {
- public:
-    explicit Elements(ExportFile& file) : file_(file) {}
-
-    void write(const ElementKind& kind, std::span<const GroupCell> cells) {
-        constexpr int color = 7;
-        for (const auto& [group, nodes] : cells) {
-            const std::int64_t property = group + 1, material = 0, size = nodes.size();
-            write_labels(std::array<std::int64_t, 6>{++label_, kind.descriptor, property, material, color, size},
-                         file_);
-            std::vector<std::int64_t> labels;
-            for (const std::int64_t node : kind.order ? nodes.in_order(*kind.order) : nodes) labels.push_back(node + 1);
-            write_labels(labels, file_);
-        }
+void write_cells(const ElementKind& kind, std::int64_t label, std::span<const GroupCell> cells, ExportFile& file) {
+    constexpr std::int64_t color = 7, no_material = 0;
+    for (const auto& [group, nodes] : cells) {
+        const std::int64_t property = group + 1, size = nodes.size();
+        write_labels(std::array<std::int64_t, 6>{++label, kind.descriptor, property, no_material, color, size}, file);
+        std::vector<std::int64_t> labels;
+        for (const std::int64_t node : kind.order ? nodes.in_order(*kind.order) : nodes) labels.push_back(node + 1);
+        write_labels(labels, file);
     }
-
- private:
-    ExportFile& file_;
-    std::int64_t label_ = 0;
-};
+}
 
 void write_elements(const PartSource& parts, const CellGroups& groups, ExportFile& file) {
     const int order = parts.outline().order;
-    Elements elements(file);
     begin_dataset(2412, file);
-    for_each_tet_by_material(parts, groups, [&](auto cells) { elements.write(tet_kind(order), cells); });
-    for_each_triangle_by_patch(parts, groups, [&](auto cells) { elements.write(triangle_kind(order), cells); });
+    for_each_tet_by_material(parts, groups, [&](const CellGroup&, std::int64_t first, auto cells) {
+        write_cells(tet_kind(order), first, cells, file);
+    });
+    for_each_triangle_by_patch(parts, groups, [&](const CellGroup&, std::int64_t first, auto cells) {
+        write_cells(triangle_kind(order), first, cells, file);
+    });
     end_dataset(file);
 }
 

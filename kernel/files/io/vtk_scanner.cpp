@@ -62,6 +62,24 @@ std::string lower_case(std::string_view word) {
     return lower;
 }
 
+// Returns a name or a text as it was before blanks and others were written as %20.
+std::string decoded(std::string_view word) {
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                      : -1;
+    };
+    std::string text;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const bool is_code =
+            word[i] == '%' && i + 2 < word.size() && digit(word[i + 1]) >= 0 && digit(word[i + 2]) >= 0;
+        text += is_code ? static_cast<char>(digit(word[i + 1]) * 16 + digit(word[i + 2])) : word[i];
+        i += is_code ? 2 : 0;
+    }
+    return text;
+}
+
 // Reads keywords, and numbers that are text or bytes.
 class Source {
  public:
@@ -179,26 +197,6 @@ class Source {
         return values;
     }
 
- public:
-    /// Returns a name or a text as it was before blanks and others were written as %20.
-    static std::string decoded(std::string_view word) {
-        const auto digit = [](char c) {
-            return c >= '0' && c <= '9'   ? c - '0'
-                   : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                   : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                                          : -1;
-        };
-        std::string text;
-        for (std::size_t i = 0; i < word.size(); ++i) {
-            const bool is_code =
-                word[i] == '%' && i + 2 < word.size() && digit(word[i + 1]) >= 0 && digit(word[i + 2]) >= 0;
-            text += is_code ? static_cast<char>(digit(word[i + 1]) * 16 + digit(word[i + 2])) : word[i];
-            i += is_code ? 2 : 0;
-        }
-        return text;
-    }
-
- private:
     std::string_view bytes_;
     const std::string& path_;
     TextScanner text_;
@@ -361,7 +359,7 @@ class Reader {
                 source_.next_keyword();
                 pass_over_metadata();
             }
-            const std::string name = Source::decoded(source_.text().next_word());
+            const std::string name = decoded(source_.text().next_word());
             const std::int64_t components = source_.next_count(), tuples = source_.next_count();
             read_array(name, source_.next_type(), components, tuples);
         }
@@ -381,7 +379,7 @@ class Reader {
         const bool is_colors = keyword == "color_scalars" || keyword == "lookup_table";
         if (kind == kinds.end() && !is_scalars && !is_texture && !is_colors)
             source_.fail("the keyword \"" + keyword.substr(0, 40) + "\" is unknown. Save the file again.");
-        const std::string name = Source::decoded(source_.text().next_word());
+        const std::string name = decoded(source_.text().next_word());
         if (is_colors) return pass_over_colors(keyword == "lookup_table");
         if (is_texture) {
             const std::int64_t components = source_.next_count();

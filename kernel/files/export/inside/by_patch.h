@@ -13,7 +13,7 @@ namespace kerf {
 /// a member `patch`; `sizes`: number of items of each patch. Holds at most 2^20 items and 32 MB, and calls visit()
 /// again where all items together are more.
 template <class Item, class Visit, class Take>
-void for_each_by_patch(std::span<const std::int64_t> sizes, const Visit& visit, const Take& take) {
+void for_each_by_patch(std::span<const std::int64_t> sizes, const Visit& visit, Take&& take) {
     constexpr std::int64_t items_at_once =
         std::min(std::int64_t{1} << 20, (std::int64_t{1} << 25) / std::int64_t{sizeof(Item)});
     std::vector<Item> items;

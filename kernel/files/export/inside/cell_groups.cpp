@@ -33,6 +33,15 @@ std::vector<std::int64_t> sizes_of(const std::vector<CellGroup>& groups) {
     return sizes;
 }
 
+// Returns what gives cells that come in the order of their groups to `take`.
+auto numbering(const std::vector<CellGroup>& groups, const TakeCells& take) {
+    return [&groups, &take, number = groups.empty() ? 0 : groups.front().first](
+               std::int32_t group, std::span<const GroupCell> cells) mutable {
+        take(groups[group], number, cells);
+        number += cells.size();
+    };
+}
+
 }  // namespace groups
 
 CellGroups cell_groups(const PartSource& parts, WordRules rules) {
@@ -53,8 +62,7 @@ void for_each_tet_by_material(const PartSource& parts, const CellGroups& groups,
             for (std::size_t t = 0; t < of_tets.size(); ++t) add({of_tets[t], nodes_of_tet(part, t)});
         });
     };
-    for_each_by_patch<GroupCell>(groups::sizes_of(groups.materials), visit,
-                                 [&](std::int32_t, std::span<const GroupCell> cells) { take(cells); });
+    for_each_by_patch<GroupCell>(groups::sizes_of(groups.materials), visit, groups::numbering(groups.materials, take));
 }
 
 void for_each_triangle_by_patch(const PartSource& parts, const CellGroups& groups, const TakeCells& take) {
@@ -63,8 +71,7 @@ void for_each_triangle_by_patch(const PartSource& parts, const CellGroups& group
             for_each_listed_facet(part, [&](std::size_t f) { add({part.patch[f], nodes_of_facet(part, f)}); });
         });
     };
-    for_each_by_patch<GroupCell>(groups::sizes_of(groups.patches), visit,
-                                 [&](std::int32_t, std::span<const GroupCell> cells) { take(cells); });
+    for_each_by_patch<GroupCell>(groups::sizes_of(groups.patches), visit, groups::numbering(groups.patches, take));
 }
 
 }  // namespace kerf

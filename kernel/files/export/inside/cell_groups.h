@@ -35,10 +35,11 @@ struct GroupCell {
     CellNodes nodes;
 };
 
-using TakeCells = std::function<void(std::span<const GroupCell> cells)>;
+/// Takes some cells of a group that follow each other, the first of which has the number `first`.
+using TakeCells = std::function<void(const CellGroup& group, std::int64_t first, std::span<const GroupCell> cells)>;
 
-/// Call take(cells) with the tetrahedra, or the triangles on patches, in the order in which their groups number them:
-/// some of one group at a time, in the order of the tree within a group. Hold at most 32 MB beside a part, and load the
+/// Call take() with the tetrahedra, or the triangles on patches, in the order of their numbers: some of one group at a
+/// time, in the order of the tree within a group. Hold at most 32 MB beside a part, and load the
 /// parts again where a mesh of several large groups is more.
 void for_each_tet_by_material(const PartSource& parts, const CellGroups& groups, const TakeCells& take);
 void for_each_triangle_by_patch(const PartSource& parts, const CellGroups& groups, const TakeCells& take);
