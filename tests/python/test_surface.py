@@ -119,8 +119,8 @@ def test_regions_are_saved_as_bodies(tmp_path):
 
 def test_files_that_cannot_be_written_or_read(tmp_path):
     surface = kerf.Surface(P, T)
-    with pytest.raises(kerf.UsageError, match=".obj or .stl"):
-        surface.save(tmp_path / "cube.vtk")
+    with pytest.raises(kerf.UsageError, match="are written as .obj, .stl"):
+        surface.save(tmp_path / "cube.step")
     with pytest.raises(kerf.FileError, match="nowhere"):
         surface.save(tmp_path / "nowhere" / "cube.obj")
     for call in (kerf.read, kerf.check):

@@ -218,7 +218,7 @@ TEST_F(RepairSession, IsThereFromTheBeginningOn) {
 TEST_F(RepairSession, SavesWhatKerfRepairWrites) {
     open(read_);
     repair("weld=0.01");
-    for (const char* ending : {".obj", ".stl"}) {
+    for (const char* ending : {".obj", ".stl", ".vtp"}) {
         const std::string own = folder_.file(std::string("own") + ending);
         repair_file(path_, session_.document().options.input_options, own);
         session_.repairs().save(folder_.file(std::string("saved") + ending));
@@ -229,7 +229,7 @@ TEST_F(RepairSession, SavesWhatKerfRepairWrites) {
     session_.repairs().save(folder_.file("surface.step"));
     settle();
     ASSERT_FALSE(session_.failures().empty());
-    EXPECT_NE(session_.failures().back().find(".obj or .stl"), std::string::npos);
+    EXPECT_NE(session_.failures().back().find(".vtp or .vtk"), std::string::npos);
 }
 
 // Its result is kept, and the surface can be repaired again.

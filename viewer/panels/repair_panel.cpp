@@ -222,7 +222,8 @@ void draw_ending(UiContext& context, RepairMemory& memory) {
     }
     context.widgets.input_text("Save to", &memory.save_to);
     ImGui::BeginDisabled(!session.repairs().can_repair() || memory.save_to.empty());
-    if (context.widgets.small_button("Save surface", "Writes it, as kerf repair does: .obj with patches, or .stl"))
+    if (context.widgets.small_button("Save surface",
+                                     "Writes it, as kerf repair does: .obj or .vtp with patches, .ply, .off, or .stl"))
         session.repairs().save(memory.save_to);
     ImGui::EndDisabled();
     const bool has_run = document.trace || !document.folder.empty();

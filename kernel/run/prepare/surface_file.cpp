@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -74,10 +75,12 @@ Soup soup_of(const Complex& complex, const std::vector<std::string>& patch_names
 
 void require_surface_file(const std::string& what, const std::string& path, std::int32_t region_count) {
     const SurfaceFormat& format = format_of(what, path);
-    if (region_count > 1 && format.regions == Regions::none)
-        throw Error(ErrorCode::usage, fmt::format("{} is {}, but the surface has {} regions, which {} cannot tell "
-                                                  "apart. Write an .obj or a .vtp.",
-                                                  what, path, region_count, format.ending));
+    if (region_count == 1 || format.regions != Regions::none) return;
+    const char* const article = format.ending == std::string_view(".ply") ? "a" : "an";
+    throw Error(ErrorCode::usage,
+                fmt::format("{} is {}, but the surface has {} regions, which {} {} cannot tell apart. "
+                            "Write an .obj or a .vtp.",
+                            what, path, region_count, article, format.ending));
 }
 
 void write_surface(const std::string& path, const Complex& complex, const std::vector<std::string>& patch_names) {
