@@ -132,7 +132,8 @@ TEST_F(Check, TextIsShortHoweverManyDefectsThereAre) {
     const ChildResult result = check(write(join(sphere, test::translated(sphere, Vec3(0.01, 0.02, 0.03)))));
     EXPECT_EQ(result.exit_code, 3);
     const std::string text = test::output_of(result);
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 12 + 2 + 2) << text;  // defects, verdict, repair
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 + 12 + 2 + 2)
+        << text;  // measures, defects, verdict, repair
     const Json json = check_json(folder_.file("surface.off"));
     EXPECT_NE(text.find(fmt::format("and {} more\n", json["defects"].size() - 10)), std::string::npos) << text;
     EXPECT_NE(text.find("It cannot be meshed as it is."), std::string::npos) << text;

@@ -7,7 +7,9 @@
 #include "run/report/file_diagnosis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 
 #include "base/core/ids.h"
 #include "base/core/number_text.h"
+#include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "files/io/cad_body.h"
 #include "files/io/json.h"
@@ -23,6 +26,7 @@
 #include "run/report/repair_json.h"
 #include "run/report/repair_text.h"
 #include "surface/complex/mass_properties.h"
+#include "surface/complex/point_inside.h"
 #include "surface/regions/regions.h"
 
 namespace kerf {
@@ -75,12 +79,60 @@ Array<RegionIndex, RegionSummary> summarize_regions(const Soup& soup) {
 
 // The regions of a surface that can be meshed. Copies of facets that its repairs leave out have sides, too, so they go
 // first.
-Array<RegionIndex, RegionSummary> regions_of(const CheckedSoup& checked) {
-    const std::vector<char>& dropped = checked.diagnosis.dropped;
-    if (dropped.empty() || checked.soup.sides.empty()) return summarize_regions(checked.soup);
+Soup without_dropped(const CheckedSoup& checked) {
     Soup soup = checked.soup;
-    drop_facets(soup, dropped);
-    return summarize_regions(soup);
+    if (!checked.diagnosis.dropped.empty()) drop_facets(soup, checked.diagnosis.dropped);
+    return soup;
+}
+
+Array<RegionIndex, RegionSummary> regions_of(const CheckedSoup& checked) {
+    if (checked.diagnosis.dropped.empty() || checked.soup.sides.empty()) return summarize_regions(checked.soup);
+    return summarize_regions(without_dropped(checked));
+}
+
+// Measures of a surface: the box around it, its area, and the volume if it can be meshed.
+struct SurfaceMeasures {
+    Box box;
+    double area = 0;
+    std::optional<double> volume = {};
+};
+
+// Of several regions the volume is the sum.
+SurfaceMeasures measures_of(const FileDiagnosis& found) {
+    const Soup& soup = found.checked.soup;
+    SurfaceMeasures measures{box_around_finite(soup.vertices)};
+    const std::vector<char>& dropped = found.checked.diagnosis.dropped;
+    for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+        const double own = triangle_area(soup.vertices, soup.facets[f]);
+        if (std::isfinite(own) && (dropped.empty() || dropped[f] == 0)) measures.area += own;
+    }
+    if (!found.can_be_meshed()) return measures;
+    if (!found.regions.empty()) {
+        measures.volume = 0;
+        for (const RegionSummary& region : found.regions) *measures.volume += region.volume;
+    } else {
+        CheckedSoup turned = found.checked;
+        apply_repairs(turned);
+        measures.volume = enclosed_volume(turned.soup.vertices, turned.soup.facets);
+    }
+    return measures;
+}
+
+std::string text_of(const SurfaceMeasures& measures) {
+    if (measures.box.isEmpty()) return "";
+    return fmt::format("  extent    {:.6g} x {:.6g} x {:.6g}, from ({:.6g}) to ({:.6g}); area {:.6g}{}\n",
+                       measures.box.sizes().x(), measures.box.sizes().y(), measures.box.sizes().z(),
+                       fmt::join(measures.box.min(), ", "), fmt::join(measures.box.max(), ", "), measures.area,
+                       measures.volume ? fmt::format(", volume {:.6g}", *measures.volume) : "");
+}
+
+void add_measures(const SurfaceMeasures& measures, Json& json) {
+    if (measures.box.isEmpty()) return;
+    json["extent"] = Json::array();
+    for (const Vec3& corner : {measures.box.min(), measures.box.max()})
+        json["extent"].push_back({corner.x(), corner.y(), corner.z()});
+    json["area"] = measures.area;
+    json["volume"] = measures.volume ? Json(*measures.volume) : Json();
 }
 
 Json regions_json(const Array<RegionIndex, RegionSummary>& regions) {
@@ -111,16 +163,31 @@ std::string region_tables(const Array<RegionIndex, RegionSummary>& regions) {
     return text + (walls.empty() ? "" : fmt::format("\n{:>12}  wall between\n{}", "area", walls));
 }
 
-// Returns a line a region, with its volume, shells and walls; at most 50 lines.
+// Returns an option for each region, with a point inside of it.
+std::string options_of_regions(const CheckedSoup& checked) {
+    const Complex complex = make_complex(without_dropped(checked));
+    std::string text;
+    for (const RegionIndex r : ids<RegionIndex>(complex.region_names().size())) {
+        const SurfaceArrays own = complex.arrays_of(r);
+        text += fmt::format("--region {}={:.6g}\n", complex.region_names()[r.value()],
+                            fmt::join(point_inside(own.vertices, own.facets), ","));
+    }
+    return text.empty() ? "" : "\nPoints inside, for facets that do not say what they bound:\n" + text;
+}
+
+// Returns a line a region, with its volume, shells and first walls; at most 50 lines.
 std::string lines_of_regions(const Array<RegionIndex, RegionSummary>& regions) {
-    constexpr std::size_t most = 50;
+    constexpr std::size_t most = 50, most_walls = 3;
     std::string text;
     for (std::size_t r = 0; r < std::min(most, regions.size()); ++r) {
         const RegionSummary& region = regions[r];
         text += fmt::format("  region    {}: volume {:.6g}, {} shell{}", region.name, region.volume, region.shells,
                             region.shells == 1 ? "" : "s");
         if (region.outer_area > 0) text += fmt::format(", outside {:.6g}", region.outer_area);
-        for (const CommonWall& wall : region.walls) text += fmt::format(", wall to {} {:.6g}", wall.region, wall.area);
+        for (std::size_t w = 0; w < std::min(most_walls, region.walls.size()); ++w)
+            text += fmt::format(", wall to {} {:.6g}", region.walls[w].region, region.walls[w].area);
+        if (region.walls.size() > most_walls)
+            text += fmt::format(" and {} more (--list-regions)", region.walls.size() - most_walls);
         text += "\n";
     }
     if (regions.size() > most) text += fmt::format("{:12}and {} more\n", "", regions.size() - most);
@@ -144,6 +211,7 @@ Json surface_json(const FileDiagnosis& found) {
                  {"repairs", json_of_counts(checked.tidied, checked.ladder)},
                  {"counts", std::move(counts)},
                  {"defects", std::move(defects)}};
+    add_measures(measures_of(found), json);
     if (!checked.ladder.steps.empty()) json["repair"] = json_of_repair(checked.ladder);
     if (found.remedy) json["remedy"] = json_of_remedy(*found.remedy, found.path);
     return json;
@@ -269,7 +337,7 @@ std::string to_text(const FileDiagnosis& found) {
         fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
                     soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
     for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
-    text += to_text(checked.ladder) + lines_of_regions(found.regions);
+    text += text_of(measures_of(found)) + to_text(checked.ladder) + lines_of_regions(found.regions);
     text += defects_text(checked);
     const bool clean = found.can_be_meshed();
     if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);
@@ -288,7 +356,7 @@ std::string tables_of_regions(const FileDiagnosis& found) {
     if (!found.can_be_meshed())
         throw Error(ErrorCode::input,
                     fmt::format("{}: {}", found.path, found.checked.diagnosis.summary(found.checked.soup)));
-    return region_tables(found.regions);
+    return region_tables(found.regions) + options_of_regions(found.checked);
 }
 
 std::vector<PatchSummary> patches_of_run(FileDiagnosis found, const InputOptions& options) {

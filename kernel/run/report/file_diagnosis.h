@@ -72,11 +72,14 @@ std::string defects_text(const CheckedSoup& checked, bool errors_only = false);
 /// Returns a JSON object with every defect, its numbers those of the file, and the way to mend it.
 std::string to_json(const FileDiagnosis& found);
 
-/// Returns lines for people: counts, the ten worst defects of each kind, the ways to mend them, the verdict.
+/// Returns lines for people: counts, extent, area and volume, the ten worst defects of each kind, the ways to mend
+/// them, the verdict.
 std::string to_text(const FileDiagnosis& found);
 
-/// Returns a table with a line for each region of the file, and one with a line for each wall; names are last. Throws
-/// the Error for which the file was refused or cannot be meshed.
+/// Returns a table with a line for each region of the file, one with a line for each wall, and for each region the
+/// option
+/// --region with a point inside of it; names are last. Throws the Error for which the file was refused or cannot be
+/// meshed.
 std::string tables_of_regions(const FileDiagnosis& found);
 
 /// Returns the patches that a run would have: those of the file, or those that InputOptions::feature_angle_deg makes.

@@ -325,6 +325,18 @@ std::string curve_text(const CurveReport& curve) {
     return text;
 }
 
+// Returns lines on the shapes that have sizes of their own.
+std::string cells_in_solids_text(const RunReport& report) {
+    constexpr std::size_t most = 5;
+    const std::vector<std::string> solids = report.size.solids();
+    const std::vector<std::int64_t>& cells = report.mesh.sizes.cells_in_solids;
+    std::string text;
+    for (std::size_t i = 0; i < std::min({most, solids.size(), cells.size()}); ++i)
+        text += fmt::format("{}{} tetrahedra in {}", text.empty() ? "" : fmt::format("\n{:<11} ", ""),
+                            grouped(cells[i]), solids[i]);
+    return text;
+}
+
 void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     const std::string parts =
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
@@ -339,6 +351,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
     if (all && !report.mesh.sizes.empty())
         lines.add("sizes", size_text(report.mesh.sizes, report.input.patch_names, !report.size.is_constant()));
+    if (all) lines.add("", cells_in_solids_text(report));
     const Distribution& dihedral = report.mesh.quality.all.measures[0];
     const Distribution& ratio = report.mesh.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",

@@ -261,9 +261,13 @@ Json sizes_json(const RunReport& report) {
     if (ratios.empty()) return nullptr;
     Json patches = Json::object();
     for (const auto& [patch, edges] : ratios.by_patch) patches[report.input.patch_names[patch]] = ratios_json(edges);
-    return {{"inside", ratios_json(ratios.inside)},
-            {"interfaces", ratios.interfaces.count() > 0 ? ratios_json(ratios.interfaces) : Json()},
-            {"patches", patches}};
+    Json json = {{"inside", ratios_json(ratios.inside)},
+                 {"interfaces", ratios.interfaces.count() > 0 ? ratios_json(ratios.interfaces) : Json()},
+                 {"patches", patches}};
+    const std::vector<std::string> solids = report.size.solids();
+    for (std::size_t i = 0; i < std::min(solids.size(), ratios.cells_in_solids.size()); ++i)
+        json["solids"].push_back({{"solid", solids[i]}, {"tets", ratios.cells_in_solids[i]}});
+    return json;
 }
 
 Json bounds_json(const RunReport& report) {

@@ -51,7 +51,7 @@ void rename_patches(Soup& soup, const Enclosure& enclosure) {
     for (const auto& ends : enclosure.face_names) faces.insert(ends.begin(), ends.end());
     taken.insert(faces.begin(), faces.end());
     for (std::string& name : soup.patch_names)
-        if (faces.contains(name)) name = unique_name("body_" + name, taken);
+        if (faces.contains(name)) name = unique_name(fmt::format("body_{}", name), taken);
 }
 
 // What is crossed with a facet that stands for all pieces in its place, by its direction.

@@ -41,7 +41,7 @@ Plane ground_of(const std::string& text) {
     }
     const std::optional<double> at = number_in<double>(number);
     if (!at)
-        throw Error(ErrorCode::usage, fmt::format("'{}' is no value of --ground. It is the height of a plane, such as "
+        throw Error(ErrorCode::usage, fmt::format("--ground is '{}', but it must be the height of a plane, such as "
                                                   "-0.32 for z = -0.32, or y=-0.32.",
                                                   text));
     plane.at = *at;
@@ -54,11 +54,12 @@ std::vector<double> numbers_of_box(const std::string& text) {
     const bool are_multiples =
         numbers.size() == 3 && std::all_of(numbers.begin(), numbers.end(), [](double n) { return n >= 0; });
     if (numbers.size() != 6 && !are_multiples)
-        throw Error(ErrorCode::usage,
-                    fmt::format("'{}' is no value of --box. It is x0,y0,z0,x1,y1,z1, two corners in units of the "
-                                "input, or UPSTREAM,SIDES,DOWNSTREAM, distances in multiples of the longest side of "
-                                "the body, such as 3,3,8.",
-                                text));
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--box is '{}', but it must be x0,y0,z0,x1,y1,z1, two corners in units of the input, or "
+                        "UPSTREAM,SIDES,DOWNSTREAM, distances in multiples of the longest side of the body, "
+                        "such as 3,3,8.",
+                        text));
     return numbers;
 }
 

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "base/core/check.h"
 #include "base/core/cube_root.h"
 #include "base/core/regular_tet.h"
@@ -51,6 +53,19 @@ SizeSources SizeSources::within(const Eigen::AlignedBox3d& box, double bound) co
         return std::min(bound, size_of_solids(cell.center(), bound) + growth * cell.diagonal().norm() / 2);
     });
     return kept;
+}
+
+std::vector<std::string> SizeField::solids() const {
+    std::vector<std::string> texts;
+    if (!sources_) return texts;
+    for (const SizedBox& box : sources_->boxes)
+        texts.push_back(fmt::format("box:{},{}", fmt::join(box.low, ","), fmt::join(box.high, ",")));
+    for (const SizedSphere& sphere : sources_->spheres)
+        texts.push_back(fmt::format("sphere:{},{}", fmt::join(sphere.centre, ","), sphere.radius));
+    for (const SizedCylinder& cylinder : sources_->cylinders)
+        texts.push_back(fmt::format("cylinder:{},{},{}", fmt::join(cylinder.from, ","), fmt::join(cylinder.to, ","),
+                                    cylinder.radius));
+    return texts;
 }
 
 SizeField::SizeField(double max_volume)

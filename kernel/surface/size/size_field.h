@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -122,6 +123,24 @@ class SizeField {
     double reference_volume() const;
     /// The largest volume by the constant alone; infinity if there is none.
     double constant_volume() const { return max_volume_ > 0 ? max_volume_ : infinity; }
+    /// Returns the boxes, spheres and cylinders of the sources, in that order, as --size-in has them, without their
+    /// sizes.
+    std::vector<std::string> solids() const;
+    /// Calls visit(i) for each of solids() in which the point lies.
+    template <class Visit>
+    void for_each_solid_at(const Vec3& p, const Visit& visit) const {
+        if (!sources_) return;
+        std::size_t number = 0;
+        const auto look = [&](const auto& solids) {
+            for (const auto& solid : solids) {
+                if (solid.distance(p) == 0) visit(number);
+                ++number;
+            }
+        };
+        look(sources_->boxes);
+        look(sources_->spheres);
+        look(sources_->cylinders);
+    }
     /// The largest change of at() per distance.
     double growth() const { return sources_ ? edge_factor_ * sources_->growth : 0; }
 

@@ -166,14 +166,14 @@ TEST(Enclosure, SaysWhatIsWrong) {
         const std::string said = refusal(options);
         EXPECT_NE(said.find(words), std::string::npos) << "'" << words << "' in: " << said;
     };
-    expect({.box = "1,2"}, "'1,2' is no value of --box");
+    expect({.box = "1,2"}, "--box is '1,2', but it must be");
     expect({.box = "1,-2,3"}, "--box");
     expect({.box = "1,x,3"}, "--box");
     expect({.box = "5,5,5,6,6,6"}, "There is no body in the box");
     expect({.box = "-0.1,-0.1,-0.1,0.1,0.1,0.1"}, "There is no air in the box");
     expect({.box = "0,0,0,0,1,1"}, "no volume");
     expect(asked("1,1,1", "9"), "no volume");
-    expect(asked("1,1,1", "low"), "'low' is no value of --ground");
+    expect(asked("1,1,1", "low"), "--ground is 'low', but it must be");
     expect(asked("1,1,1", "x=0"), "the wind blows along that axis");
     EnclosureOptions fine = asked("1,1,1");
     fine.edge = 1e-6;

@@ -36,7 +36,14 @@ TEST_F(FileDiagnosisTest, AClosedSurfaceCanBeMeshed) {
     const FileDiagnosis found = diagnose_file(write(test::box(), "box.stl"));
     EXPECT_EQ(found.exit_code(), 0);
     EXPECT_TRUE(to_text(found).ends_with("It can be meshed.\n"));
-    EXPECT_TRUE(nlohmann::json::parse(to_json(found))["can_be_meshed"]);
+    const auto json = nlohmann::json::parse(to_json(found));
+    EXPECT_TRUE(json["can_be_meshed"]);
+    EXPECT_EQ(json["extent"], nlohmann::json::parse("[[0, 0, 0], [1, 1, 1]]"));
+    EXPECT_EQ(json["area"], 6);
+    EXPECT_EQ(json["volume"], 1);
+    EXPECT_NE(to_text(found).find("  extent    1 x 1 x 1, from (0, 0, 0) to (1, 1, 1); area 6, volume 1\n"),
+              std::string::npos)
+        << to_text(found);
     const std::vector<PatchSummary> patches = patches_of_run(found, patches_by_angle());
     EXPECT_EQ(patches.size(), 6u);
 }
@@ -90,6 +97,9 @@ TEST_F(FileDiagnosisTest, RegionsAreListedWithTheirWalls) {
     const std::string text = to_text(found);
     EXPECT_NE(text.find("  region    bone: volume 1, 1 shell, outside 5, wall to cement 1\n"), text.npos) << text;
     EXPECT_NE(text.find("  region    cement: volume 2, 1 shell, outside 9, wall to bone 1\n"), text.npos) << text;
+    const std::string tables = tables_of_regions(found);
+    EXPECT_NE(tables.find("\n--region bone="), text.npos) << tables;
+    EXPECT_NE(tables.find("\n--region cement="), text.npos) << tables;
     const auto regions = nlohmann::json::parse(to_json(found))["regions"];
     ASSERT_EQ(regions.size(), 2U);
     EXPECT_EQ(regions[1]["name"], "cement");

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "support/shapes.h"
+#include "surface/arrange/winding_number.h"
+#include "surface/complex/point_inside.h"
 
 namespace kerf {
 namespace {
@@ -131,6 +133,14 @@ TEST(MassProperties, RoundingOfSymmetricBodiesDoesNotTurnTheAxes) {
     Soup soup = test::box(Vec3::Zero(), Vec3::Ones(), 4);
     for (std::size_t i = 0; i < soup.vertices.size(); i += 3) soup.vertices[i].x() += 1e-12;
     expect_axes(properties(soup), Eigen::Matrix3d::Identity(), 0);
+}
+
+TEST(PointInside, IsInsideOfAnyBody) {
+    for (const Soup& soup : {test::box(), test::icosphere(2), test::torus(3, 1, 24, 12), test::nested_boxes(2),
+                             test::plate_with_hole(8), test::tetrahedron()}) {
+        const Vec3 point = point_inside(soup.vertices, soup.facets);
+        EXPECT_GT(WindingNumber(soup.vertices, soup.facets).at(point), 0.9) << point.transpose();
+    }
 }
 
 }  // namespace

@@ -217,6 +217,22 @@ TEST(SizeRatios, CountEveryEdgeOnce) {
         }
 }
 
+TEST(SizeRatios, CellsAreCountedInEachSolid) {
+    TetMesh mesh;
+    for (std::int32_t v = 0; v < 40; ++v) mesh.vertices.emplace_back(v, v % 2, v % 3);
+    for (std::int32_t v = 0; v + 3 < 40; ++v) mesh.tets.push_back({v, v + 1, v + 2, v + 3});
+    SizeSources sources;
+    sources.growth = 0.3;
+    sources.spheres.push_back({Vec3(20, 0, 0), 1e-3, 0.1});
+    sources.boxes.push_back({Vec3(-1, -1, -1), Vec3(11, 4, 4), 0.5});
+    const SizeField field(0, sources);
+    EXPECT_EQ(field.solids(), (std::vector<std::string>{"box:-1,-1,-1,11,4,4", "sphere:20,0,0,0.001"}));
+    SizeRatios ratios = measure_sizes(mesh, {}, field);
+    EXPECT_EQ(ratios.cells_in_solids, (std::vector<std::int64_t>{10, 0})) << "centroids at 1.5, 2.5, ..., 10.5";
+    ratios.add(ratios);
+    EXPECT_EQ(ratios.cells_in_solids, (std::vector<std::int64_t>{20, 0}));
+}
+
 // A sample tells of a large mesh what all edges would. Those of a chain of cells are 1, 2 and 3 long.
 TEST(SizeRatios, AreSampledOfLargeMeshes) {
     for (const std::int32_t vertices : {300'000, 600'000}) {

@@ -80,6 +80,17 @@ RatioCounts& counts_of_patch(SizeRatios& ratios, std::int32_t patch) {
     return place->edges;
 }
 
+std::vector<std::int64_t> count_cells_in_solids(const TetMesh& mesh, const SizeField& field) {
+    std::vector<std::int64_t> cells(field.solids().size(), 0);
+    if (cells.empty()) return cells;
+    for (const Tetrahedron& t : mesh.tets) {
+        const Vec3 centroid =
+            (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[t[3]]) / 4;
+        field.for_each_solid_at(centroid, [&](std::size_t solid) { ++cells[solid]; });
+    }
+    return cells;
+}
+
 std::string ratios_text(const RatioCounts& r) {
     return fmt::format("{:.0f} % within {} to {}; median {:.2f}, 1 % {:.2f}, 99 % {:.2f}", 100 * r.share_obeyed(),
                        RatioCounts::low, RatioCounts::high, r.percentile(0.5), r.percentile(0.01), r.percentile(0.99));
@@ -119,6 +130,8 @@ void SizeRatios::add(const SizeRatios& other) {
     inside.add(other.inside);
     interfaces.add(other.interfaces);
     for (const OfPatch& patch : other.by_patch) counts_of_patch(*this, patch.patch).add(patch.edges);
+    cells_in_solids.resize(std::max(cells_in_solids.size(), other.cells_in_solids.size()), 0);
+    for (std::size_t i = 0; i < other.cells_in_solids.size(); ++i) cells_in_solids[i] += other.cells_in_solids[i];
 }
 
 SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, const SizeField& field) {
@@ -138,6 +151,7 @@ SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, cons
         RatioCounts& counts = surface.patch[f] >= 0 ? counts_of_patch(ratios, surface.patch[f]) : ratios.interfaces;
         for (std::size_t i = 0; i < 3; ++i) counts.add(ratio(t[i], t[(i + 1) % 3]));
     }
+    ratios.cells_in_solids = count_cells_in_solids(mesh, field);
     return ratios;
 }
 

@@ -52,13 +52,14 @@ struct SizeRatios {
     RatioCounts inside;             ///< edges with an end inside of a part
     RatioCounts interfaces;         ///< edges of interface facets, once for each side of each facet
     std::vector<OfPatch> by_patch;  ///< edges of other facets, once for each facet; ascending, without empty ones
+    std::vector<std::int64_t> cells_in_solids = {};  ///< cells with their centroid in each of SizeField::solids()
 
     void add(const SizeRatios& other);
     bool empty() const { return inside.count() == 0 && interfaces.count() == 0 && by_patch.empty(); }
 
     template <class Archive>
     void archive(Archive& a) {
-        a(inside, interfaces, by_patch);
+        a(inside, interfaces, by_patch, cells_in_solids);
     }
 };
 
