@@ -128,7 +128,8 @@ class Runs:
         self.run("mesh", "open.stl", "-o", "mended", "-n", "2", "--repair", "near", "--gap", "20%", "-q")
         self.run("mesh", assets / "cube.stl", "-o", "failed", "-n", "2", "--size", "0.03", "--mesher", "tetgen",
                  "--attempts", "1", "--timeout", "0.001", "-q", code=4)
-        for name in ("out", "cut", "regions", "mended", "failed"):
+        self.run("mesh", bracket, "-o", "air", "-n", "2", "--box", "1,1,1", "--wake", "30", "-q")
+        for name in ("out", "cut", "regions", "mended", "failed", "air"):
             self.keep("run", name)
         for steps in ("near", "near,no-holes,caps"):
             text = self.run("repair", "open.stl", "-o", "mended.obj", "--repair", steps, "--json",

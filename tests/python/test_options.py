@@ -74,6 +74,7 @@ CALLS = [
          gap=0, offset=0),
     dict(region={"steel": (0.5, 0.5, np.float32(0.5))}),
     dict(gap="12%", offset="2%"),
+    dict(box="0.5,0.5,1", box_size=0.6, wind="-x", ground="0.2", wake=0.5, hole=[]),
 ]
 
 
