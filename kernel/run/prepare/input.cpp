@@ -1,8 +1,8 @@
 // All ways to a surface go through check_files() and to_input(). check_files() does, in this order: exact welding, the
-// ladder of repairs (surface/repair/repair.h), the wrap, points of regions, and the diagnosis with its search for
-// regions. The order is part of what users see: each step counts on the ones before. to_input() refuses a surface with
-// errors, drops superfluous facets and orients the rest, and makes the complex; vertices and facets get keys of node 0,
-// which are their numbers.
+// ladder of repairs (surface/repair/repair.h), the wrap, points of regions, the diagnosis with its search for regions,
+// regions that are left empty, and the box of air. The order is part of what users see: each step counts on the ones
+// before. to_input() refuses a surface with errors, drops superfluous facets and orients the rest, and makes the
+// complex; vertices and facets get keys of node 0, which are their numbers.
 //
 // Arrays of other programs are checked row by row first, in every build, because nothing behind that checks numbers
 // again. Regions exclude the optimisation of the surface and patches by angles.
@@ -287,10 +287,10 @@ CheckedSoup check_files(InputFiles files, const InputChoices& choices, double ne
         files = {{}, files.hash, {}, {}};  // a wrap is one body, whichever bodies were in it
     }
     take_points(soup, choices.seeds);
-    diagnose_regions(checked, files, {options.voids, needle_angle_deg}, options.fill_voids && !options.air.encloses());
+    const DiagnosisOptions diagnosis = {options.voids, needle_angle_deg};
+    diagnose_regions(checked, files, diagnosis, options.fill_voids && !options.air.encloses());
     const std::vector<char>& dropped = checked.diagnosis.dropped;
     tidied.dropped_facets = std::count(dropped.begin(), dropped.end(), char{1});
-    const DiagnosisOptions diagnosis = {options.voids, needle_angle_deg};
     if (!options.holes.empty() && checked.diagnosis.clean()) {
         leave_regions_empty(soup, options.holes);
         checked.diagnosis = diagnose(soup, diagnosis);

@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "base/core/error.h"
+#include "support/shapes.h"
 #include "support/size_fields.h"
 #include "support/temporary_folder.h"
+#include "surface/complex/mass_properties.h"
 
 namespace kerf {
 namespace {
@@ -117,6 +119,21 @@ TEST_F(SizeFiles, NeedAPositiveScalarAtEachNode) {
     expect_refused(vtu_text(mesh_, vtu_scalar("h", size)), {"node 3", "positive"});
     size.pop_back();
     expect_refused(vtu_text(mesh_, vtu_scalar("h", size)), {"one value for each point"});
+}
+
+TEST(SizesOfAir, GrowFromTheBodyToTheBoxAndAreFineInTheWake) {
+    const Soup ball = test::icosphere(2);
+    InputOptions options;
+    options.air.box = "2,2,4";
+    options.air.edge = 1.0;
+    options.air.wake = 0.1;
+    const Input input = make_input(ball.vertices, ball.facets, {}, {}, options);
+    ASSERT_TRUE(input.enclosure);
+    const SizeField field = read_size_field(sizes_of_cells({}, input), input);
+    EXPECT_NEAR(field.at(input.enclosure->wake->center()), 0.1, 1e-12);
+    EXPECT_NEAR(field.at(input.enclosure->box.min()), 1, 0.2) << "far from the body";
+    EXPECT_LE(field.at(Vec3(0, 0, 1.1)), 0.4) << "beside it";
+    EXPECT_NEAR(input.reference_volume(input.volume), enclosed_volume(ball.vertices, ball.facets), 1e-9);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "surface/diagnosis/diagnosis.h"
 #include "surface/repair/inside/facet_copies.h"
 #include "surface/repair/inside/touching_fans.h"
+#include "surface/repair/repair.h"
 
 namespace kerf {
 namespace {
@@ -429,6 +430,20 @@ TEST(TouchingFans, ComeApartWhereTheirFacetsCrossOthersAlready) {
         EXPECT_GT(separation.largest_move, 0);
         for (const RepairAction& action : separation.actions)
             EXPECT_TRUE(*action.refused_because == '\0' || action.count == 0) << action.refused_because;
+    }
+}
+
+// Boxes that touch along an edge come apart, which would leave a crack if the outside were meshed: then they are
+// joined.
+TEST(TouchingBodies, AreJoinedWhereTheOutsideIsMeshed) {
+    for (const bool outside : {false, true}) {
+        Soup soup = test::join(test::box(Vec3::Zero(), Vec3::Ones(), 2), test::box(Vec3(1, 1, 0), Vec3(2, 2, 1), 2));
+        weld_exactly(soup);
+        RepairPlan plan = parse_repair_plan("repair", "exact");
+        plan.outside_is_meshed = outside;
+        repair(soup, plan);
+        EXPECT_TRUE(diagnose(soup).clean()) << outside;
+        EXPECT_EQ(find_shells(test::to_surface(soup)).count, outside ? 1 : 2);
     }
 }
 
