@@ -106,12 +106,13 @@ TEST(Facade, AnErrorHasTheDefectsThatACheckTells) {
 
 TEST(Facade, ASurfaceIsWrittenAndReadAgain) {
     const test::TemporaryFolder folder;
-    for (const std::string name : {"cube.obj", "cube.stl"}) {
+    for (const std::string name :
+         {"cube.obj", "cube.stl", "cube.ply", "cube.off", "cube.vtk", "cube.vtp"}) {
         surface_to_file(cube(), folder.file(name));
         EXPECT_EQ(surface_from_file(folder.file(name)).volume(), 1);
     }
     EXPECT_EQ(surface_from_file(folder.file("cube.obj")).patch_names(), cube().patch_names());
-    EXPECT_THROW(surface_to_file(cube(), folder.file("cube.vtk")), Error);
+    EXPECT_THROW(surface_to_file(cube(), folder.file("cube.txt")), Error);
 }
 
 TEST(Facade, RemeshingTakesOptionsOfSizesAlone) {
