@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
@@ -82,8 +83,11 @@ std::string lengths_json(const TetMesh& mesh, const std::vector<Edge>& edges, do
     const auto at = [&](double share) { return ratios[static_cast<std::size_t>(share * double(ratios.size() - 1))]; };
     const auto obey = std::count_if(ratios.begin(), ratios.end(),
                                     [](double ratio) { return ratio >= least_ratio && ratio <= most_ratio; });
-    return fmt::format(R"({{"count": {}, "share": {}, "p1": {}, "median": {}, "p99": {}}})", ratios.size(),
-                       static_cast<double>(obey) / static_cast<double>(ratios.size()), at(0.01), at(0.5), at(0.99));
+    const double count = static_cast<double>(ratios.size());
+    return fmt::format(R"({{"count": {}, "share": {}, "mean": {}, "p1": {}, "median": {}, "p99": {}, "p999": {}}})",
+                       ratios.size(), static_cast<double>(obey) / count,
+                       std::accumulate(ratios.begin(), ratios.end(), 0.0) / count, at(0.01), at(0.5), at(0.99),
+                       at(0.999));
 }
 
 void measure(const std::string& path, double size) {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "base/core/regular_tet.h"
 #include "base/geometry/box.h"
 #include "run/prepare/remeshing.h"
 #include "run/run/pipeline.h"
@@ -18,6 +17,7 @@
 #include "support/write_off.h"
 #include "surface/remesh/remesh.h"
 #include "surface/remesh/thickness.h"
+#include "surface/size/mean_edge.h"
 #include "surface/size/size_options.h"
 
 namespace kerf {
@@ -127,6 +127,37 @@ TEST(RemeshedSizes, AreNotExceededOnCurvedBodies) {
         }
 }
 
+// A size is the mean edge of the mesh within 5 %, or a bound that hardly an edge exceeds, whether facets are divided or
+// remeshed.
+TEST(Sizes, AreMeanEdgesOrBounds) {
+    const TemporaryFolder folder;
+    const Soup soup = box(Vec3::Zero(), Vec3(10, 8, 6), 1);
+    write_off(folder.file("input.off"), soup.vertices, soup.facets);
+    for (const SizeMeaning meaning : {SizeMeaning::mean, SizeMeaning::bound})
+        for (const Remeshing remeshing : {Remeshing::where_needed, Remeshing::always})
+            for (const bool is_graded : {false, true}) {
+                SCOPED_TRACE(testing::Message()
+                             << static_cast<int>(meaning) << static_cast<int>(remeshing) << is_graded);
+                RunRequest options;
+                options.input = folder.file("input.off");
+                options.output = folder.file("out");
+                options.workers.program = test::worker_program();
+                options.workers.count = 2;
+                options.parts = 2;
+                options.remeshing = remeshing;
+                options.sizes.size = 1;
+                options.sizes.meaning = meaning;
+                if (is_graded) options.sizes.inside = {"sphere:3,4,5,1=0.5"};
+                SingleRank rank;
+                const RunReport report = run(options, 2, rank);
+                ASSERT_EQ(report.exit_code, 0);
+                EXPECT_NEAR(report.mesh.sizes.mean(), 1, 0.05);
+                const double beyond = report.mesh.sizes.share_from(1 / options.sizes.mean_over_size());
+                if (meaning == SizeMeaning::bound) EXPECT_LT(beyond, 0.002);
+                if (meaning == SizeMeaning::mean) EXPECT_GT(beyond, 0.3);
+            }
+}
+
 // The surface is remeshed before it is cut: it is the same in one part and in many, and all obey the field.
 TEST(RemeshedSizes, AreObeyedInOnePartAndInMany) {
     const TemporaryFolder folder;
@@ -163,12 +194,12 @@ TEST(UsualDeviation, IsATwentiethOfTheShortestWantedEdge) {
     const SurfaceArrays ball = test::to_arrays(test::icosphere(2));
     EXPECT_DOUBLE_EQ(usual_deviation(SizeField(), ball, 100), 0.05);
     const double edge = 0.5;
-    EXPECT_DOUBLE_EQ(usual_deviation(SizeField(regular_tet_volume(edge)), ball, 100), edge / 20);
+    EXPECT_DOUBLE_EQ(usual_deviation(SizeField(largest_volume_for(edge)), ball, 100), edge / 20);
     SizeOptions finer;
     finer.size = edge;
     finer.inside = {"sphere:0,0,1,0.3=0.1"};
     EXPECT_DOUBLE_EQ(usual_deviation(make_size_field(finer, ball, {}), ball, 100), 0.1 / 20);
-    EXPECT_DOUBLE_EQ(usual_deviation(SizeField(regular_tet_volume(1e3)), ball, 100), 5) << "as far as is ever allowed";
+    EXPECT_DOUBLE_EQ(usual_deviation(SizeField(largest_volume_for(1e3)), ball, 100), 5) << "as far as is ever allowed";
 }
 
 // A round bar of needles: a bound that has nothing to do with the size would ask for many more facets.

@@ -9,25 +9,19 @@
 
 #include <fmt/format.h>
 
-#include "base/core/cube_root.h"
 #include "base/core/error.h"
 #include "base/core/ids.h"
 #include "base/geometry/triangle.h"
 #include "fill/lattice/lattice_core.h"
 #include "fill/shell/shell.h"
 #include "fill/volume/meshers.h"
+#include "surface/size/mean_edge.h"
 
 namespace kerf {
 
 namespace {
 
-// Volume of the core's cells over the bound. The cells of the shell, which differ more, are to stay below the bound
-// mostly without further points; with 0.7 as many as TetGen's come out for the same bound, with 0.6 it is fastest.
-constexpr double volume_share = 0.6;
-
 constexpr double lattice_angle_deg = 60;  // the smallest dihedral angle of a cell of the core
-
-double edge_for(double max_volume) { return cube_root(12 * volume_share * max_volume); }
 
 MesherOptions for_tetgen(MesherOptions options) {
     options.name = "tetgen";
@@ -84,7 +78,7 @@ TetMesh join(const SurfaceArrays& surface, const LatticeCore& core, TetMesh shel
 }
 
 Filling fill_around_core(const SurfaceArrays& surface, const MesherOptions& options) {
-    const LatticeCore core(surface, edge_for(options.size.reference_volume()));
+    const LatticeCore core(surface, lattice_edge_below(options.size.reference_volume()));
     Filling filling =
         fill_shell_alone(surface, {core.boundary_points(), core.boundary_faces(), core.free_points()}, options);
     if (core.cell_count() == 0) return filling;

@@ -13,10 +13,10 @@
 #include "base/core/error.h"
 #include "base/core/ids.h"
 #include "base/core/number_text.h"
-#include "base/core/regular_tet.h"
 #include "fill/volume/tet_forecast.h"
 #include "run/prepare/remeshing.h"
 #include "run/prepare/size_reader.h"
+#include "surface/size/mean_edge.h"
 #include "surface/size/volume_samples.h"
 
 namespace kerf {
@@ -63,7 +63,8 @@ class TetForecast {
     }
 
     MesherOptions mesher_for(double size) const {
-        return MesherOptions(request_.mesher, places_.with_constant(size > 0 ? regular_tet_volume(size) : 0));
+        return MesherOptions(request_.mesher, places_.with_constant(
+                                                  size > 0 ? request_.sizes.with_edge(size).constant_max_volume() : 0));
     }
     double half_thickness() const { return input_.volume / input_.area; }
     double sized_volume_of(const SizeField& size) const {
@@ -108,7 +109,7 @@ double find_root(double small, double large, const Excess& excess) {
 double forecast_size(const Input& input, const RunRequest& request, SurfaceChange change) {
     const TetForecast forecast(input, request);
     const double cells = request.sizes.cells;
-    const double small = std::max(regular_tet_edge(input.volume / cells), least_share * input.diagonal);
+    const double small = std::max(mean_edge_below(input.volume / cells), least_share * input.diagonal);
     return find_root(small, std::max(input.diagonal, 2 * small),
                      [&](double size) { return std::log(forecast.tets_after(change, size) / cells); });
 }

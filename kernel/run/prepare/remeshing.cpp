@@ -23,7 +23,6 @@
 #include "base/core/error.h"
 #include "base/core/ids.h"
 #include "base/core/number_text.h"
-#include "base/core/regular_tet.h"
 #include "base/parallel/process_memory.h"
 #include "run/prepare/inside/facet_division.h"
 #include "run/prepare/inside/labelled_facets.h"
@@ -34,6 +33,7 @@
 #include "surface/complex/mass_properties.h"
 #include "surface/remesh/remesh.h"
 #include "surface/remesh/thickness.h"
+#include "surface/size/mean_edge.h"
 #include "surface/size/region_sizes.h"
 
 namespace kerf {
@@ -105,7 +105,7 @@ FacetSizes wanted_on_facets(const RunRequest& options, const Input& input) {
 // Edge where nothing else is wanted.
 double longest_edge(const RunRequest& options, double diagonal) {
     const double max_volume = options.sizes.constant_max_volume();
-    return max_volume > 0 ? std::min(regular_tet_edge(max_volume), diagonal)
+    return max_volume > 0 ? std::min(mean_edge_below(max_volume), diagonal)
                           : longest_shares[static_cast<int>(options.sizes.fineness)] * diagonal;
 }
 
@@ -147,7 +147,7 @@ void want_lengths_of_regions(const RunRequest& options, const SizeField& all, co
     double longest = 0;
     Array<RegionIndex, SizeField> fields;
     for (const RegionIndex r : volumes.ids()) {
-        longest = std::max(longest, volumes[r] > 0 ? regular_tet_edge(volumes[r]) : task.options.longest);
+        longest = std::max(longest, volumes[r] > 0 ? mean_edge_below(volumes[r]) : task.options.longest);
         fields.push_back(sizes.of(r, all));
     }
     task.options.wanted = [fields = std::move(fields), labels = task.facets.labels, usual = task.options.longest](

@@ -325,6 +325,23 @@ std::string curve_text(const CurveReport& curve) {
     return text;
 }
 
+// Returns how long edges are beside what was asked for, and why they are shorter if they are by much.
+std::string mean_size_text(const RunReport& report) {
+    constexpr double much_shorter = 0.9;
+    const SizeRatios& ratios = report.mesh.sizes;
+    const SizeOptions& sizes = report.request.sizes;
+    const bool is_length_wanted = sizes.size.number() > 0 || sizes.depends_on_place();
+    if (ratios.empty() || !is_length_wanted) return "";
+    const double mean = ratios.mean(), longer = ratios.share_from(1 / sizes.mean_over_size());
+    if (sizes.meaning == SizeMeaning::bound)
+        return fmt::format("{:.2g} % of the edges are longer than the bounds", 100 * longer);
+    std::string text = fmt::format("edges have {:.2f} of the wanted length on average", mean);
+    if (mean > much_shorter) return text;
+    const bool is_remeshed = report.input.remeshed && !report.input.remeshed->only_divided;
+    return text + (is_remeshed ? "; the shape needs shorter ones (fewer with a larger --deviation)"
+                               : "; facets of the file are finer (--surface remesh makes them as wanted)");
+}
+
 // Returns lines on the shapes that have sizes of their own.
 std::string cells_in_solids_text(const RunReport& report) {
     constexpr std::size_t most = 5;
@@ -349,8 +366,9 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     if (all) lines.add("filled", ways_text(report));
     if (all) lines.add("recovered", recovery_text(report.mesh.recovery));
     if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
+    lines.add("sizes", mean_size_text(report));
     if (all && !report.mesh.sizes.empty())
-        lines.add("sizes", size_text(report.mesh.sizes, report.input.patch_names, !report.size.is_constant()));
+        lines.add("", size_text(report.mesh.sizes, report.input.patch_names, !report.size.is_constant()));
     if (all) lines.add("", cells_in_solids_text(report));
     const Distribution& dihedral = report.mesh.quality.all.measures[0];
     const Distribution& ratio = report.mesh.quality.all.measures[2];

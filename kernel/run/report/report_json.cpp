@@ -261,9 +261,12 @@ Json sizes_json(const RunReport& report) {
     if (ratios.empty()) return nullptr;
     Json patches = Json::object();
     for (const auto& [patch, edges] : ratios.by_patch) patches[report.input.patch_names[patch]] = ratios_json(edges);
-    Json json = {{"inside", ratios_json(ratios.inside)},
+    Json json = {{"mean", ratios.mean()},
+                 {"inside", ratios_json(ratios.inside)},
                  {"interfaces", ratios.interfaces.count() > 0 ? ratios_json(ratios.interfaces) : Json()},
                  {"patches", patches}};
+    if (const SizeOptions& wanted = report.request.sizes; wanted.meaning == SizeMeaning::bound)
+        json["share_beyond_bound"] = ratios.share_from(1 / wanted.mean_over_size());
     const std::vector<std::string> solids = report.size.solids();
     for (std::size_t i = 0; i < std::min(solids.size(), ratios.cells_in_solids.size()); ++i)
         json["solids"].push_back({{"solid", solids[i]}, {"tets", ratios.cells_in_solids[i]}});

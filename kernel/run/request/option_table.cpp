@@ -201,9 +201,15 @@ constexpr OptionRow<InputOptions> input_rows[] = {
 
 constexpr OptionRow<SizeOptions> size_rows[] = {
     {"size", "", option_group::sizes, "H",
-     "Wanted edge length, in units of the input, or with % of the diagonal of its bounding box. Default: as "
-     "the surface.",
+     "Wanted mean edge length, in units of the input, or with % of the diagonal of its bounding box. Default: as the "
+     "surface.",
      place<&SizeOptions::size>, true, size_range::length},
+    {"size-is", "", option_group::sizes, "",
+     "What lengths of all these options are: the mean edge, or a bound, below which all but one edge in a thousand "
+     "stay. Default mean.",
+     [](SizeOptions& o) -> OptionField::Value {
+         return choice(o.meaning, {"mean", "bound"});
+     }},
     {"max-volume", "", option_group::sizes, "V", "Largest volume of a tetrahedron, instead of --size.",
      place<&SizeOptions::max_volume>, true, size_range::max_volume},
     {"cells", "", option_group::sizes, "N",

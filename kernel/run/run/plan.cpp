@@ -218,7 +218,8 @@ class PlanArchive {
     void sizes(SizeOptions& sizes) {
         length(sizes.size);
         length(sizes.chord_error);
-        archive_(sizes.max_volume, sizes.cells, sizes.fineness, sizes.inside, sizes.on, sizes.near, sizes.in_region);
+        archive_(sizes.max_volume, sizes.cells, sizes.fineness, sizes.meaning, sizes.inside, sizes.on, sizes.near,
+                 sizes.in_region);
         archive_(sizes.growth, sizes.segments_per_turn, sizes.cells_across);
     }
     void regions(std::vector<InputRegion>& regions) {

@@ -12,8 +12,8 @@
 
 #include "base/core/check.h"
 #include "base/core/cube_root.h"
-#include "base/core/regular_tet.h"
 #include "base/geometry/tetrahedron.h"
+#include "surface/size/mean_edge.h"
 
 namespace kerf {
 
@@ -69,11 +69,15 @@ std::vector<std::string> SizeField::solids() const {
 }
 
 SizeField::SizeField(double max_volume)
-    : max_volume_(max_volume), edge_(max_volume > 0 ? regular_tet_edge(max_volume) : infinity) {
+    : max_volume_(max_volume), edge_(max_volume > 0 ? mean_edge_below(max_volume) : infinity) {
     KERF_CHECK(max_volume >= 0);
 }
 
-SizeField::SizeField(double max_volume, SizeSources sources) : SizeField(max_volume) { set(std::move(sources)); }
+SizeField::SizeField(double max_volume, SizeSources sources, double edge_factor) : SizeField(max_volume) {
+    KERF_CHECK(edge_factor > 0);
+    edge_factor_ = edge_factor;
+    set(std::move(sources));
+}
 
 void SizeField::set(SizeSources sources) {
     if (sources.empty())
@@ -89,12 +93,12 @@ double SizeField::at(const Vec3& p, double bound) const {
 
 double SizeField::max_volume_at(const Vec3& p) const {
     const double edge = at(p);
-    return edge < edge_ ? regular_tet_volume(edge) : max_volume_ > 0 ? max_volume_ : infinity;
+    return edge < edge_ ? largest_volume_for(edge) : max_volume_ > 0 ? max_volume_ : infinity;
 }
 
 double SizeField::smallest() const { return sources_ ? std::min(edge_, edge_factor_ * sources_->smallest()) : edge_; }
 
-double SizeField::reference_volume() const { return smallest() < edge_ ? regular_tet_volume(smallest()) : max_volume_; }
+double SizeField::reference_volume() const { return smallest() < edge_ ? largest_volume_for(smallest()) : max_volume_; }
 
 SizeField SizeField::with_constant(double max_volume) const {
     SizeField field(max_volume);

@@ -102,16 +102,17 @@ class SizeField {
     /// A field that is the same everywhere: tetrahedra of at most this volume, which is kept as it is; 0: no size is
     /// asked for.
     explicit SizeField(double max_volume);
-    /// A field of a constant, 0 for none, and of sources, which make it smaller at places.
-    SizeField(double max_volume, SizeSources sources);
+    /// A field of a constant, 0 for none, and of sources, which make it smaller at places; their lengths count
+    /// `edge_factor` > 0 times.
+    SizeField(double max_volume, SizeSources sources, double edge_factor = 1);
 
     /// Returns the wanted edge length; infinity if none is. O(log n) for n triangles and cells in the sources, a few
     /// microseconds.
     double at(const Vec3& p) const { return at(p, edge_); }
     /// Returns the lesser of at(p) and `bound`, sooner if the bound is small.
     double at(const Vec3& p, double bound) const;
-    /// Returns the largest volume of a tetrahedron at p: that of the regular one with the edge at(p). Infinity if no
-    /// size is wanted.
+    /// Returns the largest volume of a tetrahedron at p, with which edges have the length at(p) on average
+    /// (mean_edge.h). Infinity if no size is wanted.
     double max_volume_at(const Vec3& p) const;
     /// A lower bound of the wanted edge length at all points; infinity if none is wanted.
     double smallest() const;
@@ -171,7 +172,7 @@ class SizeField {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     double max_volume_ = 0;                       // of the constant; 0: none
-    double edge_ = infinity;                      // of the constant
+    double edge_ = infinity;                      // of the constant, on average
     double edge_factor_ = 1;                      // factor of the sources, see coarser()
     std::shared_ptr<const SizeSources> sources_;  // not empty; null: none
 };

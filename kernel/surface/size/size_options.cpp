@@ -13,9 +13,9 @@
 
 #include "base/core/error.h"
 #include "base/core/name_pattern.h"
-#include "base/core/regular_tet.h"
 #include "base/geometry/box.h"
 #include "surface/size/inside/surface_sizes.h"
+#include "surface/size/mean_edge.h"
 
 namespace kerf {
 
@@ -34,7 +34,7 @@ constexpr const char* form_near_patch = "NAME=H:D, such as inlet=0.1:2";
                                               text, option, form));
 }
 
-bool has_normal_volume(double edge) { return std::isnormal(regular_tet_volume(edge)); }
+bool has_normal_volume(double edge) { return std::isnormal(largest_volume_for(edge)); }
 
 // A wanted edge length: positive, with a volume that a double can hold. 0 if the text is none.
 Length size_in(std::string_view text) {
@@ -206,7 +206,7 @@ double SizeOptions::growth_beside_kept_facets() const {
 }
 
 double SizeOptions::constant_max_volume() const {
-    return max_volume == 0 && size > 0 ? regular_tet_volume(size) : max_volume;
+    return max_volume == 0 && size > 0 ? largest_volume_for(mean_over_size() * size) : max_volume;
 }
 
 Array<RegionIndex, double> SizeOptions::max_volumes_of_regions(std::span<const std::string> regions) const {
@@ -222,7 +222,7 @@ Array<RegionIndex, double> SizeOptions::max_volumes_of_regions(std::span<const s
                                             : fmt::format("those of the input are {}", fmt::join(regions, ", "))));
         double& volume = volumes[found - regions.begin()];
         if (volume > 0) throw Error(ErrorCode::usage, fmt::format("--size-region names the region '{}' twice.", name));
-        volume = regular_tet_volume(wanted.number());
+        volume = largest_volume_for(mean_over_size() * wanted.number());
     }
     return volumes;
 }
@@ -234,7 +234,7 @@ SizeField make_size_field(const SizeOptions& options, const SurfaceArrays& surfa
     for (const std::string& text : options.inside) add_solid(text, sources);
     sources.triangles = SizedTriangles(sizes_of_surface(options, surface, patch_names));
     if (background) sources.backgrounds.emplace_back(*std::move(background), sources.growth);
-    return {options.constant_max_volume(), std::move(sources)};
+    return {options.constant_max_volume(), std::move(sources), options.mean_over_size()};
 }
 
 }  // namespace kerf

@@ -106,8 +106,7 @@ TEST(Facade, AnErrorHasTheDefectsThatACheckTells) {
 
 TEST(Facade, ASurfaceIsWrittenAndReadAgain) {
     const test::TemporaryFolder folder;
-    for (const std::string name :
-         {"cube.obj", "cube.stl", "cube.ply", "cube.off", "cube.vtk", "cube.vtp"}) {
+    for (const std::string name : {"cube.obj", "cube.stl", "cube.ply", "cube.off", "cube.vtk", "cube.vtp"}) {
         surface_to_file(cube(), folder.file(name));
         EXPECT_EQ(surface_from_file(folder.file(name)).volume(), 1);
     }

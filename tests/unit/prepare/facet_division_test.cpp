@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "base/core/regular_tet.h"
 #include "base/geometry/triangle.h"
 #include "run/prepare/remeshing.h"
 #include "support/shapes.h"
 #include "support/size_fields.h"
 #include "surface/complex/mass_properties.h"
+#include "surface/size/mean_edge.h"
 
 namespace kerf {
 namespace {
@@ -69,7 +69,7 @@ void expect_same_shape(const SurfaceArrays& before, const SurfaceArrays& after) 
 
 std::vector<SizeField> fields() {
     std::vector<SizeField> all;
-    for (const double size : {0.3, 0.11, 0.04}) all.emplace_back(regular_tet_volume(size));
+    for (const double size : {0.3, 0.11, 0.04}) all.emplace_back(largest_volume_for(size));
     for (unsigned seed = 0; seed < 3; ++seed)
         for (SizeSources& sources : test::random_sources(seed)) {
             sources.growth = std::min(sources.growth, 0.5);
@@ -105,13 +105,13 @@ TEST(FacetDivision, LeavesNoFacetWithoutTriangles) {
     for (const double height : {1e-3, 1e-9, 1e-17, 0.}) {
         Soup body = test::tetrahedron();
         for (Vec3& p : body.vertices) p.z() *= height;
-        const SurfaceArrays after = divide_facets(test::to_arrays(body), SizeField(regular_tet_volume(0.1))).surface;
+        const SurfaceArrays after = divide_facets(test::to_arrays(body), SizeField(largest_volume_for(0.1))).surface;
         EXPECT_TRUE(std::holds_alternative<Surface>(Surface::build(after))) << height;
         EXPECT_GT(after.facets.size(), 100U);
     }
     Soup body = test::tetrahedron();
     for (Vec3& p : body.vertices) p = Vec3(p.x() + 2 * p.y() + 3 * p.z(), 0, 0);  // all facets are segments
-    const DividedSurface after = divide_facets(test::to_arrays(body), SizeField(regular_tet_volume(0.1)));
+    const DividedSurface after = divide_facets(test::to_arrays(body), SizeField(largest_volume_for(0.1)));
     EXPECT_TRUE(std::holds_alternative<Surface>(Surface::build(after.surface)));
 }
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/core/cube_root.h"
-#include "base/core/regular_tet.h"
 #include "support/size_fields.h"
+#include "surface/size/mean_edge.h"
 
 namespace kerf {
 namespace {
@@ -30,7 +30,7 @@ TEST(SizeField, ConstantKeepsItsVolume) {
         const SizeField field(volume);
         EXPECT_EQ(field.max_volume_at(Vec3(1, 2, 3)), volume);
         EXPECT_EQ(field.reference_volume(), volume);
-        EXPECT_EQ(field.at(Vec3(1, 2, 3)), regular_tet_edge(volume));
+        EXPECT_EQ(field.at(Vec3(1, 2, 3)), mean_edge_below(volume));
         EXPECT_EQ(field.coarser(8).reference_volume(), 8 * volume);
         EXPECT_TRUE(field.is_constant() && !field.is_empty());
     }
@@ -58,7 +58,7 @@ TEST(SizeField, IsTheMinimumOfItsSources) {
             EXPECT_EQ(field.at(p, bound), std::min(bound, least));
             EXPECT_EQ(field.with_constant(0.3).with_constant(constant).at(p), least);
             EXPECT_NEAR(field.coarser(8).at(p), 2 * least, 1e-14 * least);
-            EXPECT_NEAR(field.max_volume_at(p), regular_tet_volume(least), 1e-14 * regular_tet_volume(least));
+            EXPECT_NEAR(field.max_volume_at(p), largest_volume_for(least), 1e-14 * largest_volume_for(least));
             EXPECT_GE(field.max_volume_at(p), field.reference_volume() * (1 - 1e-14));
         }
     }

@@ -10,7 +10,6 @@
 
 #include "base/core/bytes.h"
 #include "base/core/error.h"
-#include "base/core/regular_tet.h"
 #include "base/geometry/predicates.h"
 #include "base/geometry/tetrahedron.h"
 #include "files/io/file_bytes.h"
@@ -23,6 +22,7 @@
 #include "support/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/voxels.h"
+#include "surface/size/mean_edge.h"
 
 namespace kerf {
 namespace {
@@ -239,7 +239,7 @@ TEST(SizeRatios, AreSampledOfLargeMeshes) {
         TetMesh mesh;
         for (std::int32_t v = 0; v < vertices; ++v) mesh.vertices.emplace_back(v, 0, 0);
         for (std::int32_t v = 0; v + 3 < vertices; ++v) mesh.tets.push_back({v, v + 1, v + 2, v + 3});
-        const SizeRatios ratios = measure_sizes(mesh, {}, SizeField(regular_tet_volume(1.5)));
+        const SizeRatios ratios = measure_sizes(mesh, {}, SizeField(largest_volume_for(1.5)));
         EXPECT_NEAR(static_cast<double>(ratios.inside.count()), 3.0 * vertices, 0.001 * vertices);
         EXPECT_NEAR(ratios.inside.share_obeyed(), 1.0 / 3, 1e-3);
     }

@@ -28,7 +28,9 @@ std::vector<ExceededBound> exceeded_bounds(const RunReport& report) {
         if (const std::int64_t cells = count_beyond(values, bound); cells > 0)
             exceeded.push_back({option, bound, cells, values.max()});
     };
-    add("max-volume", report.request.sizes.max_volume, report.mesh.quality.all.measures[volume]);
+    const SizeOptions& sizes = report.request.sizes;
+    if (sizes.size.number() == 0)  // else the bound follows from a mean
+        add("max-volume", sizes.max_volume, report.mesh.quality.all.measures[volume]);
     add("radius-edge", report.request.mesher.radius_edge, report.mesh.quality.all.measures[radius_edge]);
     return exceeded;
 }

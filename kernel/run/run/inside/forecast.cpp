@@ -16,12 +16,12 @@
 #include "base/core/check.h"
 #include "base/core/error.h"
 #include "base/core/number_text.h"
-#include "base/core/regular_tet.h"
 #include "files/export/format.h"
 #include "files/io/folder_files.h"
 #include "files/io/run_folder.h"
 #include "fill/volume/meshers.h"
 #include "fill/volume/tet_forecast.h"
+#include "surface/size/mean_edge.h"
 
 namespace kerf {
 
@@ -143,7 +143,7 @@ double least_size(const MesherOptions& mesher, double facets, double volume, Fac
         const double middle = std::sqrt(low) * std::sqrt(high);
         (tets(middle) > affordable ? low : high) = middle;
     }
-    return high * regular_tet_edge(mesher.size.reference_volume());
+    return high * mean_edge_below(mesher.size.reference_volume());
 }
 
 }  // namespace
@@ -155,9 +155,10 @@ void check_budget(const RunChoices& choices, const MesherOptions& mesher, std::i
     const MesherForecast& known = known_of(mesher);
     const auto way_out = [&](double affordable) {
         const double size = least_size(mesher, facets, volume, of_surface, affordable);
-        return size == 0                   ? std::string("Use a coarser surface")
-               : mesher.size.is_constant() ? fmt::format("Use --size {:.2g} or larger", size)
-                                           : std::string("Use larger sizes");
+        return size == 0 ? std::string("Use a coarser surface")
+               : mesher.size.is_constant()
+                   ? fmt::format("Use --size {:.2g} or larger", size / choices.request.sizes.mean_over_size())
+                   : std::string("Use larger sizes");
     };
     const double enough = std::ceil(tets / known.most_tets);
     if (tets > known.most_tets * parts)

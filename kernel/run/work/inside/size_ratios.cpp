@@ -117,6 +117,22 @@ double RatioCounts::share_obeyed() const {
     return all == 0 ? 0 : std::accumulate(begin, begin + bins_per_octave, std::int64_t{0}) / all;
 }
 
+std::int64_t RatioCounts::count_from(double bound) const {
+    const double bin = std::round((std::log2(bound / low) + octaves_below) * bins_per_octave);
+    return std::accumulate(
+        bins_.begin() + std::clamp<std::ptrdiff_t>(std::ptrdiff_t(bin), 0, std::ptrdiff_t(bins_.size())), bins_.end(),
+        std::int64_t{0});
+}
+
+double RatioCounts::mean() const {
+    constexpr double middle = 0.5;
+    const double all = count();
+    double sum = 0;
+    for (std::size_t bin = 0; bin < bins_.size(); ++bin)
+        sum += bins_[bin] * low * std::exp2((bin + middle) / bins_per_octave - octaves_below);
+    return all == 0 ? 0 : sum / all;
+}
+
 double RatioCounts::percentile(double fraction) const {
     const double wanted = fraction * count();
     double below = 0;
@@ -132,6 +148,23 @@ void SizeRatios::add(const SizeRatios& other) {
     for (const OfPatch& patch : other.by_patch) counts_of_patch(*this, patch.patch).add(patch.edges);
     cells_in_solids.resize(std::max(cells_in_solids.size(), other.cells_in_solids.size()), 0);
     for (std::size_t i = 0; i < other.cells_in_solids.size(); ++i) cells_in_solids[i] += other.cells_in_solids[i];
+}
+
+template <class Value>
+double SizeRatios::sum_of_edges(const Value& value) const {
+    double sum = value(inside) + value(interfaces) / 4;
+    for (const OfPatch& patch : by_patch) sum += value(patch.edges) / 2;
+    return sum;
+}
+
+double SizeRatios::mean() const {
+    const double edges = sum_of_edges([](const RatioCounts& r) { return double(r.count()); });
+    return edges == 0 ? 0 : sum_of_edges([](const RatioCounts& r) { return r.mean() * r.count(); }) / edges;
+}
+
+double SizeRatios::share_from(double bound) const {
+    const double edges = sum_of_edges([](const RatioCounts& r) { return double(r.count()); });
+    return edges == 0 ? 0 : sum_of_edges([&](const RatioCounts& r) { return double(r.count_from(bound)); }) / edges;
 }
 
 SizeRatios measure_sizes(const TetMesh& mesh, const SurfaceArrays& surface, const SizeField& field) {

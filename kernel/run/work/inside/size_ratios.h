@@ -24,6 +24,10 @@ class RatioCounts {
     std::int64_t count() const;
     /// Returns the share of all that lies from `low` to `high`; 0 if there is none.
     double share_obeyed() const;
+    /// Returns the number of ratios from `bound` on, a border of bins: low times a power of the sixteenth root of two.
+    std::int64_t count_from(double bound) const;
+    /// Returns the mean ratio, to half a percent; 0 if there is none.
+    double mean() const;
     /// Returns the ratio below which the given fraction in [0, 1] lies, to 2.5 %; ratios beyond 1/11 and 11 count as
     /// these.
     double percentile(double fraction) const;
@@ -55,12 +59,22 @@ struct SizeRatios {
     std::vector<std::int64_t> cells_in_solids = {};  ///< cells with their centroid in each of SizeField::solids()
 
     void add(const SizeRatios& other);
+    /// Returns the mean ratio of all edges, for the edges of facets as often as the edge is in the mesh: an edge of the
+    /// surface is that of two facets, one of an interface that of two facets of either side.
+    double mean() const;
+    /// Returns the share of edges that are at least `bound` times as long as wanted, see RatioCounts::count_from().
+    double share_from(double bound) const;
     bool empty() const { return inside.count() == 0 && interfaces.count() == 0 && by_patch.empty(); }
 
     template <class Archive>
     void archive(Archive& a) {
         a(inside, interfaces, by_patch, cells_in_solids);
     }
+
+ private:
+    // Returns the sum of what a function gives for the counts of each kind, times how often they hold an edge.
+    template <class Value>
+    double sum_of_edges(const Value& value) const;
 };
 
 /// Measures the mesh that fills a surface and has its vertices first; empty for a field that asks nothing. In meshes of
