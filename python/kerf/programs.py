@@ -26,7 +26,7 @@ def folder() -> str:
     if os.environ.get("KERF_PROGRAMS"):
         return ""
     package = Path(__file__).resolve().parent
-    for place in ("bin", "../..", "../../../../bin"):
+    for place in ("bin", "../..", "../../../../bin", "../../../../libexec/kerf"):
         candidate = (package / place).resolve()
         if (candidate / "kerf-worker").is_file():
             return str(candidate)

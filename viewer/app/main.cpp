@@ -21,22 +21,25 @@ namespace kerf::view {
 
 namespace {
 
+// The tree that is installed, with kerf in its bin; or the clone, with kerf in its build folder.
+std::filesystem::path tree_of(const std::string& kerf_program) {
+    return std::filesystem::path(kerf_program).parent_path().parent_path();
+}
+
 AppOptions options_beside_this_program() {
     const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     AppOptions options;
     options.kerf_program = look_for_program("kerf").path;
     options.shader_folder = (folder / "shaders").string();
     if (!std::filesystem::exists(options.shader_folder))
-        options.shader_folder = (folder.parent_path() / "share" / "kerf" / "shaders").string();
+        options.shader_folder = (tree_of(options.kerf_program) / "share" / "kerf" / "shaders").string();
     return options;
 }
 
-// In a clone the program lies in build/, and assets/ beside it.
-std::string folder_of_examples() {
-    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
-    const std::filesystem::path installed = folder / "share" / "kerf" / "examples";
+std::string folder_of_examples(const std::filesystem::path& tree) {
+    const std::filesystem::path installed = tree / "share" / "kerf" / "examples";
     std::error_code ignored;
-    return (std::filesystem::exists(installed, ignored) ? installed : folder / "assets").string();
+    return (std::filesystem::exists(installed, ignored) ? installed : tree / "assets").string();
 }
 
 // The seconds to sleep for events: changes that play, run or are being read are looked at in between.
@@ -108,7 +111,7 @@ int run(int argc, const char* const* argv) {
         take_screenshot(command, options);
     } else {
         options.config_folder = user_config_folder();
-        options.example_folder = folder_of_examples();
+        options.example_folder = folder_of_examples(tree_of(options.kerf_program));
         view_in_window(command, options);
     }
     return 0;

@@ -37,7 +37,17 @@ fs::path folder_of_program() {
 std::vector<fs::path> folders_of_package(const fs::path& package) {
     std::error_code error;
     if (package.empty() || !fs::exists(package / "__init__.py", error)) return {};
-    return {package / "bin", package.parent_path().parent_path(), (package / "../../../../bin").lexically_normal()};
+    const fs::path tree = (package / "../../../..").lexically_normal();
+    return {package / "bin", package.parent_path().parent_path(), tree / "bin", tree / "libexec/kerf"};
+}
+
+// The folder of a file and those that an installed tree may have with it: users call what is in bin, and other programs
+// may lie in libexec/kerf.
+std::vector<fs::path> folders_with(const fs::path& own) {
+    if (own.empty()) return {};
+    const fs::path tree = own.parent_path();
+    if (own.filename() == "kerf" && tree.filename() == "libexec") return {own, tree.parent_path() / "bin"};
+    return {own, tree / "bin", tree / "libexec/kerf"};
 }
 
 std::vector<fs::path> folders_with_programs(const std::string& folder) {
@@ -46,8 +56,7 @@ std::vector<fs::path> folders_with_programs(const std::string& folder) {
     if (const char* named = std::getenv(programs_variable); named && *named != 0) folders.emplace_back(named);
     for (const fs::path& each : folders_of_package(folder_of_library())) folders.push_back(each);
     for (const fs::path& own : {folder_of_library(), folder_of_program()})
-        if (!own.empty())
-            folders.insert(folders.end(), {own, own.parent_path() / "bin", own.parent_path() / "libexec/kerf"});
+        for (const fs::path& each : folders_with(own)) folders.push_back(each);
     return folders;
 }
 

@@ -17,8 +17,8 @@ struct ProgramSearch {
 
 /// Looks for a program by its name, "kerf-worker": in `folder`, unless that is empty; in the folder that the
 /// environment names; then, if this function is in a module of a package of Python, where the package has its programs;
-/// then beside the library that holds this function and beside the program that runs, there also in ../bin and
-/// ../libexec/kerf. Costs a few calls of the system.
+/// then beside the library that holds this function and beside the program that runs, there also in bin and
+/// libexec/kerf of the installed tree. Costs a few calls of the system.
 ProgramSearch look_for_program(const std::string& name, const std::string& folder = "");
 
 /// Returns the path of a program. Throws Error(io), naming the places that were looked at and the way out, if it is
