@@ -2,8 +2,8 @@
 library for C++. Its path is printed.
 
 Users call kerf alone, so that the other programs go to libexec. What the package says of itself is in packaging/deb;
-what it depends on is what its programs were linked with, by dpkg-shlibdeps, which dpkg-dev has. The same build gives the
-same bytes: every time is that of the last commit, or of SOURCE_DATE_EPOCH in the environment. The address of the
+what it depends on is what its programs were linked with, by dpkg-shlibdeps, which dpkg-dev has. The same build gives
+the same bytes: every time is that of the last commit, or of SOURCE_DATE_EPOCH in the environment. The address of the
 maintainers is that of the last commit, or DEBEMAIL.
 """
 
@@ -176,8 +176,8 @@ def main() -> None:
         add_desktop(tree)
         add_control(tree, arguments.depends or libraries(tree))
         set_modes_and_times(tree, seconds)
-        output_of("dpkg-deb", "--root-owner-group", f"-Z{arguments.compression}", "-z1", "--build", tree, arguments.folder,
-                  env={**os.environ, "SOURCE_DATE_EPOCH": str(seconds)})
+        output_of("dpkg-deb", "--root-owner-group", f"-Z{arguments.compression}", "-z1", "--build", tree,
+                  arguments.folder, env={**os.environ, "SOURCE_DATE_EPOCH": str(seconds)})
     print(arguments.folder / f"kerf_{version()}_{output_of('dpkg', '--print-architecture')}.deb")
 
 

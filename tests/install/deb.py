@@ -30,8 +30,9 @@ def run(*command: object, **environment: str) -> str:
 
 
 def make(build: Path, folder: Path) -> Path:
-    return Path(run(sys.executable, "-B", ROOT / "packaging/deb.py", build, folder, "--compression", "none", "--depends",
-                    "libc6", SOURCE_DATE_EPOCH=str(TIME), DEBEMAIL="kerf@example.org").splitlines()[-1])
+    command = [sys.executable, "-B", ROOT / "packaging/deb.py", build, folder]
+    return Path(run(*command, "--compression", "none", "--depends", "libc6", SOURCE_DATE_EPOCH=str(TIME),
+                    DEBEMAIL="kerf@example.org").splitlines()[-1])
 
 
 def expect(condition: bool, what: object) -> None:
@@ -45,14 +46,16 @@ def check_entries(package: Path) -> None:
         entries = list(tarfile.open(fileobj=process.stdout, mode="r|"))
     expect(len({entry.mtime for entry in entries}) == 1, "files of several times")
     for entry in entries:
-        expect(entry.uid == entry.gid == 0 and entry.mode in (0o644, 0o755), f"{entry.name}: {entry.mode:o} of {entry.uid}")
+        expect(entry.uid == entry.gid == 0, f"{entry.name} is of {entry.uid}")
+        expect(entry.mode in (0o644, 0o755), f"{entry.name} has the mode {entry.mode:o}")
 
 
 def check_commands(tree: Path) -> None:
     """Users see kerf alone; each command has a page, and completion knows it."""
     expect([file.name for file in (tree / "usr/bin").iterdir()] == ["kerf"], "programs beside kerf are in /usr/bin")
     completion = (tree / "usr/share/bash-completion/completions/kerf").read_text()
-    commands = re.findall(r"^  ([a-z]+) +\w", run(tree / "usr/bin/kerf", "--help").partition("Commands:")[2], re.MULTILINE)
+    listed = run(tree / "usr/bin/kerf", "--help").partition("Commands:")[2]
+    commands = re.findall(r"^  ([a-z]+) +\w", listed, re.MULTILINE)
     expect("mesh" in commands and "view" in commands, commands)
     for command in commands:
         expect((tree / f"usr/share/man/man1/kerf-{command}.1.gz").is_file(), f"kerf {command} has no page")
