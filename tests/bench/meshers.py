@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Kerf's default mesher, TetGen, and gmsh's HXT where there is a gmsh, on the same surfaces under the same bounds of the volume.
+"""Kerf's default mesher, TetGen, and those of gmsh where there is one, on the same surfaces under the same bounds of the volume.
 
-usage: meshers.py [all] [--only WORD] [--mesher NAME] [--no-hxt] [--repetitions N] [--long SECONDS] [--limit SECONDS] [--json FILE]
+usage: meshers.py [all] [--only WORD] [--mesher NAME] [--no-gmsh] [--repetitions N] [--long SECONDS] [--limit SECONDS] [--json FILE]
                   [--surface FILE]...
 
 Each call is a process of its own on one thread. Seconds are those that the processor spends for the user on meshing
@@ -11,11 +11,12 @@ makes exactly as many. What comes out is measured by one program (tests/bench/me
 angles, cells with one below 20 degrees in a million, and the share of the volume that is in cells above the bound.
 Results of Kerf's meshers are verified, too; those of gmsh must fill the volume.
 
-HXT does not take a bound of the volume: it is asked for edges that make about as many tetrahedra as TetGen's with the
-bound. Its seconds are those of its own log ("Done meshing 3D", processor), raw and with its optimisation; where that
-says 0, the rate is unknown, a dash.
+gmsh does not take a bound of the volume: it is asked for edges that make about as many tetrahedra as TetGen's with the
+bound. Its seconds are those of its own log ("Done meshing 3D" and "Done optimizing mesh", processor); where that says 0,
+the rate is unknown, a dash. HXT is one of its meshers, raw and with its optimisation; "gmsh" is the one that it takes
+where nobody chooses, a Delaunay mesher with an optimisation of its own.
 
-Without `all`: the bearing cap at 0.4 and 3.5 million tetrahedra, at 20 million for meshers other than TetGen and HXT,
+Without `all`: the bearing cap at 0.4 and 3.5 million tetrahedra, at 20 million for meshers other than TetGen and gmsh's,
 and every asset without a bound. With it all of them at 20 million, the cap in 207 k facets (each of 52 k quartered) at
 3.8 and 20 million, and every other asset with a bound for a million. With --surface these files instead, without a
 bound.
@@ -26,6 +27,7 @@ import dataclasses
 import json
 import os
 import pathlib
+import re
 import shutil
 import statistics
 import subprocess
@@ -39,10 +41,15 @@ CAP = "bearing_cap_52k"
 REFERENCE = "tetgen"
 WANTED = -1  # the bound that makes so many tetrahedra of other assets:
 TETS_WITH_BOUND = 1e6
-EDGE_OF_BOUND = 2.35  # of HXT: cube of the edge length that makes as many tetrahedra as a bound of 1 in TetGen
+EDGE_OF_BOUND = 2.35  # of gmsh: cube of the edge length that makes as many tetrahedra as a bound of 1 in TetGen
+OF_GMSH = {  # names of its meshers: Mesh.Algorithm3D and Mesh.Optimize
+    "HXT raw": (10, 0),
+    "HXT optimised": (10, 1),
+    "gmsh": (1, 1),
+}
 GMSH_SCRIPT = """General.NumThreads = 1;
 Mesh.MaxNumThreads3D = 1;
-Mesh.Algorithm3D = 10;
+Mesh.Algorithm3D = {algorithm};
 Mesh.Optimize = {optimised};
 Mesh.Binary = 1;
 {size}
@@ -63,7 +70,7 @@ class Case:
     bound: float  # 0: none
     label: str
     quartered: bool = False
-    is_large: bool = False  # too long for TetGen and HXT where `all` is not asked for
+    is_large: bool = False  # too long for TetGen and gmsh where `all` is not asked for
 
 
 class Call:
@@ -105,15 +112,17 @@ class OwnMesher(Call):
         return done
 
 
-class Hxt(Call):
-    def __init__(self, optimised, helper, stem, given, bound):
-        super().__init__("HXT optimised" if optimised else "HXT raw")
+class Gmsh(Call):
+    def __init__(self, name, helper, stem, given, bound):
+        super().__init__(name)
+        algorithm, optimised = OF_GMSH[name]
         self.helper, self.bound, self.volume = helper, bound, given["volume"]
         self.script, self.mesh = stem.with_suffix(".geo"), stem.with_suffix(".msh")
         numbers = range(1, given["shells"] + 1)
         size = (EDGE_OF_BOUND * bound) ** (1 / 3)
         self.text = GMSH_SCRIPT.format(
-            optimised=int(optimised),
+            algorithm=algorithm,
+            optimised=optimised,
             size=f"Mesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeMax = {size!r};" if bound else "",
             merges="\n".join(f'Merge "{stem}_{i - 1}.stl";' for i in numbers),
             loops="\n".join(f"Surface Loop({i}) = {{{i}}};" for i in numbers),
@@ -121,8 +130,8 @@ class Hxt(Call):
 
     def call(self, measured, limit):
         self.script.write_text(self.text + (f'Save "{self.mesh}";\n' if measured else ""))
-        done, seconds, _ = run_gmsh(self.script, self.script.with_suffix(".log"), limit)
-        figures = {"seconds": seconds, "peak_bytes": done.peak_bytes}
+        done, made, improved = run_gmsh(self.script, self.script.with_suffix(".log"), limit)
+        figures = {"seconds": made + improved, "peak_bytes": done.peak_bytes}
         if not measured:
             return figures
         figures |= output_of(self.helper, "measure", self.mesh, self.bound)
@@ -151,8 +160,8 @@ def calls_of(args, case, stem, given):
     is_short = args.which == "all" or not case.is_large
     names = [args.mesher] if args.mesher == REFERENCE or not is_short else [args.mesher, REFERENCE]
     calls = [OwnMesher(name, args.helper, surface, case.bound) for name in names]
-    if is_short and not args.no_hxt and shutil.which("gmsh"):
-        calls += [Hxt(optimised, args.helper, stem, given, case.bound) for optimised in (False, True)]
+    if is_short and not args.no_gmsh and shutil.which("gmsh"):
+        calls += [Gmsh(name, args.helper, stem, given, case.bound) for name in OF_GMSH]
     return calls
 
 
@@ -190,6 +199,24 @@ def cases_of(args):
     return [case for case in cases if not args.only or args.only in case.label]
 
 
+def versions():
+    """Of the programs, and of the library that Kerf's TetGen is; without what is not known here."""
+    commands = {"TetGen": ["dpkg-query", "-W", "-f", "${source:Upstream-Version}", "libtet1.5"],
+                "gmsh": ["gmsh", "--version"]}
+    found = {"Kerf": re.search(r"project\(Kerf VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]}
+    for name, command in commands.items():
+        if shutil.which(command[0]):
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+            found[name] = (done.stdout + done.stderr).split()[0]
+    return found
+
+
+def processor():
+    """Its name, as the system has it."""
+    name = re.search(r"^model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    return re.sub(r"\((R|TM)\)| Processor", "", name[1]) if name else "a processor without a name"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("which", nargs="?", choices=("quick", "all"), default="quick")
@@ -197,7 +224,7 @@ def main():
     parser.add_argument("--helper", default=ROOT / "build/meshers_bench")
     parser.add_argument("--only", help="cases whose names contain this")
     parser.add_argument("--mesher", default="auto", help=f"this one beside {REFERENCE}")
-    parser.add_argument("--no-hxt", action="store_true")
+    parser.add_argument("--no-gmsh", action="store_true")
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--long", type=float, default=12, help="seconds of a call that is not repeated")
     parser.add_argument("--limit", type=float, default=900, help="seconds for one call")
@@ -210,8 +237,9 @@ def main():
     print(LAYOUT.format(*COLUMNS))
     comparisons = [compare(args, case) for case in cases_of(args)]
     if args.json:
-        args.json.write_text(json.dumps({"cores": os.cpu_count(), "load_at_start": load, "repetitions": args.repetitions,
-                                         "cases": comparisons}, indent=2) + "\n")
+        how = {"processor": processor(), "cores": os.cpu_count(), "load_at_start": load, "repetitions": args.repetitions,
+               "long": args.long, "versions": versions()}
+        args.json.write_text(json.dumps(how | {"cases": comparisons}, indent=2) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Rows of the tables of meshers, where a figure is unknown."""
+"""Rows of the tables of meshers, where a figure is unknown, and README's table, which names versions."""
 
 import contextlib
 import io
@@ -9,6 +9,7 @@ import unittest
 import measured
 import meshers
 import python_modules
+import readme
 import regions
 
 ROW = {"mesher": "HXT raw", "tets": 812, "seconds": 0.0, "wall_seconds": 0.01, "peak_bytes": 5e7, "dihedral_0": 9.5,
@@ -56,6 +57,25 @@ class UnknownRates(unittest.TestCase):
         self.assertEqual(measured.rate_text(1234567.8), "1,234,568")
         self.assertEqual(measured.ratio_text(3, 2), "1.50")
         self.assertEqual(measured.ratio_text(3, 2, 1), "1.5")
+
+
+class ReadmesTable(unittest.TestCase):
+    ROWS = [ROW | {"mesher": name, "tets": 3.3e6} for name in ("auto", "tetgen", "HXT raw")]
+    MEASURED = {"versions": {"Kerf": "0.1.0", "TetGen": "1.5.0", "gmsh": "5.0"}, "repetitions": 3, "long": 12,
+                "processor": "any", "date": "2026-11-29", "cases": [{"case": readme.CASE, "facets": 51840, "rows": [
+                    *ROWS, {"mesher": "gmsh", "failure": "more than 9 s"}]}]}
+
+    def test_it_names_versions_and_the_year_that_is_known(self):
+        header = readme.table_of(self.MEASURED).splitlines()[0]
+        self.assertEqual([cell.strip() for cell in header.split("|")[2:-1]],
+                         ["Kerf 0.1.0", "TetGen 1.5.0 (2013)", "gmsh 5.0", "gmsh HXT", "HXT, optimised"])
+
+    def test_each_mesher_has_a_figure_or_the_reason_why_not(self):
+        cells = [cell.strip() for cell in readme.table_of(self.MEASURED).splitlines()[2].split("|")[1:-1]]
+        self.assertEqual(cells, ["tetrahedra", "3.30 M", "3.30 M", "more than 9 s", "3.30 M", "not run"])
+
+    def test_every_mesher_that_is_measured_has_a_column(self):
+        self.assertEqual(set(readme.COLUMNS), {"auto", meshers.REFERENCE, *meshers.OF_GMSH})
 
 
 if __name__ == "__main__":
