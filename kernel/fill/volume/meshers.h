@@ -36,7 +36,7 @@ struct MesherForecast {
 inline constexpr MesherForecast lattice_forecast = {
     .tets_by_edge_ratio = {31, 11, 1.6, 0.9, 0.48, 0.43, 1, 1.6, 2.05, 2.2, 2.3},
     .tets_per_volume_bound = 1.667,
-    .tets_per_sized_volume = 1.25,
+    .tets_per_sized_volume = 1.87,
     .most_tets_per_facet = 2.5,
     .seconds_per_facet = 6e-6,
     .seconds_per_tet = 1e-6,

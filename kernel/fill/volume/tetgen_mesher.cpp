@@ -92,7 +92,7 @@ extern const Mesher tetgen_mesher = {
     .name = "tetgen",
     .forecast = {.tets_by_edge_ratio = {0, 0, 0, 0, 0.8, 0.9, 1.2, 1.75, 2.1, 2.2, 2.3},
                  .tets_per_volume_bound = 1.48,
-                 .tets_per_sized_volume = 1.4,
+                 .tets_per_sized_volume = 2.1,
                  .most_tets_per_facet = 1.9,
                  .seconds_per_facet = 0,
                  .seconds_per_tet = 5e-6,
