@@ -40,6 +40,7 @@ std::string bytes_of(const std::vector<T>& values) {
 class Tree {
  public:
     Tree() {
+        content_.format = "cgns";
         content_.tracks_order = true;
         set_attributes("/", "HDF5 MotherNode", "Root Node of HDF5 File", "MT");
         const std::string_view format = "IEEE_LITTLE_32", library = "HDF5 Version 1.10";
@@ -202,7 +203,7 @@ extern const Format cgns_format = {
     .name = "cgns",
     .help = "CGNS on HDF5: ParaView, VisIt, codes for flow",
     .ending = ".cgns",
-    .kind = {"HDF5 file", [](std::string_view text) { return text.starts_with("\x89HDF\r\n"); }},
+    .kind = {"CGNS file", [](std::string_view text) { return is_hdf5_of("cgns", text); }},
     .patch_words = cgns::patch_words,
     .write_merged = cgns::write_merged};
 

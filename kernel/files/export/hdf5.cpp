@@ -207,6 +207,7 @@ class Hdf5Piece {
 
 void make_hdf5(const MeshOutline& outline, ExportFiles& files, const std::string& stem) {
     Hdf5Content content;
+    content.format = "hdf5";
     content.groups = {"VTKHDF", "VTKHDF/PointData", "VTKHDF/CellData", "geometry", "viz", "viz/topology"};
     if (!outline.values.empty())
         content.groups.insert(content.groups.end(), {"fields", "fields/vertices", "fields/cells"});
@@ -257,7 +258,7 @@ extern const Format hdf5_format = {.name = "hdf5",
                                    .ending = ".h5",
                                    .kind = {"HDF5 file or XDMF",
                                             [](std::string_view text) {
-                                                return text.starts_with("\x89HDF\r\n") ||
+                                                return is_hdf5_of("hdf5", text) ||
                                                        text.find("<Xdmf Version=\"3.0\">") < 50;
                                             }},
                                    .write_whole = write_hdf5_whole,

@@ -111,6 +111,7 @@ void add_mesh(Hdf5Content& content) {
 
 Hdf5Content content_of(const MeshOutline& outline, const CellGroups& groups) {
     Hdf5Content content;
+    content.format = "med";
     content.tracks_order = true;
     add_mesh(content);
     add_items(content, step + "/NOE");
@@ -206,12 +207,11 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 
 }  // namespace med
 
-extern const Format med_format = {
-    .name = "med",
-    .help = "MED: Salome, Code_Aster",
-    .ending = ".med",
-    .kind = {"HDF5 file", [](std::string_view text) { return text.starts_with("\x89HDF\r\n"); }},
-    .patch_words = med::patch_words,
-    .write_merged = med::write_merged};
+extern const Format med_format = {.name = "med",
+                                  .help = "MED: Salome, Code_Aster",
+                                  .ending = ".med",
+                                  .kind = {"MED file", [](std::string_view text) { return is_hdf5_of("med", text); }},
+                                  .patch_words = med::patch_words,
+                                  .write_merged = med::write_merged};
 
 }  // namespace kerf

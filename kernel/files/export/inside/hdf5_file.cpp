@@ -96,14 +96,19 @@ hid_t file_type(Hdf5Type type) {
     return H5T_IEEE_F64LE;
 }
 
+// Returns the comment of the root group, which no reader of a format minds. It is set first, and so lies in the first
+// bytes of the file.
+std::string comment_of(std::string_view format) { return fmt::format("Kerf's mesh: {}.", format); }
+
 // Makes the file with all arrays, which have no values yet.
 class Hdf5Creation {
  public:
-    Hdf5Creation(const std::string& path, bool tracks_order)
+    Hdf5Creation(const std::string& path, const Hdf5Content& content)
         : path_(path),
-          tracks_order_(tracks_order),
-          file_(created(path, tracks_order), H5Fclose, path),
+          tracks_order_(content.tracks_order),
+          file_(created(path, content.tracks_order), H5Fclose, path),
           array_properties_(property_list(H5P_DATASET_CREATE)) {
+        check(H5Oset_comment(file_, comment_of(content.format).c_str()));
         check(H5Pset_layout(array_properties_, H5D_CONTIGUOUS));
         check(H5Pset_alloc_time(array_properties_, H5D_ALLOC_TIME_EARLY));
         check(H5Pset_fill_time(array_properties_, H5D_FILL_TIME_NEVER));
@@ -171,6 +176,7 @@ class Hdf5Creation {
             access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
         track_no_times(creation);
         if (tracks_order) track_order(creation);
+        H5Pset_est_link_info(creation, 8, 16);  // room in the header of the root group, for its comment
         H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
         H5Pset_file_locking(access, false, true);
         H5Pset_alignment(access, page_size, page_size);
@@ -218,9 +224,13 @@ class Hdf5Creation {
 
 }  // namespace
 
+bool is_hdf5_of(std::string_view format, std::string_view beginning) {
+    return beginning.starts_with("\x89HDF\r\n") && beginning.find(comment_of(format)) != beginning.npos;
+}
+
 void make_hdf5_file(const std::string& path, const Hdf5Content& content) {
     const Hdf5Turn turn;
-    Hdf5Creation file(path, content.tracks_order);
+    Hdf5Creation file(path, content);
     file.make_groups(content.groups);
     for (const Hdf5Array& array : content.arrays) file.make(array);
     for (const Hdf5Names& names : content.names) file.make_names(names);

@@ -47,12 +47,17 @@ struct Hdf5Names {
 };
 
 struct Hdf5Content {
+    std::string format;         ///< name of the format of Kerf, by which is_hdf5_of() knows the file
     bool tracks_order = false;  ///< groups know the order in which their members were made
     std::vector<std::string> groups;
     std::vector<Hdf5Array> arrays;
     std::vector<Hdf5Attribute> attributes;
     std::vector<Hdf5Names> names;
 };
+
+/// Tells by the first 1,024 bytes of a file whether make_hdf5_file() has made it for this format. Other programs' files
+/// of the same format are none.
+bool is_hdf5_of(std::string_view format, std::string_view beginning);
 
 /// Makes the file with its arrays contiguous, allocated and not filled. The bytes depend on the content alone, not on
 /// the time nor on the default version of the format. An older file is replaced. From any thread. Throws Error(io).
