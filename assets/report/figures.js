@@ -2,9 +2,11 @@
 'use strict';
 
 
-const {report, surface} = JSON.parse(document.getElementById('data').textContent);
+const {report, surface, solution} = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
 const totals = report.totals, isMeshed = totals.tets > 0, failed = report.parts.filter((part) => part.error);
+
+const facetsOfFile = report.input.faces_of_file ?? report.input.remeshing?.facets_before ?? report.input.faces;
 
 function make(tag, attributes = {}, ...children) {
     const element = /^(svg|g|rect|path|line|circle|text|title)$/.test(tag) ?
@@ -63,6 +65,11 @@ if (failed.length > 0) {
         of: (part) => numbers.has(part.id) ? 1 : 0
     };
 }
+// "VonMises pull" is the von Mises stress of the case pull.
+const fieldName = (name) => name.replace(/^VonMises/, 'von Mises stress').replace(/^Displacement/, 'displacement');
+surface.fields.forEach(({name}, field) => colourings[`value_${field}`] = {name: fieldName(name), keys: [], field});
+const stressField = surface.fields.findIndex(({name}) => name.startsWith('VonMises'));
+const firstField = `value_${Math.max(stressField, 0)}`;
 if (surface.patches.length < 2) delete colourings.patch;
 if (surface.regions.length < 2) delete colourings.region;
 
@@ -74,16 +81,30 @@ function showHead() {
         `meshed by Kerf ${report.kerf}`.replace('meshed', isMeshed ? 'meshed' : 'divided')
     ].join(' · ');
     const fault = failed.length ? `${failed.length} of ${counted(report.parts.length, 'part')} failed` : 'not verified';
-    byId('verdict').textContent = laws.passed ? '✓ verified: every law holds' : `✗ ${fault}`;
-    byId('verdict').className = laws.passed ? 'good' : 'bad';
+    const unsolved = (solution?.solve.cases ?? []).filter((each) => !each.converged);
+    const holds = laws.passed && unsolved.length === 0;
+    byId('verdict').textContent = !laws.passed ? `✗ ${fault}` :
+        unsolved.length                        ? '✗ the solver has not reached its tolerance' :
+        solution                               ? '✓ solved, on a verified mesh' :
+                                                 '✓ verified: every law holds';
+    byId('verdict').className = holds ? 'good' : 'bad';
     const angle = report.quality?.all?.min_dihedral_deg;
     const tiles = [[whole(surface.parts.length), surface.parts.length === 1 ? 'part' : 'parts']];
     if (isMeshed)
         tiles.push(
             [whole(totals.tets), 'tetrahedra'], [whole(totals.vertices), 'vertices'],
             [`${digits(angle.min, 3)}°`, `smallest dihedral angle; 1 % below ${digits(angle.p1, 3)}°`]);
+    const most = (key) => Math.max(...solution.solve.cases.map((each) => each[key].value));
+    if (solution) tiles.push([whole(solution.solve.unknowns), 'unknowns']);
+    if (solution?.solve.cases?.length)
+        tiles.push(
+            [digits(most('max_displacement')), 'largest displacement'],
+            [digits(most('max_von_mises')), 'largest von Mises stress']);
+    tiles.push([whole(facetsOfFile), 'facets of the file']);
+    if (report.input.faces !== facetsOfFile)
+        tiles.push([whole(report.input.faces), 'facets of the mesh\'s surface']);
     tiles.push(
-        [whole(report.input.faces), 'facets of the input'], [digits(totals.volume), 'volume'],
+        [digits(totals.volume), 'volume'],
         [seconds(totals.wall_seconds), 'wall clock'], [megabytes(totals.peak_rss_bytes), 'memory, most of a process']);
     byId('tiles').append(
         ...tiles.map(([value, name]) => make('div', {}, make('b', {}, value), make('span', {}, name))));
@@ -140,11 +161,21 @@ function histogram(name) {
     return make('div', {}, make('h3', {}, title), svg, make('dl', {}, ...words));
 }
 
+function sharpWords(place) {
+    const where = [`part ${place.part}`, place.region && `region ${place.region}`, place.patch && `patch ${place.patch}`]
+                      .filter(Boolean)
+                      .join(', ');
+    return `${counted(place.tets, 'cell')} below ${report.sharp.below_deg}°, the worst of ` +
+        `${digits(place.min_dihedral_deg, 2)}° at (${place.point.map((x) => digits(x)).join(', ')}) in ${where}: ` +
+        `${place.why}. ${place.way_out}`;
+}
+
 function showQuality() {
     if (!isMeshed) return byId('quality').remove();
     const hasInterfaces = surface.parts.length > 1;
     byId('quality-note').textContent =
         `All ${whole(totals.tets)} cells` + (hasInterfaces ? '; darker: those with a vertex on an interface.' : '.');
+    byId('sharp').append(...(report.sharp?.places ?? []).map((place) => make('li', {}, sharpWords(place))));
     byId('histograms').append(...Object.keys(measures).filter((name) => report.quality.all[name]).map(histogram));
 }
 
@@ -270,10 +301,71 @@ function showParts(choose) {
         ['Neighbours', (part) => part.neighbours.length, (_, part) => part.neighbours.join(', '), true]);
     if (isMeshed)
         columns.push(
+            ['Smallest angle', (part) => part.min_dihedral_deg ?? '', (a) => a === '' ? '' : `${digits(a, 3)}°`],
             ['Mesher', 'mesher', text, true], ['Attempts', 'attempts', whole], ['Time', 'seconds', seconds],
             ['Memory', 'peak_rss_bytes', megabytes]);
     if (failed.length) columns.push(['Failed', (part) => part.error ?? '', text, true]);
     byId('part-table').append(table(report.parts, columns, (part) => choose({part: part.id, branch: 0})));
+}
+
+function showRegions() {
+    const regions = report.input.regions ?? [];
+    if (regions.length < 2) return byId('regions').remove();
+    const rows = regions.map((region, i) => {
+        const own = report.parts.filter((part) => part.region === i), sum = (key) => own.reduce((n, p) => n + p[key], 0);
+        const angles = own.map((part) => part.min_dihedral_deg).filter((angle) => angle !== null && angle !== undefined);
+        return {...region, id: i, parts: own.length, tets: sum('tets'), angle: angles.length ? Math.min(...angles) : NaN};
+    });
+    const swatch = (i) => make('span', {class: 'swatch', style: `background:${colourAt(i)}`});
+    const columns = [
+        ['Region', 'name', (name, row) => [swatch(row.id), ` ${name}`], true], ['Volume', 'volume', (v) => digits(v, 5)]
+    ];
+    if (isMeshed)
+        columns.push(
+            ['Tetrahedra', 'tets', whole],
+            ['Smallest angle', 'angle', (angle) => Number.isNaN(angle) ? '' : `${digits(angle, 3)}°`]);
+    columns.push(
+        ['Area', 'area', (a) => digits(a)], ['Facets', 'faces', whole], ['Shells', 'components', whole],
+        ['Parts', 'parts', whole]);
+    byId('region-table').append(table(rows, columns));
+}
+
+// The solution of kerf solve
+
+const vector = (v) => `(${v.map((x) => digits(x)).join(', ')})`;
+
+function caseFigures(each) {
+    const figures = list(each.name || 'Load', [
+        ['load', vector(each.load)], ['largest displacement', digits(each.max_displacement.value)],
+        ['at', vector(each.max_displacement.at)], ['largest von Mises stress', digits(each.max_von_mises.value)],
+        ['at', vector(each.max_von_mises.at)],
+        ['estimated error, energy norm', `${digits(100 * each.relative_error, 3)} %`],
+        ['loads and reactions differ by', digits(each.imbalance, 2)],
+        ['solver', `${each.iterations} iterations, residual ${digits(each.residual, 2)}`, !each.converged]
+    ]);
+    const reactions = table(each.reactions.map((reaction, id) => ({...reaction, id})), [
+        ['Support', 'support', text, true], ['Reaction', 'reaction', vector, true], ['Moment', 'moment', vector, true],
+        ['about', 'about', vector, true]
+    ]);
+    return make('div', {class: 'case'}, make('div', {class: 'columns'}, figures), make('div', {class: 'scroll'}, reactions));
+}
+
+function showSolution() {
+    if (!solution) return byId('solution').remove();
+    const {solve} = solution;
+    byId('solution-note').textContent = `${solve.case_file}: elements of order ${solve.order}, ` +
+        `${counted(solve.nodes, 'node')}, ${counted(solve.unknowns, 'unknown')}. Units are those of the surface and the ` +
+        'case. Colours above are values at the vertices of the surface.';
+    byId('cases').append(...(solve.cases ?? []).map(caseFigures));
+    if (solve.modes)
+        byId('cases').append(table(solve.modes.map((mode, id) => ({...mode, id: id + 1})), [
+            ['Mode', 'id', whole], ['Frequency', 'frequency', (f) => digits(f, 5)],
+            ['Rigid', 'rigid', (rigid) => rigid ? 'yes' : 'no', true],
+            ['Moves most at', (mode) => mode.max_displacement.at, vector, true]
+        ]));
+    byId('cases').append(make('div', {class: 'case'}, make('div', {class: 'columns'}, list(
+        'Materials', (solve.materials ?? []).map(
+            (material) => [material.name, `E ${digits(material.young)}, ν ${digits(material.poisson)}`])))));
 }
 
 function showCuts() {
@@ -331,7 +423,9 @@ function showRun() {
         list(
             'Read',
             [
-                ['vertices', whole(input.vertices)], ['facets', whole(input.faces)], ['components', input.components],
+                ['facets of the file', whole(facetsOfFile)],
+                ['facets of the mesh\'s surface', whole(input.faces)], ['its vertices', whole(input.vertices)],
+                ['components', input.components],
                 ['genus', input.genus], ['volume', digits(input.volume, 6)], ['area', digits(input.area, 6)],
                 ...(repairs.length ? repairs : [['repairs', 'none']])
             ]),

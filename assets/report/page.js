@@ -1,7 +1,7 @@
 // What the controls of the page of kerf report do. A view can be sent as a link, since the address says it:
 //   turn=35,25  azimuth and tilt in degrees   zoom=1  pan=0,0  explode=0..1
 //   clip=x,0.5  what is below that share of the box along x is left; -x: above
-//   colour=part|patch|region|sides|outcome   hide=outer,interfaces,contours   show=edges,cuts
+//   colour=part|patch|region|sides|outcome|value_0   hide=outer,interfaces,contours   show=edges,cuts
 //   part=8 or branch=4  what is chosen   only=1  the rest is hidden   pick=400,300  choose by a place of the picture
 //   check=1  for tests: the body's data says the triangles drawn, the share of pixels covered, and a digest of them
 'use strict';
@@ -13,7 +13,8 @@ const initial = {
     explode: 0,
     axis: '',
     clip: 0.5,
-    colour: colourings.outcome ? 'outcome' : 'part',  // where it failed is what one looks for
+    // What one looks for first: where it failed, the stresses, the regions.
+    colour: ['outcome', firstField, 'region'].find((name) => colourings[name]) ?? 'part',
     outer: true,
     interfaces: true,
     contours: true,
@@ -188,12 +189,15 @@ class Page {
     }
 
     show() {
-        const chosen = this.chosen(), {of} = colourings[this.state.colour],
+        const chosen = this.chosen(), {of, field} = colourings[this.state.colour],
               dim = this.colours.matches ? '#4a5058' : '#c3c7cc';
         const isChosen = (part) => chosen.size === 0 || chosen.has(part.id);
         this.view.show(
-            this.state, (part, run) => isChosen(part) ? colourAt(of(part, run)) : dim,
-            (part) => !this.state.only || isChosen(part), this.colours.matches ? '#e7e9eb' : '#14181c');
+            this.state,
+            (part, run) => !isChosen(part) ? dim :
+                field === undefined        ? colourAt(of(part, run)) :
+                                             byValue,
+            (part) => !this.state.only || isChosen(part), this.colours.matches ? '#e7e9eb' : '#14181c', field);
         for (const name of ['outer', 'interfaces', 'contours', 'edges', 'cuts']) byId(name).checked = this.state[name];
         for (const name of ['explode', 'clip', 'axis', 'colour']) byId(name).value = this.state[name];
         byId('clip').disabled = this.state.axis === '';
@@ -206,7 +210,14 @@ class Page {
     }
 
     showLegend(chosen) {
-        const {keys} = colourings[this.state.colour], isParts = this.state.colour === 'part', most = 200;
+        const {keys, field} = colourings[this.state.colour], isParts = this.state.colour === 'part', most = 200;
+        if (field !== undefined) {
+            const {least, most: largest} = surface.fields[field];
+            return byId('legend').replaceChildren(
+                digits(least),
+                make('span', {class: 'scale', style: `background:linear-gradient(to right,${valueStops.join()})`}),
+                digits(largest));
+        }
         byId('legend').replaceChildren(
             ...keys.slice(0, most).map((key, i) => {
                 const swatch = make('span', {class: 'swatch', style: `background:${colourAt(i)}`});
@@ -249,7 +260,9 @@ class Page {
 let page = null;
 const choose = (what) => page?.choose(what);
 showHead();
+showSolution();
 showQuality();
+showRegions();
 showTree(choose);
 showParts(choose);
 showRun();

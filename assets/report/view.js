@@ -1,6 +1,19 @@
 // The surface in the page of kerf report: decoded, drawn, picked. It knows nothing of the rest of the page.
 'use strict';
 
+// Colours of values from the least to the most, as bytes in the linear space in which light is added up.
+const valueStops = ['#3b1f6e', '#2a6f9e', '#27a384', '#a5c93b', '#fbe04a'];
+const valueColours = Array.from({length: 256}, (_, i) => {
+    const place = i / 255 * (valueStops.length - 1), from = Math.min(Math.floor(place), valueStops.length - 2);
+    const byte = (stop, k) => parseInt(stop.slice(1 + 2 * k, 3 + 2 * k), 16);
+    return [0, 1, 2].map((k) => {
+        const mixed =
+            byte(valueStops[from], k) + (place - from) * (byte(valueStops[from + 1], k) - byte(valueStops[from], k));
+        return Math.round(255 * (mixed / 255) ** 2.2);
+    });
+});
+const byValue = 'values';  // in the place of a colour
+
 // What packed_surface() (kernel/html/packed_surface.h) has made.
 class PackedNumbers {
     constructor(bytes) {
@@ -32,7 +45,12 @@ async function unpackedParts(surface, base64) {
             corners[i + 1] = first + numbers.next();
             corners[i + 2] = first + numbers.next();
         }
-        return {...part, steps, corners};
+        const colours = surface.fields.map(() => {
+            const colour = new Uint8Array(3 * part.vertices);
+            for (let i = 0; i < colour.length; i += 3) colour.set(valueColours[numbers.next()], i);
+            return colour;
+        });
+        return {...part, steps, corners, colours};
     });
 }
 
@@ -193,23 +211,26 @@ class View {
     // [lit from outside, plain from inside]: what a clip opens looks as if it were solid.
     materialsOf(colour) {
         if (!this.materials.has(colour)) {
-            const offset = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
+            const vertexColors = colour === byValue, base = vertexColors ? '#ffffff' : colour;
+            const common = {vertexColors, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
             this.materials.set(colour, [
-                new THREE.MeshLambertMaterial({color: colour, flatShading: true, ...offset}),
+                new THREE.MeshLambertMaterial({color: base, flatShading: true, ...common}),
                 new THREE.MeshBasicMaterial(
-                    {color: new THREE.Color(colour).multiplyScalar(0.62), side: THREE.BackSide, ...offset})
+                    {color: new THREE.Color(base).multiplyScalar(0.62), side: THREE.BackSide, ...common})
             ]);
         }
         return this.materials.get(colour);
     }
 
     // state: what the page's controls say; colourOf(part, run): of a run of triangles that have their neighbour and
-    // patch in common; isShown(part); ink: of lines.
-    show(state, colourOf, isShown, ink) {
+    // patch in common, or byValue: then the field is shown; isShown(part); ink: of lines.
+    show(state, colourOf, isShown, ink, field) {
         Object.values(this.lineMaterials).forEach((material) => material.color.set(ink));
         let drawn = 0;
         for (const part of this.parts) {
             part.group.visible = isShown(part);
+            if (field !== undefined)
+                part.geometry.setAttribute('color', new THREE.BufferAttribute(part.colours[field], 3, true));
             const seen = part.runs.filter((run) => run.neighbour < 0 ? state.outer : state.interfaces);
             const colours = [...new Set(seen.map((run) => colourOf(part, run)))];
             part.geometry.clearGroups();

@@ -18,12 +18,12 @@ struct ReportPage {
 
 /// Returns the page of a run of kerf mesh or kerf decompose that has ended, even if parts of it could not be meshed:
 /// the figures of its report, and the surfaces of its parts, with 16 bits a coordinate and at most `limit` > 0
-/// triangles (files/html/inside/page_surface.h). It needs no other file and no network. The bytes depend on the folder
+/// triangles (files/html/inside/page_surface.h). Of a solution of kerf solve it has loads, reactions and largest
+/// values, too, and its values on the surface. It needs no other file and no network. The bytes depend on the folder
 /// alone.
 ///
-/// Throws Error(io), with the way out, for a folder that is no such run, Error(usage) for a solution, and
-/// Error(verification) where the report or a surface is not as Kerf has written it. Memory: the page, and a part at a
-/// time.
+/// Throws Error(io), with the way out, for a folder that is no such run or solution, and Error(verification) where a
+/// report or another file is not as Kerf has written it. Memory: the page, and a part at a time.
 ReportPage report_page(const std::string& folder, std::int64_t limit = most_page_triangles);
 
 }  // namespace kerf

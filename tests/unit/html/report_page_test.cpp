@@ -131,6 +131,29 @@ TEST(PageSurface, ObeysItsLimitAndInterfacesFitHoweverCoarse) {
     EXPECT_GT(coarser, 20);
 }
 
+// The value is the place along x, so that the mean in a cell lies in the cell, and its step among 256 says where.
+TEST(PageSurface, ValuesAreMeansOfTheirCellsHoweverCoarse) {
+    for (const std::int64_t limit : {1'000'000, 300, 40}) {
+        const TwoParts parts(3);
+        PageSurface surface(parts.box(), limit);
+        for (const Part* part : {&parts.first, &parts.second}) {
+            std::vector<double> along_x;
+            for (const Vec3& vertex : part->mesh.vertices) along_x.push_back(vertex.x());
+            surface.add(*part, {along_x});
+        }
+        const double cell_size = surface.step() * std::exp2(surface.joins());
+        for (const PagePart& part : surface.parts())
+            for (std::size_t cell = 0; cell < part.cells.size(); ++cell)
+                EXPECT_NEAR(part.value(0, cell), surface.low().x() + surface.step() * surface.place_of(part.cells[cell])[0],
+                            1.01 * cell_size);
+        const std::vector<ValueRange> ranges = ranges_of(surface);
+        ASSERT_EQ(ranges.size(), 1U);
+        EXPECT_GE(ranges[0].least, 0);
+        EXPECT_LE(ranges[0].most, 1);
+        EXPECT_GT(packed_surface(surface, ranges).size(), packed_surface(surface).size());
+    }
+}
+
 // As view.js reads them.
 class PackedReader {
  public:

@@ -1,6 +1,7 @@
 #include "files/html/inside/packed_surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kerf {
 
@@ -12,9 +13,28 @@ void append_number(std::int64_t number, std::string& bytes) {
     bytes.push_back(static_cast<char>(rest));
 }
 
+std::int64_t in_steps(double value, const ValueRange& range) {
+    if (!(range.most > range.least)) return 0;
+    return std::llround((value - range.least) / (range.most - range.least) * value_steps);
+}
+
 }  // namespace
 
-std::string packed_surface(const PageSurface& surface) {
+std::vector<ValueRange> ranges_of(const PageSurface& surface) {
+    std::vector<ValueRange> ranges;
+    for (const PagePart& part : surface.parts()) {
+        ranges.resize(std::max(ranges.size(), part.value_sums.size()));
+        for (std::size_t field = 0; field < part.value_sums.size(); ++field)
+            for (std::size_t cell = 0; cell < part.cells.size(); ++cell) {
+                ValueRange& range = ranges[field];
+                range.least = std::min(range.least, part.value(field, cell));
+                range.most = std::max(range.most, part.value(field, cell));
+            }
+    }
+    return ranges;
+}
+
+std::string packed_surface(const PageSurface& surface, const std::vector<ValueRange>& ranges) {
     std::string bytes;
     for (const PagePart& part : surface.parts()) {
         PageSurface::GridPoint before{0, 0, 0};
@@ -31,6 +51,9 @@ std::string packed_surface(const PageSurface& surface) {
             append_number(c - a, bytes);
             first = a;
         }
+        for (std::size_t field = 0; field < ranges.size(); ++field)
+            for (std::size_t cell = 0; cell < part.cells.size(); ++cell)
+                append_number(in_steps(part.value(field, cell), ranges[field]), bytes);
     }
     return bytes;
 }

@@ -36,6 +36,22 @@ std::int32_t number_in(const std::vector<std::uint64_t>& codes, std::uint64_t co
     return std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
 }
 
+// Adds up values and counts of finer cells, or of vertices, in the cells of a part; none if there are no fields.
+template <class NumberOf>
+void take_values(const VertexValues& values, const std::vector<std::int64_t>& counts, const NumberOf& number_of,
+                 PagePart& part) {
+    if (values.empty()) return;
+    VertexValues sums(values.size(), std::vector<double>(part.cells.size(), 0));
+    std::vector<std::int64_t> count(part.cells.size(), 0);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const std::int32_t cell = number_of(i);
+        count[cell] += counts[i];
+        for (std::size_t k = 0; k < values.size(); ++k) sums[k][cell] += values[k][i];
+    }
+    part.value_sums = std::move(sums);
+    part.vertex_counts = std::move(count);
+}
+
 bool has_two_equal(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 }  // namespace
@@ -52,7 +68,7 @@ PageSurface::GridPoint PageSurface::grid_point(const Vec3& point) const {
     return steps;
 }
 
-void PageSurface::add(const Part& part) {
+void PageSurface::add(const Part& part, const VertexValues& values) {
     PagePart added{part.id, part.region_of(0), {}, {}};
     const std::int64_t vertex_count = part.mesh.boundary_vertex_count;
     std::vector<std::uint64_t> cell_of_vertex(vertex_count);
@@ -65,6 +81,9 @@ void PageSurface::add(const Part& part) {
     added.cells = cell_of_vertex;
     std::sort(added.cells.begin(), added.cells.end());
     keep_each_once(added.cells);
+    const std::vector<std::int64_t> each_once(cell_of_vertex.size(), 1);
+    take_values(
+        values, each_once, [&](std::size_t v) { return number_in(added.cells, cell_of_vertex[v]); }, added);
     std::vector<PageTriangle> triangles(part.facets.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
         triangles[f] = {part.neighbour[f], part.patch[f], {}};
@@ -110,6 +129,10 @@ void PageSurface::coarsen() {
         for (std::uint64_t& code : part.cells) code >>= 3;
         const std::vector<std::uint64_t> finer = part.cells;
         keep_each_once(part.cells);
+        const VertexValues values = std::move(part.value_sums);
+        const std::vector<std::int64_t> counts = std::move(part.vertex_counts);
+        take_values(
+            values, counts, [&](std::size_t i) { return number_in(part.cells, finer[i]); }, part);
         for (PageTriangle& t : part.triangles)
             for (std::int32_t& corner : t.corners) corner = number_in(part.cells, finer[corner]);
         take_triangles(std::move(part.triangles), part);

@@ -20,12 +20,20 @@ struct PageTriangle {
     auto operator<=>(const PageTriangle&) const = default;
 };
 
+/// The values of a solution at the boundary vertices of a part: a list for each field.
+using VertexValues = std::vector<std::vector<double>>;
+
 /// The boundary of a part in a page.
 struct PagePart {
     NodeId id = root_node;
     RegionIndex region;
-    std::vector<std::uint64_t> cells;     ///< #V; cells that hold vertices of the part, ascending
-    std::vector<PageTriangle> triangles;  ///< #F; ascending, each once, seen from outside
+    std::vector<std::uint64_t> cells;              ///< #V; cells that hold vertices of the part, ascending
+    std::vector<PageTriangle> triangles;           ///< #F; ascending, each once, seen from outside
+    VertexValues value_sums = {};                  ///< of each field #V; the sum over the part's vertices in each cell
+    std::vector<std::int64_t> vertex_counts = {};  ///< #V; number of these vertices
+
+    /// Returns the mean of a field in a cell.
+    double value(std::size_t field, std::size_t cell) const { return value_sums[field][cell] / vertex_counts[cell]; }
 };
 
 /// Boundaries of parts on a grid of 2^16 cells along the longest side of the run's box. Where the triangles of all
@@ -40,8 +48,9 @@ class PageSurface {
     /// Takes a box with all vertices of all parts, and the most triangles that are kept, `limit` > 0.
     PageSurface(const Box& box, std::int64_t limit);
 
-    /// Takes the boundary of a part. O(#F log #F + cells of all parts before).
-    void add(const Part& part);
+    /// Takes the boundary of a part, with values of so many fields at its boundary vertices. O(#F log #F + cells of all
+    /// parts before).
+    void add(const Part& part, const VertexValues& values = {});
 
     const std::vector<PagePart>& parts() const { return parts_; }
     std::int64_t triangles() const { return triangles_; }
