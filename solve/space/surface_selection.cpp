@@ -131,7 +131,11 @@ std::vector<PatchSummary> SurfaceSelector::summaries() const {
     space_.ranks().all_reduce(std::span(sums), Reduction::sum);
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const double* sum = &sums[8 * i];
-        patches[i] = {names_[i], static_cast<std::int64_t>(sum[0]), sum[1], Vec3(sum[2], sum[3], sum[4]),
+        patches[i] = {names_[i],
+                      "",
+                      static_cast<std::int64_t>(sum[0]),
+                      sum[1],
+                      Vec3(sum[2], sum[3], sum[4]),
                       Vec3(sum[5], sum[6], sum[7])};
         patches[i].finish();
     }

@@ -38,6 +38,7 @@ TEST_F(CadProgram, CheckSaysWhatWasRead) {
     const std::string open = folder_.file("open.step");
     test::write_cad(open, test::open_shell(test::box({0, 0, 0}, {2, 1, 1})));
     EXPECT_NE(test::output_of(test::run_kerf({"check", open})).find("open solid: "), std::string::npos);
+    EXPECT_NE(test::output_of(refused).find("kerf wrap " + part()), std::string::npos) << test::output_of(refused);
     const ChildResult united = test::run_kerf({"check", part(), "--unite"});
     EXPECT_EQ(united.exit_code, 0) << test::output_of(united);
     EXPECT_NE(test::output_of(united).find("STEP: unit inch -> mm, 1 solid"), std::string::npos)
@@ -56,6 +57,25 @@ TEST_F(CadProgram, MeshIsMadeOfTheFileAndVerified) {
     EXPECT_EQ(test::run_kerf({"verify", out}).exit_code, 0);
     const ChildResult checked = test::run_kerf({"check", part(), "--solid", "2", "--json"});
     EXPECT_NE(test::output_of(checked).find("\"solid 2/face 1\""), std::string::npos) << test::output_of(checked);
+}
+
+// What is refused has a wrap: solids that overlap, and a box without a side.
+TEST_F(CadProgram, WrapTakesWhatIsRefused) {
+    const std::string open = folder_.file("open.step"), around = folder_.file("around.off");
+    test::write_cad(open, test::open_shell(test::box({0, 0, 0}, {2, 1, 1})));
+    for (const std::string& file : {part(), open}) {
+        const ChildResult wrapped = test::run_kerf({"wrap", file, "-o", around, "--gap", "60%"});
+        EXPECT_EQ(wrapped.exit_code, 0) << wrapped.log;
+        EXPECT_NE(wrapped.log.find("as they are"), std::string::npos) << wrapped.log;
+        EXPECT_EQ(test::run_kerf({"check", around}).exit_code, 0);
+    }
+}
+
+TEST_F(CadProgram, ListsTheSurfacesOfFaces) {
+    const std::string text =
+        test::output_of(test::run_kerf({"check", part(), "--solid", "2", "--list-patches", "--scale", "10"}));
+    EXPECT_NE(text.find("  cylinder r = 5  solid 2/face "), std::string::npos) << text;
+    EXPECT_NE(text.find("  plane  "), text.rfind("  plane  ")) << "two: " << text;
 }
 
 TEST_F(CadProgram, SurfaceIsRemeshedUnlessItIsAskedFor) {

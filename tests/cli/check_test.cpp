@@ -101,6 +101,31 @@ TEST_F(Check, SeveralFilesAreARegionEachAndSoIsARun) {
     EXPECT_NE(twice.log.find("bone.off is given twice"), std::string::npos) << twice.log;
 }
 
+// A body in a box of air is no body of its own, as a rule: the flow around it is wanted.
+TEST_F(Check, ABoxAroundOthersMayLeaveThemEmpty) {
+    const auto box = [&](const char* name, double low, double high) {
+        const Soup soup = test::box(Vec3::Constant(low), Vec3::Constant(high), 2);
+        test::write_off(folder_.file(name), soup.vertices, soup.facets);
+        return folder_.file(name);
+    };
+    const std::string tunnel = box("tunnel.off", 0, 10), car = box("car.off", 4, 6), other = box("other.off", 20, 21);
+    const std::string text = test::output_of(check(tunnel, {car}));
+    EXPECT_NE(text.find("tunnel is a box around the others: --hole car leaves them empty"), text.npos) << text;
+    const std::string apart = test::output_of(check(car, {other}));
+    EXPECT_EQ(apart.find("--hole"), apart.npos) << apart;
+}
+
+TEST_F(Check, CapsComeFirstWhereEndsAreOpen) {
+    Soup tube = test::box(Vec3::Zero(), Vec3(4, 1, 1), 10);
+    for (std::int32_t f = static_cast<std::int32_t>(tube.facets.size()) - 1; f >= 0; --f) {
+        const auto& [a, b, c] = tube.facets[f];
+        const Vec3 middle = (tube.vertices[a] + tube.vertices[b] + tube.vertices[c]) / 3;
+        if (middle.x() < 1e-6 || middle.x() > 4 - 1e-6) test::remove_facet(tube, f);
+    }
+    const std::string text = test::output_of(check(write(tube)));
+    EXPECT_NE(text.find("2 open edge loops; --cap closes the 2 large ones by patches of their own"), text.npos) << text;
+}
+
 TEST_F(Check, BodiesThatDoNotFitAreToldByBothNamesAndAPlace) {
     const auto box = [&](const char* name, double low, double high, int n) {
         const Soup soup = test::box(Vec3(low, 0, 0), Vec3(high, 1, 1), n);

@@ -66,6 +66,12 @@ TEST_F(Patches, AreListedWithWhatFormatsCallThem) {
     EXPECT_NE(text.find("(-1.000, 0.000, 0.000)"), std::string::npos) << text;
     EXPECT_NE(text.find("  in%let: in_let in "), std::string::npos) << text;
     EXPECT_EQ(text.find("  " + box.patch_names[1] + ":"), std::string::npos) << "a word stays: " << text;
+    for (std::size_t p = 0; p < box.patch_names.size(); ++p) box.patch_names[p] = fmt::format("solid 1/face {}", p + 1);
+    const std::string many =
+        test::output_of(test::run_kerf({"check", write("many.obj", test::to_obj(box)), "--list-patches"}));
+    const std::size_t rule = many.find("  solid 1/face 1: solid_1_face_1, and 5 more with _ likewise in ");
+    EXPECT_NE(rule, std::string::npos) << many;
+    EXPECT_EQ(std::count(many.begin() + rule, many.end(), '\n'), 1) << "the rule is said once: " << many;
     const ChildResult features = test::run_kerf(
         {"check", write("box.stl", test::to_binary_stl(box)), "--list-patches", "--feature-angle", "40"});
     EXPECT_EQ(std::count(features.output.begin(), features.output.end(), '\n'), 7) << test::output_of(features);

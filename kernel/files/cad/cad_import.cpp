@@ -143,6 +143,14 @@ void make_bodies(Model& model, const CadOptions& options, const std::string& pat
     model.bodies.push_back(*std::move(united));
 }
 
+// Takes the bodies as the file has them, loose faces, too.
+void take_all(Model& model, const CadOptions& options, const std::string& path) {
+    if (options.solid > 0 && !model.bodies.empty())
+        select_solid(model, options.solid, path);
+    else if (model.loose.patch_of.Extent() > 0)
+        model.bodies.push_back(std::move(model.loose));
+}
+
 void append(Soup& soup, const Tessellation& mesh) {
     const auto shift = count_of(soup.vertices);
     soup.vertices.insert(soup.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
@@ -172,6 +180,27 @@ Bodies tessellate_bodies(Model& model, const CadOptions& options, const std::str
         all.volumes.push_back({meshed.facets.volume, meshed.exact_volume});
         all.shapes.push_back(body);
     }
+    return all;
+}
+
+// Tessellates all faces by chords of a size; what has no triangles is left out, and nothing is checked.
+Bodies tessellate_as_it_is(Model& model, const CadOptions& options, const std::string& path) {
+    constexpr double deflection = 5e-4, angle = 0.35;  // of the diagonal, and radians
+    const double share = options.deflection > 0 ? options.deflection : deflection;
+    Bodies all;
+    for (Body& body : model.bodies) {
+        const double diagonal = cad::diagonal_of(body.shape);
+        if (!(diagonal > 0) || !std::isfinite(diagonal)) continue;
+        cad::divide_closed_faces(body);
+        const Tessellation mesh = cad::tessellate(body, {share * diagonal, angle});
+        append(all.soup, mesh);
+        all.shapes.push_back(body);
+        if (!mesh.failed_faces.empty())
+            model.notes.push_back(fmt::format("{} without triangles: {}.",
+                                              counted(mesh.failed_faces.size(), "face is", "faces are"),
+                                              names_of(mesh.failed_faces, model.patches)));
+    }
+    if (all.soup.facets.empty()) refuse(path, "no face gets triangles. Export it again.");
     return all;
 }
 
@@ -276,8 +305,11 @@ Bodies tessellate_all(Model& model, const CadOptions& options, const std::string
     return all;
 }
 
-// Gives the soup its patches. Patches without facets are left out, and those of one name are one.
-void set_patches(Soup& soup, const std::vector<cad::Patch>& patches) {
+// Gives the soup its patches, and the body their faces. Patches without facets are left out, and those of one name are
+// one.
+void set_patches(CadBody& body, const std::vector<cad::Patch>& patches) {
+    Soup& soup = body.soup;
+    std::vector<PatchFace>& faces = body.faces_of_patches;
     std::vector<std::int32_t> number(patches.size(), -1);
     for (const std::int32_t p : soup.patch) number[p] = 0;
     bool any_colour = false;
@@ -289,6 +321,8 @@ void set_patches(Soup& soup, const std::vector<cad::Patch>& patches) {
         if (number[p] != next) continue;
         soup.patch_names.push_back(patches[p].name);
         soup.patch_colours.push_back(patches[p].colour);
+        faces.push_back(patches[p].face);
+        faces.back().patch = patches[p].name;
         any_colour = any_colour || patches[p].colour[3] != 0;
     }
     if (!any_colour) soup.patch_colours.clear();
@@ -301,13 +335,20 @@ void convert(CadBody& body, LengthUnit unit) {
     const double millimetres = millimetres_of(unit);
     if (millimetres == 1) return;
     for (Vec3& p : body.soup.vertices) p /= millimetres;
+    for (PatchFace& face : body.faces_of_patches) {
+        face.radius /= millimetres;
+        face.tube /= millimetres;
+    }
     body.volume /= std::pow(millimetres, 3);
     body.exact_volume /= std::pow(millimetres, 3);
 }
 
-std::string description(const CadBody& body) {
+std::string description(const CadBody& body, bool as_it_is) {
     const std::string unit =
         body.file_unit.empty() ? "no unit" : fmt::format("unit {} -> {}", body.file_unit, body.unit);
+    if (as_it_is)
+        return fmt::format("{}: {}, {}, {} as they are, with gaps and crossings.", body.format, unit,
+                           counted(body.solids, "solid", "solids"), counted(body.faces, "face", "faces"));
     return fmt::format("{}: {}, {}, {}; volume {:.6g}, the facets hold {:+.2g} %.", body.format, unit,
                        counted(body.solids, "solid", "solids"), counted(body.faces, "face", "faces"), body.exact_volume,
                        100 * (body.volume - body.exact_volume) / body.exact_volume);
@@ -321,24 +362,27 @@ struct ImportedModel {
 };
 
 ImportedModel import_model(Model model, const CadOptions& options, const std::string& path) {
-    make_bodies(model, options, path);
+    if (options.as_it_is)
+        take_all(model, options, path);
+    else
+        make_bodies(model, options, path);
     ImportedModel imported;
     CadBody& result = imported.body;
     result.format = name(model.format);
     result.file_unit = model.unit;
-    Bodies all = tessellate_all(model, options, path);
+    Bodies all = options.as_it_is ? tessellate_as_it_is(model, options, path) : tessellate_all(model, options, path);
     imported.shapes = std::move(all.shapes);
     result.soup = std::move(all.soup);
     result.volume = all.volume;
     result.exact_volume = all.exact_volume;
-    set_patches(result.soup, model.patches);
+    set_patches(result, model.patches);
     drop_unused_vertices(result.soup);
     result.soup.vertex_number.clear();  // the file has no vertices of facets
     result.solids = count_of(model.bodies);
     result.faces = count_of(result.soup.patch_names);
     convert(result, options.unit);
     result.soup.is_of_model = true;
-    result.soup.notes = {description(result)};
+    result.soup.notes = {description(result, options.as_it_is)};
     if (result.file_unit.empty() && options.unit != LengthUnit::mm)
         result.soup.notes.emplace_back("The file names no unit: its numbers stay, whatever unit is asked for.");
     result.soup.notes.insert(result.soup.notes.end(), model.notes.begin(), model.notes.end());

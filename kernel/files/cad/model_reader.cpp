@@ -4,6 +4,7 @@
 //
 // OpenCASCADE wants a file's name, and Kerf has bytes that may come out of an archive: they are given a name by a file
 // in memory.
+#include "files/cad/inside/face_surface.h"
 #include "files/cad/inside/model.h"
 
 #include <cmath>
@@ -31,6 +32,7 @@
 #include <TDocStd_Document.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
@@ -158,7 +160,8 @@ class ModelBuilder {
         TopExp::MapShapes(body.shape, TopAbs_FACE, placed);
         for (int i = 1; i <= faces.Extent(); ++i) {
             body.patch_of.Bind(placed(i), count_of(model_.patches));
-            model_.patches.push_back({fmt::format("{}/face {}", name, i), colour(faces(i), solid)});
+            model_.patches.push_back(
+                {fmt::format("{}/face {}", name, i), colour(faces(i), solid), surface_of(TopoDS::Face(placed(i)))});
         }
         return body;
     }
@@ -181,7 +184,7 @@ class ModelBuilder {
             BRep_Builder().Add(model_.loose.shape, face);
             model_.loose.patch_of.Bind(face, count_of(model_.patches));
             model_.patches.push_back({fmt::format("{}/face {}", model_.loose.name, model_.loose.patch_of.Extent()),
-                                      colour(faces(i), shape)});
+                                      colour(faces(i), shape), surface_of(TopoDS::Face(face))});
         }
     }
 

@@ -48,6 +48,7 @@ bool* flag_of(CadOptions& options, const std::string& name) {
     if (name == "--unite") return &options.unite;
     if (name == "--no-imprint") return &options.no_imprint;
     if (name == "--on-faces") return &options.on_faces;
+    if (name == "--as-it-is") return &options.as_it_is;
     return nullptr;
 }
 
@@ -77,6 +78,7 @@ std::vector<std::string> CadOptions::arguments() const {
     if (unite) arguments.emplace_back("--unite");
     if (no_imprint) arguments.emplace_back("--no-imprint");
     if (on_faces) arguments.emplace_back("--on-faces");
+    if (as_it_is) arguments.emplace_back("--as-it-is");
     return arguments;
 }
 
@@ -91,11 +93,18 @@ CadOptions CadOptions::from_arguments(std::span<const std::string> arguments) {
         if (!set_cad_option(options, arguments[i], value))
             throw Error(ErrorCode::usage,
                         fmt::format("'{} {}' is no option. There are --solid N (0: all), --unite, --no-imprint, "
-                                    "--on-faces, --unit {} and --deflection D (below 1; 0: by volume).",
+                                    "--on-faces, --as-it-is, --unit {} and --deflection D (below 1; 0: by volume).",
                                     arguments[i], value, fmt::join(length_unit_names(), "|")));
         ++i;
     }
     return options;
+}
+
+std::string to_text(const PatchFace& face) {
+    std::string text = face.kind;
+    if (face.radius > 0) text += fmt::format(" r = {:.6g}", face.radius);
+    if (face.tube > 0) text += fmt::format(", {:.6g}", face.tube);
+    return text;
 }
 
 Bytes to_cad_bytes(const CadAnswer& answer) {

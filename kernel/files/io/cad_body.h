@@ -36,6 +36,9 @@ struct CadOptions {
     bool on_faces = false;             ///< all vertices stay on the faces, and the volume is right to 0.001 only: for
                                        ///< meshes whose nodes on edges are put on the faces, too
 
+    bool as_it_is = false;  ///< the triangles of all faces that get some, whether or not they meet: for a
+                            ///< wrap of what import refuses
+
     static constexpr double volume_tolerance = 1e-4;  ///< most |volume of facets - volume of solid| / volume of solid
 
     /// Returns the options as arguments of kerf-cad.
@@ -44,10 +47,28 @@ struct CadOptions {
     static CadOptions from_arguments(std::span<const std::string> arguments);
 };
 
+/// The surface of which a patch is a face, with lengths in the unit of the soup.
+struct PatchFace {
+    std::string patch;  ///< name
+    std::string kind;   ///< "plane", "cylinder", "cone of 15 degrees", "sphere", "torus", "spline", ...
+    double radius = 0;  ///< of a cylinder, a sphere or a torus, else 0
+    double tube = 0;    ///< radius of a torus's tube, else 0
+
+    template <class Archive>
+    void archive(Archive& a) {
+        a(patch, kind, radius, tube);
+    }
+};
+
+/// Returns "cylinder r = 0.375".
+std::string to_text(const PatchFace& face);
+
 /// The solids of a CAD file as one soup.
 struct CadBody {
-    Soup soup;              ///< closed and free of intersections; patches are faces, named `<path of the solid>/face n`
-    std::string format;     ///< "STEP", "IGES" or "BREP"
+    /// Closed and free of intersections, unless it is as it is; patches are faces, named `<path of the solid>/face n`.
+    Soup soup;
+    std::vector<PatchFace> faces_of_patches;  ///< surfaces of the patches; none of a file without curved faces
+    std::string format;                       ///< "STEP", "IGES" or "BREP"
     std::string file_unit;  ///< "inch"; "mm" if a STEP or IGES file names none; empty for BREP, which has none
     std::string unit;       ///< unit of the soup; empty if `file_unit` is
     std::int32_t solids = 0;
@@ -58,7 +79,7 @@ struct CadBody {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(soup, format, file_unit, unit, solids, faces, exact_volume, volume, file_hash);
+        a(soup, faces_of_patches, format, file_unit, unit, solids, faces, exact_volume, volume, file_hash);
     }
 };
 

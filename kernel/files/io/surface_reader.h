@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/core/hash.h"
+#include "files/io/cad_body.h"
 #include "surface/soup/soup.h"
 
 namespace kerf {
@@ -46,7 +48,8 @@ Soup read_surface_bytes(std::string file, const std::string& path);
 struct HashedSoup {
     Soup soup;
     FileHash hash = {};
-    bool is_welded = false;  ///< no two vertices are equal: weld_exactly() would find nothing
+    bool is_welded = false;                        ///< no two vertices are equal: weld_exactly() would find nothing
+    std::vector<PatchFace> faces_of_patches = {};  ///< of a CAD file, in units of the soup; by the names of patches
 };
 
 /// Reads a binary STL that is not compressed as read_surface() does, but block by block: beside the soup, which takes

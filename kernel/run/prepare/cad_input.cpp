@@ -97,20 +97,45 @@ void refuse_cad_options(const std::string& path, const CadOptions& options) {
     refuse_unit(path, options);
 }
 
+// Returns a body that may have gaps and crossings where the solids are refused, since a wrap closes it.
+CadBody read_cad_to_wrap(const std::string& path, const FileHash& file_hash, CadOptions options) {
+    try {
+        return read_cad(path, file_hash, options);
+    } catch (const SolidDefect& defect) {
+        options.as_it_is = true;
+        CadBody body = read_cad(path, file_hash, options);
+        body.soup.notes.insert(body.soup.notes.begin(), fmt::format("Wrapped as it is: {}", defect.what()));
+        return body;
+    }
+}
+
+CadBody read_cad_or_say_more(const std::string& path, const FileHash& file_hash, const CadOptions& options) {
+    try {
+        return read_cad(path, file_hash, options);
+    } catch (const SolidDefect& defect) {
+        throw SolidDefect(defect.kind(),
+                          fmt::format("{} A closed surface around it as it is: kerf wrap {} -o around.obj --gap 1%.",
+                                      defect.what(), path),
+                          defect.elements());
+    }
+}
+
 // `file_hash`: of the bytes.
-Soup read_unscaled(std::string bytes, const FileHash& file_hash, const std::string& path, const CadOptions& options) {
+HashedSoup read_unscaled(std::string bytes, const FileHash& file_hash, const std::string& path,
+                         const InputOptions& options) {
     std::string content = decompress(std::move(bytes), path);
     if (cad_format(content) != CadFormat::none) {
-        CadBody body = read_cad(path, file_hash, options);
-        if (body.file_unit.empty()) refuse_unit(path, options);
-        return std::move(body.soup);
+        CadBody body = options.wraps() ? read_cad_to_wrap(path, file_hash, options.cad)
+                                       : read_cad_or_say_more(path, file_hash, options.cad);
+        if (body.file_unit.empty()) refuse_unit(path, options.cad);
+        return {std::move(body.soup), file_hash, false, std::move(body.faces_of_patches)};
     }
     if (is_threemf(content)) {
         constexpr double timeout_seconds = 600;
-        return std::move(read_cad(path, file_hash, options, "", timeout_seconds, threemf_program).soup);
+        return {read_cad(path, file_hash, options.cad, "", timeout_seconds, threemf_program).soup, file_hash};
     }
-    refuse_cad_options(path, options);
-    return read_surface_bytes(std::move(content), path);
+    refuse_cad_options(path, options.cad);
+    return {read_surface_bytes(std::move(content), path), file_hash};
 }
 
 }  // namespace
@@ -132,10 +157,14 @@ HashedSoup read_surface_or_cad(const std::string& path, const InputOptions& opti
     } else {
         std::string bytes = read_file(path);
         const FileHash hash = digest_of(bytes);
-        read = HashedSoup{read_unscaled(std::move(bytes), hash, path, options.cad), hash};
+        read = read_unscaled(std::move(bytes), hash, path, options);
     }
     if (options.scale != 1) read->is_welded = false;  // products of different numbers may be equal
     scale(read->soup, options.scale);
+    for (PatchFace& face : read->faces_of_patches) {
+        face.radius *= options.scale;
+        face.tube *= options.scale;
+    }
     name_walls(read->soup);
     return std::move(*read);
 }

@@ -275,6 +275,7 @@ CheckedSoup check_files(InputFiles files, const InputChoices& choices, double ne
                         const std::function<void()>& check_cancelled) {
     const InputOptions& options = choices.options;
     CheckedSoup checked{std::move(files.soup), {}};
+    checked.faces_of_patches = std::move(files.faces_of_patches);
     Soup& soup = checked.soup;
     TidyCounts& tidied = checked.tidied;
     if (!files.is_welded) tidied.welded_vertices = weld_exactly(soup);
@@ -383,6 +384,11 @@ Array<RegionIndex, double> region_volumes(const Input& input) {
     for (const InputRegion& region : input.regions) volumes.push_back(region.volume);
     if (volumes.empty()) volumes.push_back(input.volume);
     return volumes;
+}
+
+std::int64_t facets_of_file(const Input& input) {
+    if (input.wrapped) return input.wrapped->facets_before;
+    return input.remeshed ? input.remeshed->facets_before : input.facets;
 }
 
 double volume_before_remeshing(const Input& input) {

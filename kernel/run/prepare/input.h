@@ -42,8 +42,9 @@ struct CheckedSoup {
     TidyCounts tidied = {};
     RepairReport ladder = {};  ///< the steps of InputOptions::repairs
     std::optional<WrapReport> wrapped = {};
-    OrientationReport orientation = {};       ///< of the bodies, where they were oriented to be enclosed
-    std::optional<Enclosure> enclosure = {};  ///< the box around the bodies: the soup is its air
+    OrientationReport orientation = {};            ///< of the bodies, where they were oriented to be enclosed
+    std::optional<Enclosure> enclosure = {};       ///< the box around the bodies: the soup is its air
+    std::vector<PatchFace> faces_of_patches = {};  ///< see InputFiles
 };
 
 /// Error(input) for a surface that cannot be meshed as it is, with all that was found.
@@ -170,6 +171,9 @@ Complex make_complex(Soup soup);
 
 /// Fills the counts, volume, area and genus from the surface.
 void measure_input(Input& input);
+
+/// Returns the number of facets before the surface was remeshed or wrapped: those of the file, but for its repairs.
+std::int64_t facets_of_file(const Input& input);
 
 /// Returns the volume of all regions before the surface was remeshed.
 double volume_before_remeshing(const Input& input);

@@ -35,9 +35,12 @@ std::string stem_of(const std::string& path) {
 }
 
 // A patch is called as the file if that has one patch, else "file/patch".
+std::string patch_name_in(const Soup& file, const std::string& patch, const std::string& name) {
+    return file.patch_names.size() == 1 ? name : fmt::format("{}/{}", name, patch);
+}
+
 void append_file(Soup& all, Soup file, const std::string& name) {
-    for (std::string& patch : file.patch_names)
-        patch = file.patch_names.size() == 1 ? name : fmt::format("{}/{}", name, patch);
+    for (std::string& patch : file.patch_names) patch = patch_name_in(file, patch, name);
     for (std::string& note : file.notes) note = fmt::format("{}: {}", name, note);
     append(all, file);
 }
@@ -69,6 +72,7 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
     if (options.more_files.empty()) {
         files.soup = std::move(first.soup);
         files.is_welded = first.is_welded;
+        files.faces_of_patches = std::move(first.faces_of_patches);
         files.hash = hash_text(first.hash);
         read_walls_beside(path, first.hash, files);
         return files;
@@ -77,7 +81,7 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
     std::vector<FileHash> hashes;
     std::set<std::string> taken_names;
     const auto add = [&](const std::string& file, HashedSoup read) {
-        auto& [soup, hash, is_welded] = read;
+        auto& [soup, hash, is_welded, faces] = read;
         if (std::filesystem::exists(walls_path(file)))
             throw Error(ErrorCode::input, fmt::format("{}: such a JSON is for a file alone, but here are several, a "
                                                       "region each. Mesh {} alone, or take the JSON away.",
@@ -93,6 +97,10 @@ InputFiles read_input_files(const std::string& path, const InputOptions& options
         hashes.push_back(hash);
         hasher.add(std::span<const std::uint64_t>(hash));
         files.names.push_back(unique_name(stem_of(file), taken_names));
+        for (PatchFace& face : faces) {
+            face.patch = patch_name_in(soup, face.patch, files.names.back());
+            files.faces_of_patches.push_back(std::move(face));
+        }
         append_file(files.soup, std::move(soup), files.names.back());
         files.file_of_patch.resize(files.soup.patch_names.size(), count_of(files.names) - 1);
     };

@@ -20,6 +20,7 @@ struct InputFiles {
     std::string walls_file = {};              ///< the JSON beside a single file, if it is there
     std::vector<NamedWall> walls = {};        ///< the regions that this JSON names for patches; empty: there is none
     bool is_welded = false;                   ///< whether no two vertices of `soup` are equal, see HashedSoup
+    std::vector<PatchFace> faces_of_patches = {};  ///< of CAD files; patches that have other names now have none
 };
 
 /// Returns the path of the JSON that names the regions which the patches of a file bound: the path of the file with

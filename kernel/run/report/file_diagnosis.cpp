@@ -194,6 +194,31 @@ std::string lines_of_regions(const Array<RegionIndex, RegionSummary>& regions) {
     return text;
 }
 
+// Returns a line on a region that fills a box with the others inside of it, as air in a tunnel does: these may be left
+// out. Empty if there is none.
+std::string line_on_air(const FileDiagnosis& found) {
+    constexpr double rounding = 1e-9;
+    constexpr std::size_t most_named = 3;
+    const auto& regions = found.regions;
+    if (regions.size() < 2) return "";
+    const SurfaceMeasures measures = measures_of(found);
+    const Vec3 sides = measures.box.sizes();
+    const double area = 2 * (sides.x() * sides.y() + sides.y() * sides.z() + sides.z() * sides.x());
+    std::string air;
+    std::vector<std::string> holes;
+    for (const RegionSummary& region : regions)
+        if (region.outer_area > 0 && std::abs(region.outer_area / area - 1) < rounding)
+            air = region.name;
+        else if (region.outer_area > 0)
+            return "";
+        else if (holes.size() < most_named)
+            holes.push_back("--hole " + region.name);
+    if (air.empty() || std::abs(measures.volume.value_or(0) / measures.box.volume() - 1) > rounding) return "";
+    if (regions.size() > most_named + 1) holes.emplace_back("...");
+    return fmt::format("  flow      {} is a box around the others: {} leaves them empty, and {} alone is meshed.\n",
+                       air, fmt::join(holes, " "), air);
+}
+
 Json surface_json(const FileDiagnosis& found) {
     const CheckedSoup& checked = found.checked;
     const Soup& soup = checked.soup;
@@ -237,9 +262,18 @@ std::string place_and_measure(const Defect& defect, const Soup& soup) {
     return text;
 }
 
+// Returns the advice for a defect. Where openings have the size of inlets, as the ends of a vessel, patches for them
+// are what is wanted first.
+std::string way_out_of(const Defect& defect, std::int64_t caps) {
+    if (defect.kind != DefectKind::open_edge || caps == 0) return advice(defect);
+    return fmt::format("--cap closes {} by {} of {} own, for inlets and outlets; or {}",
+                       caps == 1 ? "the large one" : fmt::format("the {} large ones", caps),
+                       caps == 1 ? "a patch" : "patches", caps == 1 ? "its" : "their", advice(defect));
+}
+
 // Returns the text of the defects of one kind and severity, in their order. A single one takes one line; of many, the
 // worst are named: the longest loops, the smallest angles, the shortest edges, the first of those without a measure.
-std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> defects) {
+std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> defects, std::int64_t caps) {
     constexpr std::int64_t most_named = 10;
     std::stable_sort(defects.begin(), defects.end(), [](const Defect* a, const Defect* b) {
         return a->kind == DefectKind::open_edge ? a->measure > b->measure : a->measure < b->measure;
@@ -249,13 +283,25 @@ std::string group_text(const CheckedSoup& checked, std::vector<const Defect*> de
     const std::int64_t count =
         worst.severity == Severity::warning ? checked.diagnosis.count(worst.kind) : listed;  // not all are listed
     const std::string head = fmt::format("  {:<9} {}", name(worst.severity), counted(count, worst.kind));
-    if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), advice(worst));
-    std::string text = fmt::format("{}; {}:\n", head, advice(worst));
+    const std::string way = way_out_of(worst, caps);
+    if (count == 1) return fmt::format("{}: {}; {}.\n", head, place_and_measure(worst, checked.soup), way);
+    std::string text = fmt::format("{}; {}:\n", head, way);
     const std::int64_t named = std::min(listed, most_named);
     for (std::int64_t i = 0; i < named; ++i)
         text += fmt::format("{:12}{}\n", "", place_and_measure(*defects[i], checked.soup));
     const std::int64_t more = count - named;
     return more > 0 ? fmt::format("{}{:12}and {} more\n", text, "", more) : text;
+}
+
+// Groups are ordered by kind, and the errors of a kind come before what is repaired.
+std::string text_of_defects(const CheckedSoup& checked, bool errors_only, std::int64_t caps) {
+    std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
+    for (const Defect& defect : checked.diagnosis.defects)
+        if (!errors_only || defect.severity == Severity::error)
+            groups[{defect.kind, defect.severity}].push_back(&defect);
+    std::string text;
+    for (const auto& [kind, defects] : groups) text += group_text(checked, defects, caps);
+    return text;
 }
 
 void require_good(const InputOptions& options, double needle_angle_deg) {
@@ -309,15 +355,8 @@ FileDiagnosis diagnose_arrays(Soup soup, const InputOptions& options, double nee
                      [&] { return check_arrays(std::move(soup), options, needle_angle_deg, check_cancelled); });
 }
 
-// Groups are ordered by kind, and the errors of a kind come before what is repaired.
 std::string defects_text(const CheckedSoup& checked, bool errors_only) {
-    std::map<std::pair<DefectKind, Severity>, std::vector<const Defect*>> groups;
-    for (const Defect& defect : checked.diagnosis.defects)
-        if (!errors_only || defect.severity == Severity::error)
-            groups[{defect.kind, defect.severity}].push_back(&defect);
-    std::string text;
-    for (const auto& [kind, defects] : groups) text += group_text(checked, defects);
-    return text;
+    return text_of_defects(checked, errors_only, 0);
 }
 
 std::string defect_text(const Defect& defect, const Soup& soup) {
@@ -337,8 +376,9 @@ std::string to_text(const FileDiagnosis& found) {
         fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
                     soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
     for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
-    text += text_of(measures_of(found)) + to_text(checked.ladder) + lines_of_regions(found.regions);
-    text += defects_text(checked);
+    text +=
+        text_of(measures_of(found)) + to_text(checked.ladder) + lines_of_regions(found.regions) + line_on_air(found);
+    text += text_of_defects(checked, false, found.remedy ? found.remedy->caps : 0);
     const bool clean = found.can_be_meshed();
     if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);
         clean && slivers.spoil_cells() && !soup.is_of_model)  // else all is remeshed, whatever there is
@@ -370,7 +410,12 @@ std::vector<PatchSummary> patches_of_run(FileDiagnosis found, const InputOptions
                                                   found.path, checked.diagnosis.summary(checked.soup)));
     if (options.feature_angle_deg > 0 && checked.soup.patch_names.size() == 1)
         make_feature_patches(checked.soup, options.feature_angle_deg);
-    return summarize_patches(checked.soup);
+    std::vector<PatchSummary> patches = summarize_patches(checked.soup);
+    std::map<std::string, std::string> faces;
+    for (const PatchFace& face : checked.faces_of_patches) faces.emplace(face.patch, to_text(face));
+    for (PatchSummary& patch : patches)
+        if (const auto face = faces.find(patch.name); face != faces.end()) patch.face = face->second;
+    return patches;
 }
 
 }  // namespace kerf

@@ -13,6 +13,7 @@ namespace kerf {
 /// The size, place and direction of a patch, of a surface as it was read, or of the boundary of a mesh.
 struct PatchSummary {
     std::string name;
+    std::string face = {};  ///< surface of a CAD model of which the patch is a face, as "cylinder r = 2"; empty: none
     std::int64_t triangles = 0;
     double area = 0;
     Vec3 centroid = Vec3::Zero();
@@ -31,8 +32,9 @@ std::vector<PatchSummary> summarize_patches(const Soup& soup);
 /// Returns a table with a line for each patch; the name is last.
 std::string to_text(const std::vector<PatchSummary>& patches);
 
-/// Returns a line for each patch that some format cannot call by its name, with its name there, as in "openfoam
-/// face_1"; formats that agree stand together. Empty if all formats use the names.
+/// Returns how formats spell patches that they cannot call by their names, as in "solid 1/face 1: solid_1_face_1 in
+/// openfoam": a line for each patch, but one for all that only get _ in the place of other characters. Empty if all
+/// formats use the names.
 std::string spellings_text(const std::vector<std::string>& patch_names);
 
 }  // namespace kerf

@@ -21,6 +21,7 @@ using Colour = std::array<std::uint8_t, 4>;  // sRGB and 255; zeros: no colour
 struct Patch {
     std::string name;
     Colour colour = {};
+    PatchFace face = {};  ///< millimetres; without the name
 };
 
 /// A solid in its place, or several that share faces (files/cad/inside/imprint.h).
