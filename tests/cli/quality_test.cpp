@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -170,6 +171,34 @@ TEST_F(Quality, OfAMergedMeshIsThatOfItsParts) {
         EXPECT_EQ(found.at("boundary_triangles"), expected.at("boundary_triangles"));
         EXPECT_EQ(found.at("turned_tets"), 0);
     }
+}
+
+// A run says of its sharp cells what is to blame, and what helps: against an edge of the body nothing does.
+TEST_F(Quality, OfARunThatIsBadIsExplained) {
+    const auto prism = [](double height, double length) {
+        std::string text;
+        for (const double z : {0.0, length}) text += fmt::format("v 0 0 {0}\nv 1 0 {0}\nv 1 {1} {0}\n", z, height);
+        return text + "f 1 3 2\nf 4 5 6\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 3 1 4\nf 3 4 6\n";
+    };
+    struct Case {
+        std::string file, cause, words;
+    };
+    for (const auto& [file, cause, words] :
+         {Case{write("wedge.obj", prism(0.03, 0.2)), "edge", "an edge of 1.7 degrees there. Nothing helps"},
+          Case{write("long.obj", prism(0.8, 150)), "facet", "--surface remesh makes better ones."}}) {
+        const ChildResult run = test::run_kerf({"mesh", file, "-o", path("bad"), "-n", "1", "--surface", "keep"});
+        ASSERT_EQ(run.exit_code, 0) << run.log;
+        EXPECT_NE(run.log.find("\nsharp       "), std::string::npos) << run.log;
+        EXPECT_NE(run.log.find(words), std::string::npos) << run.log;
+        const Json report = Json::parse(test::bytes_of_file(path("bad/report.json")));
+        const Json& worst = report.at("sharp").at("places").at(0);
+        EXPECT_EQ(worst["cause"], cause);
+        EXPECT_NEAR(worst["min_dihedral_deg"], report["quality"]["all"]["min_dihedral_deg"]["min"], 1e-9);
+        EXPECT_LT(worst["min_dihedral_deg"], report["sharp"]["below_deg"]);
+        EXPECT_EQ(report["input"]["faces_of_file"], 8);
+    }
+    const Json good = Json::parse(test::bytes_of_file(path("run/report.json")));
+    EXPECT_EQ(good["sharp"]["tets"], 0);
 }
 
 TEST_F(Quality, SaysHowManyCellsWereTurned) {

@@ -114,6 +114,13 @@ def write_open(source, target):
     target.write_bytes(data[:80] + struct.pack("<I", count) + data[84:84 + 50 * count])
 
 
+def write_wedge(target):
+    """A .obj with an edge of 1.7 degrees."""
+    ends = [f"v {x} {y} {z}" for z in (0, 0.2) for x, y in ((-50, 0), (-49, 0), (-49, 0.03))]
+    facets = ("1 3 2", "4 5 6", "1 2 5", "1 5 4", "2 3 6", "2 6 5", "3 1 4", "3 4 6")
+    target.write_text("\n".join([*ends, *(f"f {corners}" for corners in facets)]) + "\n")
+
+
 class Runs:
     """Runs of all kinds in a folder: their reports, each with the form in the schema that it has."""
 
@@ -129,7 +136,9 @@ class Runs:
         self.run("mesh", assets / "cube.stl", "-o", "failed", "-n", "2", "--size", "0.03", "--mesher", "tetgen",
                  "--attempts", "1", "--timeout", "0.001", "-q", code=4)
         self.run("mesh", bracket, "-o", "air", "-n", "2", "--box", "1,1,1", "--wake", "30", "-q")
-        for name in ("out", "cut", "regions", "mended", "failed", "air"):
+        write_wedge(folder / "wedge.obj")
+        self.run("mesh", "wedge.obj", "open.stl", "-o", "sharp", "-n", "2", "--surface", "keep", "--repair", "near", "-q")
+        for name in ("out", "cut", "regions", "mended", "failed", "air", "sharp"):
             self.keep("run", name)
         for steps in ("near", "near,no-holes,caps"):
             text = self.run("repair", "open.stl", "-o", "mended.obj", "--repair", steps, "--json",

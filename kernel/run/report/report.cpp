@@ -16,6 +16,7 @@
 #include "base/core/number_text.h"
 #include "base/core/words.h"
 #include "run/report/inside/exceeded_bounds.h"
+#include "run/report/inside/sharp_places.h"
 #include "surface/repair/repair_step.h"
 
 namespace kerf {
@@ -214,7 +215,8 @@ std::string remeshing_text(const InputRemeshing& done) {
     if (done.only_divided) return "divided: " + division_text(done);
     const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
     return fmt::format(
-        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}, 1 % {:.3g} from {:.3g}; largest distances {:.2g} and "
+        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}, 1 % {:.3g} from {:.3g}; largest "
+        "distances {:.2g} and "
         "{:.2g} of {:.2g}{}{}",
         grouped(done.facets_before), kept, done.angles.smallest, done.angles_before.smallest, done.angles.first_percent,
         done.angles_before.first_percent, done.distance_to_input, done.distance_from_input, done.deviation,
@@ -278,10 +280,12 @@ std::string air_text(const Enclosure& enclosure) {
 
 void add_input(ReportLines& lines, const RunReport& report, bool all) {
     const Input& input = report.input;
+    const std::string facets = grouped(input.facets), of_file = grouped(facets_of_file(input));
+    const bool has_others = input.remeshed || input.wrapped;
     if (all)
-        lines.add("input",
-                  fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, grouped(input.facets),
-                              input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
+        lines.add("input", fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, of_file,
+                                       input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
+    if (has_others) lines.add("facets", fmt::format("{} of the file, {} of the mesh's surface", of_file, facets));
     lines.add("repaired", repairs_text(input.tidied, input.ladder, input.orientation));
     for (const StepReport& step : input.ladder.steps)
         for (const RepairAction& action : step.actions)
@@ -375,6 +379,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                      dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
     lines.add("forced", forced_text(report.mesh.quality.angles, all));
+    for (const SharpPlace& place : sharp_places(report)) lines.add("sharp", sharp_text(place));
     lines.add("bounds", exceeded_text(told_bounds(report, all)));
     if (report.curve) lines.add("curved", curve_text(*report.curve));
 }

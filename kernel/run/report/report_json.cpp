@@ -12,6 +12,7 @@
 #include "run/report/cut_json.h"
 #include "run/report/inside/exceeded_bounds.h"
 #include "run/report/inside/recovery_json.h"
+#include "run/report/inside/sharp_places.h"
 #include "run/report/repair_json.h"
 #include "run/report/report.h"
 
@@ -57,6 +58,7 @@ Json input_json(const Input& input) {
                  {"hash", input.file_hash},
                  {"vertices", input.vertices},
                  {"faces", input.facets},
+                 {"faces_of_file", facets_of_file(input)},
                  {"components", input.components},
                  {"genus", input.genus},
                  {"volume", input.volume},
@@ -173,27 +175,29 @@ Json improvement_json(const Improvement& done, const ImprovedAngles& angles, dou
 }
 
 Json part_json(const PartReport& part, const std::string& wanted_mesher) {
-    Json json = {{"id", part.id},
-                 {"rank", part.rank},
-                 {"worker", part.worker},
-                 {"vertices", part.result.vertices},
-                 {"nodes", std::max(part.mesh_nodes, part.result.vertices)},
-                 {"tets", part.result.tets},
-                 {"volume", part.result.laws.volume},
-                 {"surface_vertices", part.surface_vertices},
-                 {"surface_faces", part.surface_facets},
-                 {"surface_volume", part.surface_volume},
-                 {"load", to_six_digits(part.load)},
-                 {"interface_area", part.interface_area},
-                 {"neighbours", part.neighbours},
-                 {"mesher", part.result.mesher.empty() ? wanted_mesher : part.result.mesher},
-                 {"attempts", part.attempts},
-                 {"seconds", to_six_digits(part.seconds)},
-                 {"load_seconds", to_six_digits(part.result.load_seconds)},
-                 {"mesh_seconds", to_six_digits(part.result.mesh_seconds)},
-                 {"verify_seconds", to_six_digits(part.result.verify_seconds)},
-                 {"store_seconds", to_six_digits(part.result.store_seconds)},
-                 {"peak_rss_bytes", part.result.peak_rss_bytes}};
+    Json json = {
+        {"id", part.id},
+        {"rank", part.rank},
+        {"worker", part.worker},
+        {"vertices", part.result.vertices},
+        {"nodes", std::max(part.mesh_nodes, part.result.vertices)},
+        {"tets", part.result.tets},
+        {"min_dihedral_deg", part.result.tets > 0 ? Json(to_six_digits(part.result.worst.smallest_deg)) : Json()},
+        {"volume", part.result.laws.volume},
+        {"surface_vertices", part.surface_vertices},
+        {"surface_faces", part.surface_facets},
+        {"surface_volume", part.surface_volume},
+        {"load", to_six_digits(part.load)},
+        {"interface_area", part.interface_area},
+        {"neighbours", part.neighbours},
+        {"mesher", part.result.mesher.empty() ? wanted_mesher : part.result.mesher},
+        {"attempts", part.attempts},
+        {"seconds", to_six_digits(part.seconds)},
+        {"load_seconds", to_six_digits(part.result.load_seconds)},
+        {"mesh_seconds", to_six_digits(part.result.mesh_seconds)},
+        {"verify_seconds", to_six_digits(part.result.verify_seconds)},
+        {"store_seconds", to_six_digits(part.result.store_seconds)},
+        {"peak_rss_bytes", part.result.peak_rss_bytes}};
     if (!part.failures.empty()) json["failures"] = part.failures;
     add_way(part, json);
     if (part.result.angles.known())
@@ -312,6 +316,26 @@ Json curve_json(const CurveReport& curve, double seconds) {
             {"seconds", seconds}};
 }
 
+Json sharp_json(const RunReport& report) {
+    Json places = Json::array();
+    std::int64_t cells = 0;
+    for (const SharpPlace& place : sharp_places(report)) {
+        cells += place.cells.count;
+        Json json = {{"cause", name_of(place.cause)},
+                     {"tets", place.cells.count},
+                     {"min_dihedral_deg", place.cells.angle_deg},
+                     {"point", to_json(place.cells.place)},
+                     {"part", place.part}};
+        if (!place.region.empty()) json["region"] = path_text(place.region);
+        if (!place.patch.empty()) json["patch"] = path_text(place.patch);
+        if (place.cells.measure > 0) json["measure"] = place.cells.measure;
+        json["why"] = path_text(why(place));
+        json["way_out"] = place.way_out;
+        places.push_back(std::move(json));
+    }
+    return {{"below_deg", WorstCells::bound_deg}, {"tets", cells}, {"places", places}};
+}
+
 Json file_json(const RunFile& file) { return {{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}}; }
 
 template <class T>
@@ -343,6 +367,7 @@ std::string to_json(const RunReport& report) {
         {"totals", totals_json(report)},
         {"quality", quality_json(report.mesh.quality)},
         {"forced", forced_json(report.mesh.quality.angles)},
+        {"sharp", sharp_json(report)},
         {"bounds", bounds_json(report)},
         {"improvement", improvement_json(report.mesh.improvement, {report.mesh.improvement, report.mesh.quality},
                                          report.mesh.improve_seconds)},

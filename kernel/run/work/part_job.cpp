@@ -30,11 +30,15 @@ namespace kerf {
 
 namespace {
 
-PartQuality quality_of_part(const TetMesh& mesh, const PartJob& job) {
+void measure_cells(const TetMesh& mesh, const PartJob& job, PartResult& result) {
     std::vector<char> is_interface;
     is_interface.reserve(job.surface.facets.size());
     for (const Key key : job.surface.facet_key) is_interface.push_back(is_of_cut(key));
-    return measure_quality(mesh, {job.surface.facets, is_interface}, job.length_scale);
+    const BoundaryTriangles boundary = {job.surface.facets, is_interface};
+    result.quality = measure_quality(mesh, boundary, job.length_scale);
+    const double smallest = result.quality.all.measures[0].min();
+    if (smallest < WorstCells::bound_deg) result.worst = find_worst_cells(mesh, boundary, job.surface.patch);
+    result.worst.smallest_deg = smallest;
 }
 
 std::string broken_laws(const MeshLaws& laws) {
@@ -213,7 +217,7 @@ PartResult run_part_job(const PartJob& job, const MesherCall& call, const std::s
         result.core_tets = filling.core_tets;
         timed(result.store_seconds, [&] {
             result.sizes = measure_sizes(mesh, job.surface, call.options.size);
-            result.quality = quality_of_part(mesh, job);
+            measure_cells(mesh, job, result);
             result.angles = ImprovedAngles(result.improvement, result.quality);
         });
         const Part part = part_of_job(job, std::move(mesh));

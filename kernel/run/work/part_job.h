@@ -9,6 +9,7 @@
 #include "fill/improve/improve.h"
 #include "fill/mesh/quality.h"
 #include "fill/mesh/verification.h"
+#include "fill/mesh/worst_cells.h"
 #include "fill/volume/retries.h"
 #include "run/work/inside/size_ratios.h"
 #include "surface/complex/surface.h"
@@ -83,6 +84,7 @@ struct PartResult {
     std::int64_t core_tets = 0;  ///< Filling::core_tets
     MeshLaws laws;
     PartQuality quality;
+    WorstCells worst;
     SizeRatios sizes;  ///< against the sizes of the call, which a fallback may have made larger
     std::array<std::uint64_t, 2> hash = {0, 0};  ///< see hash_part()
     FileHash file_hash = {0, 0};                 ///< hash of the stored part
@@ -100,9 +102,9 @@ struct PartResult {
 
     template <class Archive>
     void archive(Archive& a) {
-        a(code, message, mesher, strategy, reason, vertices, interior_vertices, tets, core_tets, laws, quality, sizes,
-          hash, file_hash, recovery, improvement, angles, improve_seconds, load_seconds, mesh_seconds, verify_seconds,
-          store_seconds, peak_rss_bytes);
+        a(code, message, mesher, strategy, reason, vertices, interior_vertices, tets, core_tets, laws, quality, worst,
+          sizes, hash, file_hash, recovery, improvement, angles, improve_seconds, load_seconds, mesh_seconds,
+          verify_seconds, store_seconds, peak_rss_bytes);
     }
 };
 
