@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "files/io/surface_formats.h"
 #include "support/assets.h"
 #include "support/temporary_folder.h"
 #include "viewer/driver.h"
@@ -41,8 +42,12 @@ bool is_said(const std::string& words) {
 // What can be read is named at the start, and in the list of files.
 TEST(StartPage, KnowsEveryFormatThatIsRead) {
     const TemporaryFolder folder;
-    const std::vector<std::string> formats = {".stl",   ".obj",  ".ply",  ".off",  ".msh",  ".vtu", ".mesh",
-                                              ".smesh", ".poly", ".step", ".iges", ".brep", ".3mf"};
+    const std::vector<std::string> formats = {".stl",  ".obj",   ".ply",  ".off",  ".msh",  ".vtu",  ".vtp", ".vtk",
+                                              ".mesh", ".smesh", ".poly", ".step", ".iges", ".brep", ".3mf"};
+    for (const SurfaceFormat& format : surface_formats()) {
+        const std::string ending(format.endings.substr(0, format.endings.find(' ')));
+        EXPECT_NE(std::find(formats.begin(), formats.end(), ending), formats.end()) << ending;
+    }
     for (const std::string& format : formats) std::ofstream(folder.file("a" + format + ".gz")) << "x";
     std::ofstream(folder.file("a.txt")) << "x";
     Driver driver(with_examples(assets));

@@ -10,6 +10,7 @@
 #include <imgui_stdlib.h>
 
 #include "base/core/ids.h"
+#include "files/io/surface_formats.h"
 #include "viewer/panels/imgui_input.h"
 #include "viewer/panels/inside/icons.h"
 #include "viewer/panels/inside/parts.h"
@@ -29,12 +30,9 @@ std::string lower(std::string text) {
 }
 
 Kind kind_of_file(const fs::path& path) {
-    fs::path name = lower(path.filename().string());
-    if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+    const fs::path name = lower(path.filename().string());
+    if (has_surface_ending(name.string())) return Kind::surface;
     const std::string extension = name.extension().string();
-    constexpr const char* surfaces[] = {".stl",   ".obj",  ".ply",  ".off", ".msh",  ".vtu", ".vtp",  ".vtk", ".mesh",
-                                        ".smesh", ".poly", ".step", ".stp", ".iges", ".igs", ".brep", ".3mf"};
-    if (std::find(std::begin(surfaces), std::end(surfaces), extension) != std::end(surfaces)) return Kind::surface;
     if (extension.ends_with("trace")) return Kind::trace;
     return extension == ".jsonl" ? Kind::events : Kind::other;
 }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "base/core/ids.h"
+#include "files/io/surface_formats.h"
 #include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
@@ -14,21 +16,27 @@ namespace kerf::view {
 namespace {
 
 constexpr std::size_t most_recent = 8;
+constexpr float share_of_tiles = 0.66f;  // of the width
 
-constexpr const char* what_can_be_opened[] = {
-    "Surfaces: STL, OBJ, PLY, OFF, .msh, .vtu, .mesh, .smesh, .poly, also .gz or .zst",
-    "CAD files: STEP, IGES, BREP, and 3MF",
-    "Traces: what kerf mesh --trace FILE has written",
-    "Runs: the folder of kerf mesh -o DIR, finished or under way",
-    "Solutions: the folder of kerf solve -o DIR",
-};
+// The kinds of surfaces are those of the reader's table.
+std::vector<std::string> what_can_be_opened() {
+    std::string read, imported;
+    for (const SurfaceFormat& format : surface_formats()) {
+        std::string& list = format.is_imported ? imported : read;
+        list += (list.empty() ? "" : ", ") + std::string(format.words);
+    }
+    return {"Surfaces: " + read + ", also .gz or .zst", "Bodies: " + imported,
+            "Traces: what kerf mesh --trace FILE has written",
+            "Runs: the folder of kerf mesh -o DIR, finished or under way",
+            "Solutions: the folder of kerf solve -o DIR"};
+}
 
 // The example whose cut the tour shows.
 constexpr const char* example_of_tour = "Bearing cap 14k";
 
-// The part of an example's picture that is shown, as fractions of its size: caption and gizmo lie above, the borders
-// are empty.
-const ImVec2 seen_from = {0.21f, 0.19f}, seen_to = {0.79f, 0.95f};
+// The part of an example's picture that is shown, as fractions of its size: caption and gizmo lie above and beside it.
+const ImVec2 seen_from = {0.13f, 0.125f}, seen_to = {0.87f, 0.945f};
+constexpr float picture_shape = 0.83f;  // height over width of that part
 
 void show_centered(const std::string& text, const ImVec4& color) {
     const float room = ImGui::GetContentRegionAvail().x, width = ImGui::CalcTextSize(text.c_str()).x;
@@ -79,7 +87,29 @@ void draw_recent(UiContext& context, const Palette& colors) {
 void draw_left(UiContext& context, const Palette& colors) {
     draw_recent(context, colors);
     show("What can be opened", colors.text);
-    for (const char* kind : what_can_be_opened) show_wrapped(kind, colors.dim);
+    for (const std::string& kind : what_can_be_opened()) show_wrapped(kind, colors.dim);
+}
+
+// The columns of the tiles of all examples, and the size of each.
+struct Tiles {
+    int columns = 1;
+    ImVec2 size = {0, 0};
+    float height = 0;  // of all rows
+};
+
+float tile_gap() { return 0.5f * em(); }
+
+// The largest tiles that fit into the room, as few in a row as can be; small ones, which scroll, if none fit.
+Tiles arranged(int count, const ImVec2& room) {
+    Tiles tiles;
+    for (int columns = std::min(count, 3);; ++columns) {
+        const float width = std::floor((room.x + tile_gap()) / static_cast<float>(columns) - tile_gap());
+        const int rows = (count + columns - 1) / columns;
+        tiles.columns = columns;
+        tiles.size = {width, std::floor(picture_shape * width + 2.4f * ImGui::GetTextLineHeight())};
+        tiles.height = static_cast<float>(rows) * (tiles.size.y + tile_gap());
+        if (tiles.height <= room.y || columns >= count || width < 8.5f * em()) return tiles;
+    }
 }
 
 void draw_example(UiContext& context, const Example& example, const ImVec2& size) {
@@ -95,17 +125,13 @@ void draw_example(UiContext& context, const Example& example, const ImVec2& size
     add_text({at.x + pad, at.y + below + line}, number_of(example.facets, "facet"), size.x - 2 * pad, colors.dim);
 }
 
-void draw_examples(UiContext& context, const Palette& colors) {
+void draw_examples(UiContext& context, const Tiles& tiles, const Palette& colors) {
     show("Surfaces to try: one click opens and cuts them", colors.text);
-    const float gap = 0.5f * em(), room = ImGui::GetContentRegionAvail().x;
-    const float columns = std::max(1.f, std::floor((room + gap) / (7.6f * em() + gap)));
-    const float width = std::floor((room - (columns - 1) * gap) / columns);
-    const ImVec2 size = {width, 0.96f * width + 2 * ImGui::GetTextLineHeight()};
     const std::vector<Example> examples = context.examples;
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, gap});
-    for (std::size_t i = 0; i < examples.size(); ++i) {
-        if (i % static_cast<std::size_t>(columns) != 0) ImGui::SameLine();
-        draw_example(context, examples[i], size);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {tile_gap(), tile_gap()});
+    for (int i = 0; i < count_of(examples); ++i) {
+        if (i % tiles.columns != 0) ImGui::SameLine();
+        draw_example(context, examples[i], tiles.size);
     }
     ImGui::PopStyleVar();
 }
@@ -135,15 +161,15 @@ void draw_titles(const Document& document, const Palette& colors) {
     ImGui::PopFont();
 }
 
-void draw_columns(UiContext& context, const Palette& colors) {
+void draw_columns(UiContext& context, const Tiles& tiles, const Palette& colors) {
     const bool has_examples = !context.examples.empty();
     ImGui::BeginChild("##start", {0, 0});  // scrolls
     if (ImGui::BeginTable("##start page", has_examples ? 2 : 1, ImGuiTableFlags_NoSavedSettings)) {
-        ImGui::TableSetupColumn("##left", ImGuiTableColumnFlags_WidthStretch, 0.36f);
-        if (has_examples) ImGui::TableSetupColumn("##right", ImGuiTableColumnFlags_WidthStretch, 0.64f);
+        ImGui::TableSetupColumn("##left", ImGuiTableColumnFlags_WidthStretch, 1 - share_of_tiles);
+        if (has_examples) ImGui::TableSetupColumn("##right", ImGuiTableColumnFlags_WidthStretch, share_of_tiles);
         ImGui::TableNextColumn();
         draw_left(context, colors);
-        if (has_examples && ImGui::TableNextColumn()) draw_examples(context, colors);
+        if (has_examples && ImGui::TableNextColumn()) draw_examples(context, tiles, colors);
         ImGui::EndTable();
     }
     ImGui::EndChild();
@@ -155,8 +181,13 @@ void draw_welcome(UiContext& context, Dialogs& dialogs, const Rectangle& scene) 
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
     const bool is_opening = !document.path.empty() && document.error.empty();
-    const float e = em(), width = std::min((context.examples.empty() ? 40 : 66) * e, scene.width - 2 * e);
-    const float height = std::min((is_opening ? 5 : context.examples.empty() ? 26 : 45) * e, scene.height - 2 * e);
+    const float e = em(), width = std::min((context.examples.empty() ? 40 : 84) * e, scene.width - 2 * e);
+    const float head = 7.3f * e, most = scene.height - 2 * e;
+    Tiles tiles;
+    if (!context.examples.empty())
+        tiles = arranged(count_of(context.examples), {share_of_tiles * width - 2 * e, most - head - 2 * e});
+    const float least = std::max(26 * e, head + tiles.height + e);
+    const float height = std::min(is_opening ? 5 * e : least, most);
     begin_place("##welcome",
                 {scene.x + (scene.width - width) / 2, scene.y + (scene.height - height) / 2, width, height},
                 ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoFocusOnAppearing);
@@ -171,7 +202,7 @@ void draw_welcome(UiContext& context, Dialogs& dialogs, const Rectangle& scene) 
         ImGui::Dummy({0, 0.2f * e});
         draw_buttons(context, dialogs);
         ImGui::Dummy({0, 0.6f * e});
-        draw_columns(context, colors);
+        draw_columns(context, tiles, colors);
     }
     ImGui::End();
 }

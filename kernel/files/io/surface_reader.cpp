@@ -20,6 +20,7 @@
 #include "files/io/inside/mesh_scanners.h"
 #include "files/io/inside/stl_format.h"
 #include "files/io/inside/text_scanner.h"
+#include "files/io/surface_formats.h"
 #include "files/io/threemf_file.h"
 #include "files/io/zip_archive.h"
 
@@ -164,11 +165,8 @@ Reader recognise(std::string_view bytes, const std::string& path) {
     if (begins_like_tetgen(bytes, path)) return read_tetgen;
     if (holds_nul(bytes)) return read_stl;
     throw Error(ErrorCode::input,
-                path +
-                    ": the format is not recognised. Give STL, OBJ, PLY, OFF, Gmsh's .msh, MEDIT's .mesh as text, "
-                    "VTK's .vtp, .vtu or .vtk, TetGen's .smesh or .poly, STEP, IGES, BREP or 3MF, plain or compressed "
-                    "with gzip or "
-                    "zstd.");
+                fmt::format("{}: the format is not recognised. Give {}, plain or compressed with gzip or zstd.", path,
+                            words_of_surface_formats()));
 }
 
 }  // namespace

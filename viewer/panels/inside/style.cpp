@@ -107,7 +107,6 @@ void set_style(Theme theme, float scale) {
     style.ScrollbarSize = 11;
     style.GrabMinSize = 10;
     style.WindowRounding = 0;
-    style.WindowMinSize = {1, 1};  // bars are lower than the default
     style.ChildRounding = style.PopupRounding = 4;
     style.FrameRounding = style.GrabRounding = style.TabRounding = 3;
     style.ScrollbarRounding = 6;
@@ -116,6 +115,7 @@ void set_style(Theme theme, float scale) {
     style.PopupBorderSize = style.ChildBorderSize = 1;
     style.DisabledAlpha = 0.5f;
     style.ScaleAllSizes(scale);
+    style.WindowMinSize = {1, 1};  // whatever the scale: bars are lower than the default, and ImGui takes no less
     set_surfaces(style.Colors, palette(theme));
     set_interactive(style.Colors, palette(theme));
     ImGui::GetStyle() = style;
