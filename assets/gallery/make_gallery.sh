@@ -58,6 +58,7 @@ draw_stages() {
         opened=$work/halves.trace apart=()
         if [[ $stage = tetrahedra ]]; then opened=$work/halves; fi
         if [[ $stage = split || $stage = tetrahedra ]]; then apart=(--explode 0.3); fi
+        if [[ $stage = input ]]; then apart=(--axes); fi
         draw "stages/$stage.png" "$opened" --stage "$stage" "${apart[@]}" --camera assets/cameras/first_cut.json \
             --no-legend --antialias 2 --resolution 320x240
     done
@@ -66,11 +67,11 @@ draw_stages() {
 # Of the viewer's start page, which shows them without their captions: viewer/panels/welcome.cpp.
 draw_surfaces() {
     local surface
-    echo '{"axes": false, "edges": false, "legend": false}' >"$work/bare.json"
+    echo '{"edges": false, "legend": false, "size": [400, 300, 0.35]}' >"$work/bare.json"
     mkdir -p "$into/surfaces"
     for surface in assets/*.stl; do
         draw "surfaces/$(basename "$surface" .stl).png" "$surface" --stage input --state "$work/bare.json" \
-            --antialias 2 --resolution 400x300
+            --antialias 3
     done
 }
 
@@ -123,7 +124,7 @@ draw_bracket() {
 draw_cad_surface() {
     local name=$1 when=$2 ending=$3
     shift 3
-    draw "cad_${name}_$when.png" "$work/cad_$name.$ending" "$@" --stage input --state "$work/no_axes.json" \
+    draw "cad_${name}_$when.png" "$work/cad_$name.$ending" "$@" --stage input \
         --no-legend --antialias 2 --resolution 480x360
 }
 
@@ -134,7 +135,6 @@ before_and_after() {
     "$kerf" decompose "$file" "$@" --surface split -n 1 --stl -q -o "$work/cad_$name"
     "$kerf" remesh "$file" "$@" -q -o "$work/cad_$name.obj"
     cp "$(find "$work/cad_$name" -name '*.stl')" "$work/cad_$name.stl"
-    echo '{"axes": false}' >"$work/no_axes.json"
     draw_cad_surface "$name" before stl --surface split
     draw_cad_surface "$name" after obj
 }

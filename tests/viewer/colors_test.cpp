@@ -154,7 +154,6 @@ TEST(Legend, ListsOnlyWhatIsThere) {
     EXPECT_EQ(texts(), (std::vector<std::string>{"inner cells", "cells at an interface"}));
     driver.state() = {};
     driver.state().step = {Stage::input, -1};
-    driver.state().look.axes = false;
     EXPECT_TRUE(texts().empty()) << "nothing but the surface";
 }
 

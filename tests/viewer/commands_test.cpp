@@ -46,6 +46,19 @@ TEST(Commands, HaveNamesAndKeysOfTheirOwn) {
     EXPECT_NE(command_of_key("Shift+C"), command_of_key("C"));
 }
 
+// What a mesh is made for can be asked for in these words.
+TEST(Commands, SaveExportAndMesh) {
+    const auto finds = [](const char* words, const std::string& name) {
+        const std::vector<const Command*> found = find_commands(words);
+        return std::any_of(found.begin(), found.end(), [&](const Command* command) { return command->name == name; });
+    };
+    for (const char* name : {"Save run as...", "Save surface as...", "Save report page...", "Save picture..."})
+        EXPECT_TRUE(finds("save", name)) << name;
+    EXPECT_TRUE(finds("export", "Export mesh..."));
+    EXPECT_TRUE(finds("mesh", "Export mesh..."));
+    EXPECT_TRUE(finds("mesh", "Mesh the surface"));
+}
+
 TEST(Commands, AreFoundByTheirNamesAndKeys) {
     EXPECT_EQ(find_commands("").size(), commands().size());
     for (const Command& command : commands()) {
@@ -117,7 +130,7 @@ TEST(SearchBox, DoesNothingThatCannotBeDone) {
     driver.settle();
     driver.type("nonsense");
     driver.key(key_enter);
-    EXPECT_FALSE(driver.app().wants_to_quit());
+    EXPECT_FALSE(driver.app().desk().wants_to_quit());
 }
 
 }  // namespace

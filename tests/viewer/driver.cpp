@@ -25,6 +25,7 @@ view::AppOptions app_options(const Driver::Options& options) {
     app.screenshot_folder = options.screenshot_folder;
     app.auto_run = options.auto_run;
     app.volume = options.volume;
+    app.asks_to_save = options.asks_to_save;
     app.run.parts = options.parts;
     app.run.cut.contour = options.contour;
     app.run.remeshing = options.remeshing;

@@ -21,7 +21,7 @@ class Driver {
         int width = 1280, height = 800;  ///< of the window, in its units
         float pixels_per_unit = 1;       ///< the picture is so many times as large
         float scale = 1;                 ///< of fonts and lines
-        bool auto_run = true, volume = true;
+        bool auto_run = true, volume = true, asks_to_save = false;
         std::int32_t parts = 4;
         ContourMethod contour = ContourMethod::min_cut;
         Remeshing remeshing = Remeshing::where_needed;

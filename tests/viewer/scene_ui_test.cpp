@@ -150,7 +150,7 @@ TEST(SceneUi, KeysWithinAFrameAllCount) {
     driver.keys_in_one_frame({{.key = key_of('E')}, {.key = key_of('E')}, {.key = key_of('E'), .repeat = true}});
     EXPECT_TRUE(driver.state().look.edges) << "a held letter counts once";
     driver.keys_in_one_frame({{.key = key_of('Q'), .control = true}});
-    EXPECT_TRUE(driver.app().wants_to_quit());
+    EXPECT_TRUE(driver.app().desk().wants_to_quit());
 }
 
 TEST(SceneUi, EscapeClosesMenus) {

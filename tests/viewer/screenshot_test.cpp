@@ -205,6 +205,7 @@ TEST(Screenshot, SaysWhatIsWrong) {
     expect({asset_path("cube"), "--clip", "x=nan"}, 2, "clip plane");
     expect({asset_path("cube"), "--stage", "tetrahedra", "--isolate", "99", "-n", "2"}, 2, "no node 99");
     expect({asset_path("cube"), "--filter", "1", "2"}, 2, "--filter");
+    expect({asset_path("cube"), "--hide-patch", "lid*"}, 2, "the patch 'lid*', which the surface does not have");
     expect({asset_path("cube"), "--color", "shape", "--filter", "2", "1"}, 2, "--filter");
     expect({asset_path("cube"), "--stage", "split", "-n", "100000"}, 2, "too few");
     std::ofstream(folder().file("word.stl")) << "solid x\nfacet normal 0 0 up\n";

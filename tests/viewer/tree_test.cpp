@@ -74,7 +74,7 @@ class CutWing : public testing::Test {
 Driver* CutWing::driver_ = nullptr;
 
 TEST_F(CutWing, SortsByTheHeadOfAColumn) {
-    driver_->state().look.surface = driver_->state().look.context = driver_->state().look.axes = false;  // faster
+    driver_->state().look.surface = driver_->state().look.context = false;  // faster
     driver_->click("Columns");
     for (const char* column : {"column tries", "column angle", "column dihedral", "column ratio"})
         driver_->click(column);

@@ -49,7 +49,20 @@ TEST(Ui, ASession) {
     });
     const Image opened = driver.picture();
     EXPECT_GT(changed(empty, opened), 0.1) << "the body, and the tree beside it";
+    // The end of the run goes to the cells and says what came; axes explain the plane of a cut, or come on demand.
+    EXPECT_EQ(state.step.stage, Stage::tetrahedra);
+    EXPECT_GT(driver.drawn(LayerKind::part).triangles, 0);
+    EXPECT_NE(driver.app().facts().notice.find("deg, verified, "), std::string::npos);
+    driver.click("step input");
+    driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::surface).triangles, 3786);
+    EXPECT_EQ(driver.drawn(LayerKind::axes).segments, 0);
+    driver.click("Axes");
+    driver.settle();
+    EXPECT_EQ(driver.drawn(LayerKind::axes).segments, 3);
+    state.look.axes = {};
+    driver.click("step plane");
+    driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::axes).segments, 3);
 
     // Node 3, smoothed contour, by the tree and the timeline.

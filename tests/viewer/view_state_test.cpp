@@ -28,8 +28,9 @@ ViewState unusual_state() {
     s.step = {Stage::plane, 4};
     s.camera = Camera{{1, 2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 7, false};
     s.look.shading = Shading::smooth;
-    s.look.edges = s.look.context = s.look.plane = s.look.axes = s.look.contour = s.look.surface = s.look.interfaces =
-        s.look.legend = s.look.times = false;
+    s.look.edges = s.look.context = s.look.plane = s.look.contour = s.look.surface = s.look.interfaces = s.look.legend =
+        s.look.times = false;
+    s.look.axes = false;
     s.look.numbers = false;
     s.coloring.percentile = 95;
     s.look.features = s.visibility.neighbours = true;
@@ -49,6 +50,7 @@ ViewState unusual_state() {
     s.visibility.isolated = NodeId(3);
     s.visibility.hidden_regions = {"bone", "cement \xe4"};
     s.visibility.glass_regions = {"void_1"};
+    s.visibility.hidden_patches = {"side*"};
     s.visibility.isolated_region = "cement";
     s.visibility.walls = s.explosion.regions = true;
     s.pick = PickMode::vertex;
@@ -72,8 +74,10 @@ auto fields(const Look& l) {
                     times);
 }
 auto fields(const Visibility& v) {
-    const auto& [hidden, isolated, hidden_regions, glass_regions, isolated_region, walls, neighbours] = v;
-    return std::tie(hidden, isolated, hidden_regions, glass_regions, isolated_region, walls, neighbours);
+    const auto& [hidden, isolated, hidden_regions, glass_regions, isolated_region, hidden_patches, walls, neighbours] =
+        v;
+    return std::tie(hidden, isolated, hidden_regions, glass_regions, isolated_region, hidden_patches, walls,
+                    neighbours);
 }
 auto fields(const Coloring& c) {
     const auto& [by, range, filter, percentile, isolines, extremes] = c;

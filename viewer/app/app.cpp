@@ -79,7 +79,8 @@ void App::follow_session() {
         view_.session_changed = true;
         view_.wake();
     }
-    opening_.follow();
+    opening_.follow(ui_.leads_tour());
+    desk_.follow();
     if (view_.session_changed) input_.resolve_click();
     navigation_.resolve_turn();
     const Document& document = session.document();
@@ -167,7 +168,7 @@ void App::frame(const FrameSize& size, bool panels) {
     if (desk_.wants_picture()) {
         lay_out(false);
         // The picture does not wait for data that a run has not made yet, as it may take long.
-        if (!view_.built.pending || !view_.session.pending()) desk_.save_picture(picture());
+        if (!view_.built.pending || !view_.session.pending()) desk_.write_picture(picture());
         wake();
     }
     lay_out(panels);

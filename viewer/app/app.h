@@ -70,7 +70,7 @@ class App {
     Rectangle scene_area() const { return view_.area; }
     const Camera& camera() const { return view_.camera; }
     std::int64_t geometry_made() const { return builder_.geometry_made(); }
-    bool wants_to_quit() const { return desk_.wants_to_quit(); }
+    Desk& desk() { return desk_; }
 
  private:
     void lay_out(bool panels);
@@ -78,11 +78,12 @@ class App {
     void build_scene();
 
     View view_;
-    Opening opening_{view_};
+    Unsaved unsaved_{view_};
+    Opening opening_{view_, unsaved_};
     Navigation navigation_{view_};
     Playing playing_{view_};
     Labels labels_{view_};
-    Desk desk_{view_};
+    Desk desk_{view_, unsaved_};
     Ui ui_;
     SceneInput input_{view_, ui_, navigation_};
     Gallery gallery_{view_};

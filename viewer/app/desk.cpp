@@ -1,7 +1,11 @@
+// Pictures are drawn by the App, in the frame after they were asked for, and written here with their view beside them.
+// Commands that write files end in the background; follow() tells how, once a frame. A notice goes by itself after some
+// seconds, an error by a click.
 #include "viewer/app/desk.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -28,6 +32,25 @@ std::string unused_picture(const std::string& folder) {
 }
 
 }  // namespace
+
+void Desk::quit() {
+    if (!unsaved_.asks_before([this] { quit(); })) quit_ = true;
+}
+
+void Desk::take_screenshot() { picture_ = unused_picture(view_.options.screenshot_folder); }
+
+void Desk::follow() {
+    if (const auto result = view_.session.writer().take_result()) {
+        if (result->error.empty())
+            view_.notify("saved as " + result->file);
+        else
+            complain(result->error);
+    }
+    const std::string& saved_as = view_.session.document().saved_as;
+    if (saved_as != saved_as_ && !saved_as.empty()) view_.notify("saved as " + saved_as);
+    saved_as_ = saved_as;
+    unsaved_.follow();
+}
 
 void Desk::copy(const std::string& text) {
     ImGui::SetClipboardText(text.c_str());
@@ -65,9 +88,8 @@ ViewOrigin Desk::origin_of_picture() const {
     return origin;
 }
 
-void Desk::save_picture(const Image& picture) {
-    capture_ = false;
-    const std::string path = unused_picture(view_.options.screenshot_folder);
+void Desk::write_picture(const Image& picture) {
+    const std::string path = std::exchange(picture_, "");
     try {
         write_png(path, picture);
         ViewState state = view_.state;
@@ -76,8 +98,9 @@ void Desk::save_picture(const Image& picture) {
         view_.notify("saved as " + std::filesystem::path(path).lexically_normal().string() +
                      ", its view as .json beside it");
     } catch (const Error& error) {
-        complain(fmt::format("The picture was not saved: {} Start the viewer in a folder that can be written.",
-                             error.what()));
+        complain(fmt::format(
+            "The picture was not saved: {} Start the viewer in a folder that can be written, or choose another place.",
+            error.what()));
     }
 }
 

@@ -3,24 +3,29 @@
 
 #include <string>
 
-#include "viewer/app/view.h"
+#include "viewer/app/unsaved.h"
 
 namespace kerf::view {
 
 class Desk : public WindowActions {
  public:
-    explicit Desk(View& view) : view_(view) {}
+    Desk(View& view, Unsaved& unsaved) : view_(view), unsaved_(unsaved) {}
 
-    void quit() override { quit_ = true; }
-    void take_screenshot() override { capture_ = true; }
+    void quit() override;
+    void take_screenshot() override;
+    void save_picture(const std::string& path) override { picture_ = path; }
+    void answer(UnsavedMesh answer) override { unsaved_.answer(answer); }
     void copy(const std::string& text) override;
     std::string clipboard() override;
     void complain(const std::string& text) override;
 
+    /// Returns whether quit() was called, and nobody has to be asked any more.
     bool wants_to_quit() const { return quit_; }
-    bool wants_picture() const { return capture_; }
+    bool wants_picture() const { return !picture_.empty(); }
     /// Saves the picture that was wanted, with its view as JSON beside it, and notes either success or the error.
-    void save_picture(const Image& picture);
+    void write_picture(const Image& picture);
+    /// Notes what was saved, or why it could not be.
+    void follow();
     /// Takes the notice away: a message after some seconds, an error by a click.
     void clear_notice();
 
@@ -28,7 +33,10 @@ class Desk : public WindowActions {
     ViewOrigin origin_of_picture() const;
 
     View& view_;
-    bool quit_ = false, capture_ = false;
+    Unsaved& unsaved_;
+    bool quit_ = false;
+    std::string picture_;   // file of a picture that is wanted; empty: none
+    std::string saved_as_;  // Document::saved_as when it was last looked at
 };
 
 }  // namespace kerf::view

@@ -77,8 +77,9 @@ void view_in_window(const ViewCommand& command, const AppOptions& options) {
     app.state().theme = command.theme.value_or(theme);
     bool is_applied = !depends_on_document(command);
     std::string title;
-    while (!window.should_close() && !app.wants_to_quit() && !was_interrupted()) {
+    while (!app.desk().wants_to_quit() && !was_interrupted()) {
         if (window.take_events(seconds_to_wait(app))) app.wake();
+        if (window.take_close()) app.desk().quit();
         if (const std::vector<std::string> dropped = window.take_dropped_files(); !dropped.empty())
             app.open_files(dropped);
         for (const KeyEvent& event : window.take_key_events()) app.press(event);
@@ -110,6 +111,7 @@ int run(int argc, const char* const* argv) {
     if (command.screenshot) {
         take_screenshot(command, options);
     } else {
+        options.asks_to_save = true;
         options.config_folder = user_config_folder();
         options.example_folder = folder_of_examples(tree_of(options.kerf_program));
         view_in_window(command, options);

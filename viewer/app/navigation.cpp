@@ -140,6 +140,28 @@ void Navigation::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const 
 }
 
 // Zooms towards the point that is seen under the cursor, and not through it.
+const std::string* Navigation::patch_at(float x, float y) {
+    const std::optional<PickHit> hit = view_.pick(x, y);
+    if (!hit) return nullptr;
+    Fetched& fetched = view_.session.fetched();
+    const LayerKind kind = view_.built.scene.layers[hit->layer].kind;
+    const bool is_of_facets = kind == LayerKind::part || kind == LayerKind::surface ||
+                              kind == LayerKind::file_surface || kind == LayerKind::half;
+    if (!is_of_facets) return nullptr;
+    const auto surface = kind == LayerKind::part ? fetched.part_surface(hit->owner) : fetched.surface(hit->owner);
+    if (!surface || hit->element >= std::ssize(surface->patch)) return nullptr;
+    const std::int32_t patch = surface->patch[hit->element];
+    const std::vector<std::string>& names = view_.session.document().patch_names;
+    return patch >= 0 && patch < std::ssize(names) ? &names[patch] : nullptr;
+}
+
+void Navigation::hide_patch() {
+    const ImVec2& mouse = ImGui::GetIO().MousePos;
+    const std::string* patch = view_.area.contains(mouse.x, mouse.y) ? patch_at(mouse.x, mouse.y) : nullptr;
+    if (!patch) return view_.notify("There is no patch with a name under the mouse.");
+    set_member(view_.state.visibility.hidden_patches, *patch, true);
+}
+
 void Navigation::zoom(float x, float y, float notches) {
     Camera camera = view_.camera;
     const double diagonal = view_.diagonal();

@@ -16,10 +16,13 @@ class Navigation : public CameraActions {
     void fly_to(const Vec3& point, double radius, const Vec3& back) override;
     void turn_to_selection() override { turning_to_ = view_.state.selection; }
     void clip_through_selection(bool faces_eye) override;
+    void hide_patch() override;
     void take_camera(const Camera& camera) override { view_.state.camera = view_.camera = camera; }
     void show_earlier() override { show_again(view_.history.go_back(view_.state)); }
     void show_later() override { show_again(view_.history.go_on(view_.state)); }
 
+    /// Returns the name of the patch that is seen at a pixel; null: there is none.
+    const std::string* patch_at(float x, float y);
     /// Zooms towards the point that is seen under the cursor, and not through it.
     void zoom(float x, float y, float notches);
     /// Makes the camera turn about the point that was hit from now on.

@@ -6,6 +6,8 @@
 // dropped there; a selected place stays.
 #include "viewer/app/opening.h"
 
+#include <utility>
+
 #include "viewer/app/settings.h"
 
 namespace kerf::view {
@@ -17,6 +19,7 @@ constexpr double usual_explosion = 0.4;  // Explosion::amount of parts that are 
 }  // namespace
 
 void Opening::open_files(const std::vector<std::string>& paths) {
+    if (unsaved_.asks_before([this, paths] { open_files(paths); })) return;
     keep_sizes(view_.settings, view_.session.document());
     RunRequest run = view_.options.run;
     run.input_options.more_files.assign(paths.begin() + 1, paths.end());
@@ -49,6 +52,7 @@ void Opening::await_document() {
 }
 
 void Opening::reload() {
+    if (unsaved_.asks_before([this] { reload(); })) return;
     view_.session.reload();
     await_document();
 }
@@ -130,7 +134,7 @@ void Opening::begin_auto_run() {
     view_.session.start_run(document.options, view_.options.volume);
 }
 
-// A solution is seen by its stress, a mesh that is cut open by its cells, and parts without cells pulled apart, unless
+// A solution is seen by its stress, a finished run by its cells, and parts without cells pulled apart, unless
 // somebody has chosen something else.
 void Opening::choose_view() {
     const Document& document = view_.session.document();
@@ -148,13 +152,35 @@ void Opening::choose_view() {
     }
     if (view_.chosen.faces_clip && !view_.chosen.stage && has_cells(document, view_.state.node))
         view_.state.step = {Stage::tetrahedra, -1};
+    if (!document.progress.running && !view_.chosen.stage && !view_.chosen.color) show_cells();
     if (!document.has_surfaces_alone() || view_.chosen.stage || is_of_cells(view_.state.coloring.by)) return;
     view_.state.step = {Stage::parts, -1};
     if (!view_.chosen.explode) view_.state.explosion.amount = usual_explosion;
 }
 
-void Opening::follow() {
+// The cells of a finished run, in the colours of its regions where there are several.
+void Opening::show_cells() {
+    const Document& document = view_.session.document();
+    if (document.solution || !has_cells(document, view_.shown().node)) return;
+    view_.state.step = {Stage::tetrahedra, -1};
+    const bool is_free = !view_.chosen.color && view_.state.coloring.by == ColorBy::part;
+    if (is_free && document.region_names.size() > 1) view_.state.coloring.by = ColorBy::region;
+}
+
+// The end of a run is told, and its cells are shown to who has waited for them at the surface.
+void Opening::follow_run(bool leads_tour) {
+    const Document& document = view_.session.document();
+    const bool was_running = std::exchange(is_running_, document.progress.running);
+    if (!was_running || is_running_ || !document.progress.message.empty()) return;
+    if (!has_cells(document, root_node)) return;
+    view_.notify("meshed: " + outcome_of(document, true));
+    const ViewState& state = view_.state;
+    if (!leads_tour && state.node == root_node && state.step.stage <= Stage::input) show_cells();
+}
+
+void Opening::follow(bool leads_tour) {
     begin_auto_run();
+    follow_run(leads_tour);
     choose_view();
     follow_repairs();
 }

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "viewer/app/view.h"
+#include "viewer/app/unsaved.h"
 
 namespace kerf::view {
 
 class Opening : public FileActions, public RunActions, public RepairActions {
  public:
-    explicit Opening(View& view) : view_(view) {}
+    Opening(View& view, Unsaved& unsaved) : view_(view), unsaved_(unsaved) {}
 
     void open_files(const std::vector<std::string>& paths) override;
     void reload() override;
@@ -27,16 +27,20 @@ class Opening : public FileActions, public RunActions, public RepairActions {
     void show_before_repair(bool before) override;
 
     void show(const ViewState& state, const ChosenView& chosen);
-    /// Starts the run of a surface that was opened, and completes the view, as far as data have arrived.
-    void follow();
+    /// Starts the run of a surface that was opened, completes the view, as far as data have arrived, and goes to the
+    /// cells at the end of a run, unless a tour is under way.
+    void follow(bool leads_tour);
 
  private:
     void await_document();
     void begin_auto_run();
     void choose_view();
+    void show_cells();
+    void follow_run(bool leads_tour);
     void follow_repairs();
 
     View& view_;
+    Unsaved& unsaved_;
     std::string opened_;                          // path for which the automatic run was decided
     std::shared_ptr<const CheckedSoup> checked_;  // checked surface of the document when it was last looked at
     struct KeptScale {
@@ -45,6 +49,7 @@ class Opening : public FileActions, public RunActions, public RepairActions {
     };
     KeptScale kept_scale_;           // scale of the document before
     bool is_view_complete_ = false;  // the choices that nobody has made are made
+    bool is_running_ = false;        // a run was under way when the document was last looked at
 };
 
 }  // namespace kerf::view

@@ -18,6 +18,9 @@ constexpr double pictures_per_period = 32;  // phases of a motion; the picture o
 
 void Playing::toggle_play() {
     view_.facts.playing = !view_.facts.playing;
+    // From the cells of all parts, at which runs open, everything is played.
+    const bool is_last = nearest_step(view_.steps, view_.state.step) + 1 == view_.steps.size();
+    if (view_.facts.playing && view_.state.node == root_node && is_last) view_.state.step = {};
     played_until_ = ImGui::GetTime() + seconds_per_step;
 }
 

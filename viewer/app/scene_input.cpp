@@ -55,6 +55,7 @@ void SceneInput::take_mouse() {
         take_drag();
         const bool is_double = ImGui::IsMouseDoubleClicked(0);
         if (is_double || (ImGui::IsMouseReleased(0) && !dragging_)) take_click(is_double);
+        if (ImGui::IsMouseReleased(1) && !dragging_) take_right_click();
         if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
             dragging_ = pressed_in_scene_ = false;
     }
@@ -93,6 +94,15 @@ void SceneInput::take_click(bool centers) {
         view_.state.selection.owner = found->owner;
         view_.state.selection.place = point;
     }
+}
+
+// The panels answer with a menu of what can be done with the patch.
+void SceneInput::take_right_click() {
+    const ImVec2& mouse = ImGui::GetIO().MousePos;
+    const std::string* patch = navigation_.patch_at(mouse.x, mouse.y);
+    view_.facts.patch = patch ? *patch : "";
+    ++view_.facts.patch_clicks;
+    view_.wake();
 }
 
 // Makes the waiting click a selection. The cells behind a facet may have to be read first: then it is tried again when

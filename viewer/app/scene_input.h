@@ -22,6 +22,7 @@ class SceneInput {
     void take_mouse();
     void take_drag();
     void take_click(bool centers);
+    void take_right_click();
 
     View& view_;
     Ui& ui_;

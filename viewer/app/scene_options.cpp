@@ -50,6 +50,13 @@ std::string names_of_colors() {
     return names;
 }
 
+void add_names(CLI::App& app, const char* option, std::vector<std::string>& names, const char* help) {
+    app.add_option(option, names, help)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->expected(1)
+        ->type_name("NAME");
+}
+
 void add_side_options(CLI::App& app, SideOptions& options) {
     app.option_defaults()->group("Scene");
     app.add_option("--state", options.state_file, "Read the whole view from a JSON file; other options win.")
@@ -57,10 +64,11 @@ void add_side_options(CLI::App& app, SideOptions& options) {
     add_number(app, "--node", options.node, node_range,
                "Node of the tree: the root is 1, the children of i are 2i and 2i+1.")
         ->type_name("N");
-    app.add_option("--stage", options.stage,
-                   fmt::format("{}, or try:0 for the first refused try. Default: input, or tetrahedra where they are "
-                               "coloured, moved or cut open; of a folder of kerf decompose parts, pulled apart.",
-                               names_of_stages()))
+    app.add_option(
+           "--stage", options.stage,
+           fmt::format("{}, or try:0 for the first refused try. Default: tetrahedra, of a folder of kerf decompose "
+                       "parts, pulled apart, else input.",
+                       names_of_stages()))
         ->type_name("STAGE")
         ->check(suggest(names_of_stages()));
     add_numbers(app, "--hide", options.hidden, 1, node_range, "Nodes that are not shown, with commas between.")
@@ -68,6 +76,8 @@ void add_side_options(CLI::App& app, SideOptions& options) {
         ->delimiter(',')
         ->type_name("LIST");
     add_number(app, "--isolate", options.isolated, node_range, "Only what lies below this node.")->type_name("N");
+    add_names(app, "--hide-patch", options.hidden_patches,
+              "Patch that is not drawn, to look inside; * in NAME stands for any characters. Repeatable.");
     app.add_option("--camera", options.camera_file, "JSON file with the camera, as the viewer copies it.")
         ->type_name("FILE");
     app.add_option("--view", options.view, "Side from which all is looked at; iso, the default: from a corner.")
@@ -83,6 +93,8 @@ void add_side_options(CLI::App& app, SideOptions& options) {
 void add_look_options(CLI::App& app, LookOptions& options) {
     app.option_defaults()->group("Scene");
     app.add_flag("--features", options.features, "With sharp edges and the borders of patches as lines.");
+    app.add_flag("--axes", options.axes,
+                 "With principal axes and centre of gravity, which are only drawn with the plane of a cut else.");
     app.add_flag("--smooth", options.smooth, "Smooth shading instead of flat facets.");
     app.add_flag("--no-edges", options.no_edges, "Without the edges of triangles.");
     app.add_flag("--no-context", options.no_context, "Without the rest of the body.");
@@ -139,13 +151,6 @@ void add_clip_options(CLI::App& app, ViewCommand& command, ClipOptions& options)
         ->type_name("X");
     add_number(app, "--shrink", options.shrink, {"0 to 1", 0, 1}, "Shrink cells about their centres; 0 to 1.")
         ->type_name("X");
-}
-
-void add_names(CLI::App& app, const char* option, std::vector<std::string>& names, const char* help) {
-    app.add_option(option, names, help)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->expected(1)
-        ->type_name("NAME");
 }
 
 void add_region_options(CLI::App& app, RegionOptions& options) {
@@ -207,6 +212,7 @@ void apply_view(const SideOptions& options, ViewCommand& command) {
 
 void apply_look(const LookOptions& options, Look& look) {
     if (options.features) look.features = true;
+    if (options.axes) look.axes = true;
     if (options.smooth) look.shading = Shading::smooth;
     if (options.no_edges) look.edges = false;
     if (options.no_context) look.context = false;
@@ -289,6 +295,8 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     if (options.clip.shrink >= 0) state.explosion.shrink = options.clip.shrink;
     for (const std::int32_t node : options.side.hidden) state.visibility.set_hidden(NodeId(node), true);
     if (options.side.isolated > 0) state.visibility.isolated = NodeId(options.side.isolated);
+    for (const std::string& patch : options.side.hidden_patches)
+        set_member(state.visibility.hidden_patches, patch, true);
     apply_regions(options.regions, state);
     apply_look(options.look, state.look);
     if (!options.side.state_file.empty()) command.theme = state.theme;

@@ -17,11 +17,13 @@ struct SideOptions {
     std::string state_file, camera_file, view, up, stage;
     std::int32_t node = 0, isolated = 0;
     std::vector<std::int32_t> hidden;
+    std::vector<std::string> hidden_patches;
 };
 
 /// The options for the layers that are drawn.
 struct LookOptions {
-    bool features = false, smooth = false, no_edges = false, no_context = false, no_legend = false, no_numbers = false;
+    bool features = false, axes = false, smooth = false, no_edges = false, no_context = false, no_legend = false,
+         no_numbers = false;
     std::string theme;
 };
 

@@ -14,6 +14,7 @@
 #include <imgui.h>
 
 #include "base/core/error.h"
+#include "base/core/name_pattern.h"
 #include "files/io/output_file.h"
 #include "viewer/app/interruption.h"
 #include "viewer/model/surface_values.h"
@@ -104,6 +105,8 @@ void check_regions(const Document& document, const ViewState& state) {
 // A wish that cannot be met is an error here; in the window it is only a wish.
 void check_wishes(const Document& document, const ViewState& state, bool with_panels) {
     if (!document.error.empty() && !with_panels) throw Error(document.error_code, document.error);
+    for (const std::string& pattern : state.visibility.hidden_patches)
+        matching_names("--hide-patch", "patch", pattern, document.patch_names);
     if (!needs_run(document, state)) return;
     if (document.has_problems())
         throw Error(ErrorCode::input,

@@ -27,6 +27,7 @@ struct AppOptions {
     /// `auto_run`: a surface that is opened is cut, and meshed if `volume`, with the options `run`; else it is only
     /// shown.
     bool auto_run = true, volume = true;
+    bool asks_to_save = false;  ///< before a mesh is lost that nobody has saved
     RunRequest run;
 };
 

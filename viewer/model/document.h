@@ -126,6 +126,7 @@ struct Document {
     std::string surface_saved_as;                ///< file to which Repairs::save() has written the surface; empty: none
     std::string saved_as;                        ///< place to which RunPair::save() has copied `folder`; empty: none
     double cut_seconds = -1, mesh_seconds = -1;  ///< wall clock of the whole run; negative: not known
+    std::optional<bool> verified;                ///< whether all laws hold for the mesh of a run; none: not known
     std::optional<Solution> solution;            ///< the solution that was opened and stands on these parts
     RunRequest options;                          ///< options of the run, or of the next one
     bool remeshed = false;  ///< the surface that was cut is not that of the file, which is there to compare with

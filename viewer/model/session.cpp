@@ -28,6 +28,7 @@ struct Session::Parts {
     Repairs repairs{background, pair, fetched};
     RunFollower follower{background, pair, fetched};
     OwnRuns own_runs{kerf, background, pair.now, repairs, follower};
+    Writer writer{kerf};
     RunPair runs{background, pair, fetched, follower};
     DocumentLoader loader{background, pair.now, fetched, repairs, follower};
 };
@@ -69,6 +70,7 @@ bool Session::poll() {
     bool changed = parts_->background.take_over();
     changed |= parts_->follower.poll();
     changed |= parts_->own_runs.poll();
+    changed |= parts_->writer.poll();
     parts_->repairs.next_frame();
     return changed;
 }
@@ -81,7 +83,8 @@ bool Session::wait(double seconds) {
         if (poll()) return true;
         const double left = std::chrono::duration<double>(end - Clock::now()).count();
         if (left <= 0) return false;
-        const bool looks_at_files = parts_->follower.is_following() || parts_->own_runs.are_leaving();
+        const bool looks_at_files =
+            parts_->follower.is_following() || parts_->own_runs.are_leaving() || parts_->writer.is_writing();
         parts_->background.wait(looks_at_files ? std::min(left, period_of_files) : left);
     }
 }
@@ -98,6 +101,10 @@ const Document* Session::other_document() const { return parts_->pair.other ? &p
 bool Session::shows_before() const { return parts_->pair.shows_before; }
 void Session::start_run(RunRequest options, bool volume) { parts_->own_runs.start(std::move(options), volume); }
 void Session::cancel_run() { parts_->own_runs.cancel(); }
+void Session::write(const std::vector<std::string>& arguments, const std::string& file) {
+    parts_->writer.start(arguments, file, parts_->pair.now.scratch);
+}
+Writer& Session::writer() { return parts_->writer; }
 Fetched& Session::fetched() { return parts_->fetched; }
 Repairs& Session::repairs() { return parts_->repairs; }
 RunPair& Session::pair() { return parts_->runs; }

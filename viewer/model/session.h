@@ -11,6 +11,7 @@
 #include "viewer/model/inside/fetched.h"
 #include "viewer/model/inside/repairs.h"
 #include "viewer/model/inside/run_pair.h"
+#include "viewer/model/inside/writer.h"
 
 namespace kerf::view {
 
@@ -60,6 +61,9 @@ class Session {
     /// The repairs of the surface that is open.
     Repairs& repairs();
     /// The operations on the run that is shown and the one before.
+    /// Writes a file of the open run by a command of kerf (Writer::start()), whose result poll() brings.
+    void write(const std::vector<std::string>& arguments, const std::string& file);
+    Writer& writer();
     RunPair& pair();
     const RunPair& pair() const;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/core/name_pattern.h"
+
 namespace kerf::view {
 
 namespace {
@@ -22,6 +24,17 @@ const std::string* region_of(const Document& document, NodeId node) {
     const TreeRow* row = document.tree.find(node);
     if (!row || !row->region.is_valid() || row->region >= RegionIndex(document.region_names.size())) return nullptr;
     return &document.region_names[row->region.value()];
+}
+
+std::vector<char> hidden_patches(const ViewState& state, const Document& document) {
+    const std::vector<std::string>& patterns = state.visibility.hidden_patches;
+    std::vector<char> hidden;
+    for (const std::string& patch : document.patch_names)
+        hidden.push_back(std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+            return pattern == patch || matches_pattern(pattern, patch);
+        }));
+    if (std::find(hidden.begin(), hidden.end(), 1) == hidden.end()) hidden.clear();
+    return hidden;
 }
 
 bool is_hidden(const ViewState& state, const std::string& region) {

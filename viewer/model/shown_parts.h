@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "viewer/model/document.h"
 #include "viewer/model/view_state.h"
@@ -23,6 +24,9 @@ bool shows_node(const ViewState& state, const Document& document, NodeId node);
 bool is_glass(const ViewState& state, const std::string& region);
 /// Returns whether a part lies in a region that is drawn as glass.
 bool is_glass(const ViewState& state, const Document& document, NodeId part);
+
+/// Returns 1 for each patch that is hidden by its name, and 0 for each other one; empty if none is.
+std::vector<char> hidden_patches(const ViewState& state, const Document& document);
 
 /// Shows a region again, whatever has hidden it.
 void reveal_region(ViewState& state, const std::string& region);

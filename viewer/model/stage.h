@@ -12,8 +12,8 @@ namespace kerf::view {
 enum class Stage {
     before_repair,     ///< of the root: the surface as the file has it, where repairs have changed it
     before_remeshing,  ///< of the root: the surface as it was read and repaired, where another one was cut
-    input,             ///< the surface of the node, its principal axes and its centre of gravity
-    plane,             ///< the cutting plane
+    input,             ///< the surface of the node
+    plane,             ///< the cutting plane, the principal axes and the centre of gravity
     crossed_edges,     ///< edges with ends on both sides of the plane
     hanging_removed,   ///< the boundary of the majority labels
     closed_loops,      ///< ears and islands removed

@@ -85,7 +85,6 @@ std::string describe_input(const Document& document, const TreeRow* row) {
     std::string text = fmt::format("{} facets", grouped(row->facets));
     if (row->volume > 0) text += fmt::format(", volume {:.5g}", row->volume);
     text += row->leaf() ? "; a part." : fmt::format("; {} parts below.", row->leaves);
-    if (row->centroid) text += " Principal axes and centre of gravity.";
     return text;
 }
 

@@ -235,6 +235,7 @@ TourView view_of_stop(const Document& document, NodeId node, Stage stage, const 
     view.back = (0.6 * normal + 0.7 * aside + 0.4 * up).normalized();
     if (stage == Stage::triangulation || stage == Stage::interface)
         view.back = (0.85 * normal + 0.45 * aside + 0.3 * up).normalized();
+    if (stage == Stage::input) state.look.axes = true;  // of which it tells
     if (stage == Stage::split || stage == Stage::parts) state.explosion.amount = tour_explosion;
     if (stage == Stage::tetrahedra) {
         snap_to(state.clip, Plane(body.center(), aside), document.box);

@@ -165,7 +165,6 @@ std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
     return {{"edges", &s.look.edges},
             {"context", &s.look.context},
             {"plane", &s.look.plane},
-            {"axes", &s.look.axes},
             {"contour", &s.look.contour},
             {"surface", &s.look.surface},
             {"interfaces", &s.look.interfaces},
@@ -268,6 +267,7 @@ std::string to_json(const ViewState& state, const ViewOrigin& origin) {
     if (state.camera) json["camera"] = write(*state.camera);
     json["shading"] = shading_names[static_cast<std::size_t>(state.look.shading)];
     json.update(write_switches(state));
+    if (state.look.axes) json["axes"] = *state.look.axes;
     json["explode"] = state.explosion.amount;
     json["shrink"] = state.explosion.shrink;
     json["clip"] = write(state.clip);
@@ -283,6 +283,7 @@ std::string to_json(const ViewState& state, const ViewOrigin& origin) {
     json["hidden"] = state.visibility.hidden;
     if (state.visibility.isolated) json["isolated"] = *state.visibility.isolated;
     json["hidden_regions"] = write_names(state.visibility.hidden_regions);
+    json["hidden_patches"] = write_names(state.visibility.hidden_patches);
     json["glass_regions"] = write_names(state.visibility.glass_regions);
     if (state.visibility.isolated_region) json["isolated_region"] = path_text(*state.visibility.isolated_region);
     json["pick"] = pick_names[static_cast<std::size_t>(state.pick)];
@@ -310,6 +311,7 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
          [&](const OrderedJson& j) {
              s.look.shading = value_named<Shading>(shading_names, j.get<std::string>(), "shading");
          }},
+        {"axes", [&](const OrderedJson& j) { s.look.axes = j.get<bool>(); }},
         {"explode", [&](const OrderedJson& j) { s.explosion.amount = std::max(0.0, j.get<double>()); }},
         {"shrink", [&](const OrderedJson& j) { s.explosion.shrink = unit("shrink", j); }},
         {"clip", [&](const OrderedJson& j) { s.clip = clip_from(j, source); }},
@@ -336,6 +338,7 @@ ViewState state_from_json(const std::string& text, const std::string& source, Vi
              for (const NodeId node : j.get<std::vector<NodeId>>()) s.visibility.set_hidden(node, true);
          }},
         {"isolated", [&](const OrderedJson& j) { s.visibility.isolated = j.get<NodeId>(); }},
+        {"hidden_patches", [&](const OrderedJson& j) { read_names(j, s.visibility.hidden_patches); }},
         {"hidden_regions", [&](const OrderedJson& j) { read_names(j, s.visibility.hidden_regions); }},
         {"glass_regions", [&](const OrderedJson& j) { read_names(j, s.visibility.glass_regions); }},
         {"isolated_region",

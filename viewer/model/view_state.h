@@ -134,7 +134,7 @@ struct Look {
     bool edges = true;    ///< edges of triangles are drawn
     bool context = true;  ///< the rest of the body, translucent
     bool plane = true;
-    bool axes = true;  ///< principal axes and centre of gravity
+    std::optional<bool> axes = {};  ///< principal axes and centre of gravity; none: see has_axes()
     bool contour = true;
     bool features = false;  ///< sharp edges and borders of patches
     bool surface = true;
@@ -142,6 +142,9 @@ struct Look {
     bool legend = true;
     bool numbers = true;  ///< numbers of patches on the faces that are coloured by them; values on isolines
     bool times = true;    ///< seconds in the tree
+
+    /// Returns whether axes are drawn at a stage: where nobody has chosen they explain the plane of a cut.
+    bool has_axes(Stage stage) const { return axes.value_or(stage == Stage::plane); }
 
     bool operator==(const Look&) const = default;
 };
@@ -154,6 +157,7 @@ struct Visibility {
     std::vector<std::string> hidden_regions;
     std::vector<std::string> glass_regions;      ///< translucent, so that regions inside of them are seen
     std::optional<std::string> isolated_region;  ///< the only region that is shown, where there is one of this name
+    std::vector<std::string> hidden_patches;     ///< patches whose facets are not drawn; '*' stands for any characters
     bool walls = false;                          ///< only those facets of parts are shown that lie between two regions
     bool neighbours = false;  ///< only a selected cell is shown, and the cells that share a vertex with it
 

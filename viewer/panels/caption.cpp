@@ -182,6 +182,8 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     std::vector<std::string> hidden;
     for (const NodeId node : state.visibility.hidden) hidden.push_back(beginning_small(body_of(document, node)));
     if (!hidden.empty()) add(fmt::format("Without {}", fmt::join(hidden, ", ")), colors.dim);
+    if (!hidden_patches(state, document).empty())
+        add(fmt::format("Without patches {}", fmt::join(state.visibility.hidden_patches, ", ")), colors.dim);
     if (document.region_names.size() > 1 && shows_parts(state.step.stage))
         for (const std::string& line : region_lines(document, state)) add(line, colors.dim);
     return lines;

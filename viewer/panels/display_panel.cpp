@@ -19,6 +19,8 @@ constexpr float title_share = 0.76f;  // share of a row that its title leaves
 // Checkboxes in two columns.
 void draw_switches(UiContext& context) {
     Look& look = context.state.look;
+    bool axes = look.has_axes(context.state.step.stage);
+    const bool had_axes = axes;
     struct Switch {
         const char* label;
         bool* value;
@@ -30,7 +32,7 @@ void draw_switches(UiContext& context) {
                                {"Context", &look.context, "The rest of the body, translucent"},
                                {"Plane", &look.plane, "The cutting plane of the node"},
                                {"Contour", &look.contour, "The contour of the cut"},
-                               {"Axes", &look.axes, "Principal axes and centre of gravity of the node"},
+                               {"Axes", &axes, "Principal axes and centre of gravity of the node"},
                                {"Features", &look.features, "Sharp edges and borders of patches"},
                                {"Legend", &look.legend, "What the colours mean"}};
     const float half = ImGui::GetContentRegionAvail().x / 2;
@@ -39,6 +41,7 @@ void draw_switches(UiContext& context) {
         if (i++ % 2) ImGui::SameLine(half);
         context.widgets.checkbox(one.label, one.value, one.tip);
     }
+    if (axes != had_axes) look.axes = axes;
 }
 
 // Draws the slider that pulls pieces apart; it is disabled where there is one piece, and says why.
@@ -158,6 +161,9 @@ void draw_display(UiContext& context) {
     draw_choice(context.widgets, "Pick", {"Facet", "Cell", "Vertex"}, state.pick);
     draw_explode(context);
     context.widgets.slider("Shrink cells", &state.explosion.shrink, 0, 0.9);
+    std::vector<std::string>& hidden = state.visibility.hidden_patches;
+    if (!hidden.empty() && context.widgets.small_button("Show hidden patches", "All are drawn again (Shift+P)"))
+        hidden.clear();
     ImGui::Spacing();
 }
 

@@ -38,6 +38,8 @@ class CameraActions {
     /// Moves the clip plane through the middle of the selection, with its present normal or, if `faces_eye`, facing the
     /// eye.
     virtual void clip_through_selection(bool faces_eye) = 0;
+    /// Hides the patch under the mouse; says so if there is none.
+    virtual void hide_patch() = 0;
     /// Looks through this camera from now on, in this frame, too.
     virtual void take_camera(const Camera& camera) = 0;
     /// Goes to the view before, and on to the one after (ViewHistory).
@@ -75,11 +77,17 @@ class RepairActions {
     virtual void show_before_repair(bool before) = 0;  ///< shows the surface before repairs, or after them
 };
 
+/// The fate of a mesh that nobody has saved.
+enum class UnsavedMesh { save, lose, stay };
+
 class WindowActions {
  public:
     virtual ~WindowActions() = default;
     virtual void quit() = 0;
     virtual void take_screenshot() = 0;
+    virtual void save_picture(const std::string& path) = 0;  ///< without panels, and its view as JSON beside it
+    /// Answers the question of SceneFacts::asks_to_save; `stay` forgets what it stood before.
+    virtual void answer(UnsavedMesh answer) = 0;
     virtual void copy(const std::string& text) = 0;  ///< copies it to the clipboard
     virtual std::string clipboard() = 0;
     /// Shows an error until the next notice or click.
@@ -118,10 +126,13 @@ struct SceneFacts {
     std::vector<FaceNumber> numbers;              ///< numbers of patches, to be drawn on them
     std::vector<ValueLabel> labels;               ///< values of isolines, the least and the largest value
     std::optional<ValueLabel> probe;              ///< the value under the mouse
+    std::string patch;                            ///< the patch that was clicked with the right button last
+    int patch_clicks = 0;                         ///< number of such clicks
     bool has_earlier = false, has_later = false;  ///< there are views to go back to, or on to
     bool playing = false;
-    bool moving = false;   ///< the deformation is in motion
-    bool pending = false;  ///< data to be shown is still being read
+    bool moving = false;        ///< the deformation is in motion
+    bool pending = false;       ///< data to be shown is still being read
+    bool asks_to_save = false;  ///< something waits for the answer what is to become of an unsaved mesh
 };
 
 /// Sizes that the user has given to panels, in heights of the font; 0: as the window suggests.
@@ -154,6 +165,9 @@ struct Example {
 
 /// Returns "6.21 k facets, 14.6 k tetrahedra", as far as they are known.
 std::string sizes_of(const Document& document);
+/// Returns what a finished run has made: "14.6 k tetrahedra, least dihedral angle 9.7 deg, verified, 2.1 s", as far as
+/// that is known.
+std::string outcome_of(const Document& document, bool with_seconds);
 
 /// Settings that outlive the document, kept in the user's config folder.
 struct Settings {
@@ -211,6 +225,8 @@ class Ui {
     /// Runs the command of a key, "Ctrl+Shift+Z", unless a dialog or a text field has the keyboard. `repeat`: the key
     /// is held.
     void press(UiContext& context, const std::string& key, bool repeat);
+    /// Returns whether a guided tour has the view.
+    bool leads_tour() const;
 
  private:
     struct Impl;

@@ -76,7 +76,7 @@ void draw_advice(UiContext& context, ProblemsMemory& memory, const std::string& 
     ImGui::PushID(text.c_str());  // several texts may advise the same
     for (const OptionText& advice : advised_options(text))
         if (!is_set(document.options, advice) && (!opens || is_input_option(advice.name)) &&
-            (!repairs || advice.name != "repair"))
+            (!repairs || advice.name != "repair") && memory.drawn.insert(advice.name + " " + advice.text).second)
             draw_option(context, memory, advice);
     ImGui::PopID();
 }
@@ -281,6 +281,7 @@ void draw_problems(UiContext& context, ProblemsMemory& memory, ListKeys& keys) {
         memory.advised_for = std::move(key);
         memory.advised.clear();
     }
+    memory.drawn.clear();
     if (memory.of != document.checked.get()) {
         memory.of = document.checked.get();
         memory.group = memory.chosen = memory.repairs.action = memory.repairs.place = -1;

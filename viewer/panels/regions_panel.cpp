@@ -106,6 +106,14 @@ class RegionList {
     Array<RegionIndex, std::int64_t> tets_;
 };
 
+// Says why the list is disabled, and offers the way out.
+void draw_reason(UiContext& context) {
+    show_wrapped("Regions are shown by their parts, which this stage does not have.", palette(context.state.theme).dim);
+    const Step last = context.steps.back();
+    if (shows_parts(last.stage) && context.widgets.small_button("Show the parts", "Goes to the last stage"))
+        context.state.step = last;
+}
+
 }  // namespace
 
 void draw_regions(UiContext& context) {
@@ -113,6 +121,7 @@ void draw_regions(UiContext& context) {
     if (document.region_names.size() < 2) return;
     if (!context.widgets.header("Regions", true)) return;
     const bool has_parts = shows_parts(context.state.step.stage);
+    if (!has_parts) draw_reason(context);
     ImGui::BeginDisabled(!has_parts);
     RegionList(context).draw();
     context.widgets.checkbox("Walls alone", &context.state.visibility.walls,

@@ -12,8 +12,19 @@ namespace kerf::view {
 
 namespace {
 
+// The number of tetrahedra; empty if there are none.
+std::string cells_of(const Document& document) {
+    std::int64_t tets = 0;
+    for (const TreeRow& row : document.tree.rows) tets += row.leaf() ? std::max<std::int64_t>(0, row.tets) : 0;
+    return tets > 0 ? compact(tets) + " tetrahedra" : "";
+}
+
 std::string facts_of(UiContext& context) {
-    std::string text = sizes_of(context.session.document());
+    const Document& document = context.session.document();
+    const std::string outcome = document.progress.running ? "" : outcome_of(document, context.state.look.times);
+    std::string text = outcome.empty() || document.input_facets == 0
+                           ? sizes_of(document)
+                           : number_of(document.input_facets, "facet") + ", " + outcome;
     if (context.facts.triangles > 0)
         text += (text.empty() ? "" : ", ") + number_of(context.facts.triangles, "triangle") + " drawn";
     return text;
@@ -98,9 +109,17 @@ void draw_progress(UiContext& context) {
 std::string sizes_of(const Document& document) {
     std::string text;
     if (document.input_facets > 0) text = number_of(document.input_facets, "facet");
-    std::int64_t tets = 0;
-    for (const TreeRow& row : document.tree.rows) tets += row.leaf() ? std::max<std::int64_t>(0, row.tets) : 0;
-    if (tets > 0) text += (text.empty() ? "" : ", ") + compact(tets) + " tetrahedra";
+    const std::string cells = cells_of(document);
+    return text + (text.empty() || cells.empty() ? "" : ", ") + cells;
+}
+
+std::string outcome_of(const Document& document, bool with_seconds) {
+    std::string text = cells_of(document);
+    if (text.empty()) return "";
+    if (const auto& angles = document.histograms[0])
+        text += fmt::format(", least dihedral angle {:.1f} deg", angles->min);
+    if (document.verified) text += *document.verified ? ", verified" : ", NOT verified";
+    if (with_seconds && document.progress.seconds > 0) text += ", " + duration(document.progress.seconds);
     return text;
 }
 
@@ -112,9 +131,10 @@ void draw_status(UiContext& context) {
     show(shortened(message.text, (running ? 0.45f : 0.85f) * ImGui::GetWindowWidth()), message.color);
     explain(message.text);
     if (running) return draw_progress(context);
-    if (!context.facts.pending) return;
+    const bool writes = context.session.writer().is_writing();
+    if (!context.facts.pending && !writes) return;
     ImGui::SameLine();
-    show_right("reading...", colors.busy);
+    show_right(writes ? "writing..." : "reading...", colors.busy);
 }
 
 }  // namespace kerf::view

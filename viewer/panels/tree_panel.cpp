@@ -301,7 +301,8 @@ void draw_tree_head(UiContext& context, TreeMemory& memory) {
     ViewState& state = context.state;
     const float gap = 0.4f * em(), right = ImGui::GetContentRegionMax().x;
     const bool some_hidden = !state.visibility.hidden.empty() || state.visibility.isolated ||
-                             !state.visibility.hidden_regions.empty() || state.visibility.isolated_region;
+                             !state.visibility.hidden_regions.empty() || state.visibility.isolated_region ||
+                             !state.visibility.hidden_patches.empty();
     const float all = some_hidden ? width_of_button("Show all") + gap : 0, columns = width_of_button("Columns");
     ImGui::AlignTextToFramePadding();
     const std::string text = summary(context.session.document());
@@ -315,6 +316,7 @@ void draw_tree_head(UiContext& context, TreeMemory& memory) {
         state.visibility.hidden.clear();
         state.visibility.isolated.reset();
         state.visibility.hidden_regions.clear();
+        state.visibility.hidden_patches.clear();
         state.visibility.isolated_region.reset();
     }
 }

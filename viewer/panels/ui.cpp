@@ -26,6 +26,7 @@ struct Ui::Impl {
     ParametersMemory parameters;
     TimelineMemory timeline;
     CutHandleMemory cut_handle;
+    int patch_clicks = 0;  // right clicks on patches that were answered
     Theme theme = Theme::light;
     float scale = 0;
 
@@ -119,6 +120,23 @@ void draw_label(const UiContext& context, const ValueLabel& label) {
     list.AddText({r.x + label_pad(), r.y}, packed(colors.text), label.text.c_str());
 }
 
+// Draws the menu of the patch that was clicked with the right button.
+void draw_patch_menu(UiContext& context, int& answered) {
+    constexpr const char* popup = "##patch menu";
+    if (std::exchange(answered, context.facts.patch_clicks) != context.facts.patch_clicks) ImGui::OpenPopup(popup);
+    if (!ImGui::BeginPopup(popup)) return;
+    std::vector<std::string>& hidden = context.state.visibility.hidden_patches;
+    const std::string& patch = context.facts.patch;
+    show(patch.empty() ? "No patch with a name" : patch, palette(context.state.theme).dim);
+    ImGui::BeginDisabled(patch.empty());
+    if (context.widgets.menu_item("Hide this patch", "P")) set_member(hidden, patch, true);
+    ImGui::EndDisabled();
+    ImGui::BeginDisabled(hidden.empty());
+    if (context.widgets.menu_item("Show all patches", "Shift+P")) hidden.clear();
+    ImGui::EndDisabled();
+    ImGui::EndPopup();
+}
+
 // Closes the menus that have popped up, but no dialog; false: there are none.
 bool close_menu() {
     const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
@@ -175,9 +193,12 @@ void Ui::draw(UiContext& context, float width, float height) {
     ImGui::End();
     draw_overlays(context, layout.scene);
     if (has_body(context.session.document())) draw_plane_handles(context, impl_->cut_handle, layout.scene);
+    draw_patch_menu(context, impl_->patch_clicks);
     draw_keys(context);
     draw_browser(context, dialogs.browser);
     draw_search(context, dialogs);
+    draw_unsaved(context, dialogs.save);
+    draw_save_dialog(context, dialogs.save);
     if (std::exchange(dialogs.list.steps, 0) != 0)
         dialogs.list.list = ListKeys::List::none;  // the list is not shown any more
 }
@@ -200,6 +221,8 @@ void Ui::press(UiContext& context, const std::string& key, bool repeat) {
     const Command* command = command_of_key(key);
     if (command && (command->repeats || !repeat) && is_enabled(*command, context)) command->run(context, dialogs);
 }
+
+bool Ui::leads_tour() const { return impl_->dialogs.tour.awaited || impl_->dialogs.tour.node != no_node; }
 
 void go_to_node(UiContext& context, NodeId node) {
     const std::vector<Step> steps = steps_of(context.session.document(), node);

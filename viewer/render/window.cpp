@@ -214,9 +214,12 @@ const Gl& Window::gl() const { return impl_->gl; }
 
 FrameSize Window::frame_size() const { return frame_size_of(impl_->window.get()); }
 
-bool Window::should_close() const { return glfwWindowShouldClose(impl_->window.get()); }
-
-void Window::close() { glfwSetWindowShouldClose(impl_->window.get(), GLFW_TRUE); }
+bool Window::take_close() {
+    GLFWwindow* window = impl_->window.get();
+    const bool is_asked = glfwWindowShouldClose(window);
+    glfwSetWindowShouldClose(window, GLFW_FALSE);
+    return is_asked;
+}
 
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(impl_->window.get(), title.c_str()); }
 

@@ -26,8 +26,8 @@ class Window {
 
     const Gl& gl() const;
     FrameSize frame_size() const;
-    bool should_close() const;
-    void close();
+    /// Returns whether somebody has asked to close the window since the last call.
+    bool take_close();
     void set_title(const std::string& title);
 
     /// Takes the events of the window. Sleeps until something happens, at most `wait_seconds`, and returns whether

@@ -65,6 +65,7 @@ void add_layers(const SceneContext& context, LayerSink& sink) {
         cuts.add_halves(surface.get());
     else if (surface)
         cuts.add_node(surface);
+    cuts.add_axes();
     if (surface) surfaces.add_context();
     if (stage == Stage::before_repair)
         add_defects(context, sink, document.unrepaired.get());

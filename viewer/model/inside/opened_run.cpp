@@ -187,6 +187,7 @@ void complete_from_report(OpenedRun run, Shown& shown) {
     document.volume = report.volume;
     document.cut_seconds = report.cut_seconds;
     document.mesh_seconds = report.mesh_seconds;
+    document.verified = report.verified;
     document.box = run.box;
     document.patch_names = run.patch_names;
     document.input_facets = report.input_facets;

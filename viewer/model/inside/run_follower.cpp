@@ -175,6 +175,7 @@ void RunFollower::show_run_under_way(std::shared_ptr<const Trace> trace) {
     document_.saved_as.clear();
     document_.histograms = {};
     document_.cut_seconds = document_.mesh_seconds = -1;
+    document_.verified.reset();
     document_.tree = {};
     document_.remeshed = false;
     pair_.now.scratch = run_->scratch;

@@ -133,6 +133,7 @@ void RunPair::take_redone(NodeId node, const RedoneCut& redone) {
     now_.store.share(pair_.other->store);
     document.histograms = {};
     document.cut_seconds = document.mesh_seconds = -1;
+    document.verified.reset();
     document.progress.message.clear();
     document.saved_as.clear();
     const auto is_gone = [&](NodeId id) { return id != node && lies_below(id, node); };

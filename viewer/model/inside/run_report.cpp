@@ -141,6 +141,8 @@ RunReportFile report_from_json(const Json& json) {
     report.cut_seconds = number(json.at("totals"), "decompose_seconds");
     report.mesh_seconds = number(json.at("totals"), "mesh_seconds");
     report.exit_code = json.at("exit_code").get<int>();
+    if (const auto laws = json.find("verification"); meshed && laws != json.end())
+        report.verified = laws->at("passed").get<bool>();
     if (report.exit_code == static_cast<int>(ErrorCode::verification))
         report.notes.push_back("The verification of this run has failed: see its report");
     return report;

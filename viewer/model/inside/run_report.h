@@ -24,6 +24,7 @@ struct RunReportFile {
     std::array<std::optional<MeasureHistogram>, 8> histograms;
     std::vector<std::string> notes;
     int exit_code = 0;
+    std::optional<bool> verified;  ///< as in Document
     std::string damage;  ///< sentence on files that are missing or not as long as the run has left them; empty: none
 };
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/core/error.h"
+#include "viewer/model/saving.h"
 
 namespace kerf::view {
 
@@ -105,6 +106,9 @@ void change_theme(UiContext& context, Dialogs& /*dialogs*/) {
 bool is_dark(const UiContext& context) { return context.state.theme == Theme::dark; }
 
 void toggle_clip(UiContext& context, Dialogs& /*dialogs*/) { context.state.clip.on = !context.state.clip.on; }
+void show_patches(UiContext& context, Dialogs& /*dialogs*/) { context.state.visibility.hidden_patches.clear(); }
+bool hides_patches(const UiContext& context) { return !context.state.visibility.hidden_patches.empty(); }
+
 bool is_clipped(const UiContext& context) { return context.state.clip.on; }
 void clip_through(UiContext& context, Dialogs& /*dialogs*/) { context.actions.camera.clip_through_selection(false); }
 
@@ -143,10 +147,30 @@ void leave(UiContext& context, Dialogs& dialogs) {
 }
 
 void choose_file(UiContext& /*context*/, Dialogs& dialogs) { dialogs.browser.requested = true; }
+
+template <SaveDialog::Kind Kind>
+void ask_where_to_save(UiContext& /*context*/, Dialogs& dialogs) {
+    dialogs.save.request(Kind);
+}
+bool can_save_run(const UiContext& context) { return context.session.pair().can_save(); }
+bool can_be_exported(const UiContext& context) { return has_mesh(context.session.document()); }
+bool can_save_surface(const UiContext& context) {
+    return context.session.document().unrepaired && context.session.repairs().can_repair();
+}
+bool has_picture(const UiContext& context) { return has_body(context.session.document()); }
+
+void mesh_it(UiContext& context, Dialogs& /*dialogs*/) {
+    const RunRequest options = context.session.document().options;
+    context.actions.runs.start_run(options, true);
+}
 void ask_for_search(UiContext& /*context*/, Dialogs& dialogs) { dialogs.search.requested = true; }
 
 bool can_be_cut(const UiContext& context) {
     return has_body(context.session.document()) && !context.session.document().has_problems();
+}
+
+bool can_be_meshed(const UiContext& context) {
+    return can_be_cut(context) && !context.session.document().progress.running;
 }
 
 bool is_something_open(const UiContext& context) { return !context.session.document().path.empty(); }
@@ -177,6 +201,16 @@ constexpr Command view_from(const char* name, const char* keys) {
     return {.name = name, .keys = keys, .heading = looking, .menu = "View", .run = look_at_it<From>};
 }
 
+template <SaveDialog::Kind Kind>
+constexpr Command save_as(const char* name, const char* keys, bool (*is_enabled)(const UiContext& context)) {
+    return {.name = name,
+            .keys = keys,
+            .heading = files,
+            .menu = "File",
+            .run = ask_where_to_save<Kind>,
+            .is_enabled = is_enabled};
+}
+
 const std::vector<Command> all_commands = {
     {.name = "Open...", .keys = "Ctrl+O", .heading = files, .menu = "File", .run = choose_file},
     {.name = "Reload",
@@ -186,6 +220,17 @@ const std::vector<Command> all_commands = {
      .run = act_by_files<&FileActions::reload>,
      .is_enabled = is_something_open,
      .ends_section = true},
+    {.name = "Mesh the surface",
+     .keys = "",
+     .heading = files,
+     .menu = "File",
+     .run = mesh_it,
+     .is_enabled = can_be_meshed},
+    save_as<SaveDialog::Kind::run>("Save run as...", "Ctrl+S", can_save_run),
+    save_as<SaveDialog::Kind::mesh>("Export mesh...", "Ctrl+E", can_be_exported),
+    save_as<SaveDialog::Kind::surface>("Save surface as...", "", can_save_surface),
+    save_as<SaveDialog::Kind::page>("Save report page...", "", can_be_exported),
+    save_as<SaveDialog::Kind::picture>("Save picture...", "", has_picture),
     {.name = "Screenshot",
      .keys = "F12",
      .heading = files,
@@ -257,6 +302,17 @@ const std::vector<Command> all_commands = {
 
     {.name = "Clip plane", .keys = "C", .heading = showing, .menu = "", .run = toggle_clip, .is_on = is_clipped},
     {.name = "Clip through the selection", .keys = "Shift+C", .heading = showing, .menu = "", .run = clip_through},
+    {.name = "Hide the patch under the mouse",
+     .keys = "P",
+     .heading = showing,
+     .menu = "",
+     .run = act_by_camera<&CameraActions::hide_patch>},
+    {.name = "Show hidden patches",
+     .keys = "Shift+P",
+     .heading = showing,
+     .menu = "",
+     .run = show_patches,
+     .is_enabled = hides_patches},
     flag_switch<&ViewState::look, &Look::edges>("Edges", "E", showing, ""),
     flag_switch<&ViewState::visibility, &Visibility::neighbours>("Only neighbours of a selected cell", "N", showing,
                                                                  ""),

@@ -45,6 +45,21 @@ struct SearchBox {
     bool moved = false;  ///< keys have moved the choice in this frame
 };
 
+/// A dialog that saves what is open.
+struct SaveDialog {
+    enum class Kind { run, mesh, picture, page, surface };
+    Kind kind = Kind::run;
+    bool is_requested = false;  ///< it opens in the next frame
+    std::string path;           ///< as typed
+    int format = 0;             ///< index in formats()
+    int order = 0;              ///< MeshFile::order
+
+    void request(Kind what) {
+        kind = what;
+        is_requested = true;
+    }
+};
+
 /// A guided tour of the stages of one cut.
 struct Tour {
     bool awaited = false;                  ///< it begins as soon as there is a cut to show
@@ -74,6 +89,7 @@ struct ListKeys {
 struct Dialogs {
     FileBrowser browser;
     SearchBox search;
+    SaveDialog save;
     Tour tour;
     ListKeys list;
 };
@@ -82,6 +98,10 @@ void draw_menu(UiContext& context, Dialogs& dialogs);
 void draw_browser(UiContext& context, FileBrowser& browser);
 /// Draws the search box of commands while it is open.
 void draw_search(UiContext& context, Dialogs& dialogs);
+/// Draws the dialog that saves while it is open.
+void draw_save_dialog(UiContext& context, SaveDialog& dialog);
+/// Draws the question of SceneFacts::asks_to_save.
+void draw_unsaved(UiContext& context, SaveDialog& dialog);
 
 struct TreeMemory {
     NodeId scrolled_to = no_node;  ///< the node that the list was scrolled to
@@ -113,6 +133,7 @@ struct AdvisedRun {
 struct ProblemsMemory {
     std::map<std::string, AdvisedRun> advised;  ///< advised options, by name and by the value if the text names one
     std::string advised_for;                    ///< key_of() the document that they are for
+    std::set<std::string> drawn;                ///< options with a button in this frame: two texts may advise the same
     const CheckedSoup* of = nullptr;            ///< the surface in whose lists the following numbers are
     int group = -1;                             ///< number of the kind and severity of the only defects listed; -1: all
     int chosen = -1;                            ///< index of the chosen defect; -1: none

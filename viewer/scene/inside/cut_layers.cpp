@@ -92,13 +92,14 @@ void CutLayers::add_node(const std::shared_ptr<const NodeSurface>& surface) {
     else if (step.stage >= Stage::plane && row && row->plane())
         add_plane(*row->plane());
     if (cut && step.refused_try < 0) add_stage(*cut, *surface);
-    if (step.stage == Stage::input && row) add_axes(*row);
     if (layer) surfaces_.add_features(surface, node);
 }
 
 // Axes reach twice the standard deviation of the vertices to both sides.
-void CutLayers::add_axes(const TreeRow& row) {
-    if (!context_.state.look.axes || row.regions > 1) return;
+void CutLayers::add_axes() {
+    const TreeRow* found = context_.document.tree.find(context_.state.node);
+    if (!found || found->regions > 1 || !context_.state.look.has_axes(context_.step.stage)) return;
+    const TreeRow& row = *found;
     if (!sink_.awaited(row.centroid) || row.vertices <= 0) return;
     const double half_trace = row.eigenvalues.sum() / 2;
     std::vector<std::array<Vec3, 2>> ends;
@@ -243,6 +244,8 @@ void add_defects(const SceneContext& context, LayerSink& sink, const CheckedSoup
         if (!is_loop)
             for (const std::int32_t f : defect.facets) facets.push_back(soup.facets[f]);
     }
+    // Warnings are many, and keep no mesh away: errors are seen without them, and a repair has taken what mattered.
+    if (!errors.empty() || context.document.unrepaired) warnings.clear();
     if (!facets.empty()) {
         Layer& layer = sink.add(LayerKind::defects, triangles(soup.vertices, facets, context.frame),
                                 context.colors.error, root_node);

@@ -19,10 +19,11 @@ class CutLayers {
     /// Adds both halves, which take the contour along. `parent` is the surface of the node, or null: no contour is
     /// drawn.
     void add_halves(const NodeSurface* parent);
+    /// Adds the principal axes of the node and its centre of gravity, where they are wanted (Look::has_axes()).
+    void add_axes();
 
  private:
     const Cut* cut() const;
-    void add_axes(const TreeRow& row);
     void add_plane(const Plane& plane);
     void add_try(const CutTry& attempt, const NodeSurface& surface);
     void add_collisions(const CutTry& attempt);

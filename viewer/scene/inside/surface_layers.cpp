@@ -60,12 +60,21 @@ std::size_t divide_at_interfaces(const NodeSurface& surface, const ViewState& st
 }  // namespace
 
 bool PartFacets::wants(const NodeSurface& surface, std::int32_t facet) const {
+    if (!hidden_patches.empty()) {
+        const std::int32_t patch = surface.patch.empty() ? -1 : surface.patch[facet];
+        if (surface.is_interface(facet)) return false;  // which would stand in the way
+        if (patch >= 0 && patch < std::ssize(hidden_patches) && hidden_patches[patch]) return false;
+    }
+    if (!by_neighbours) return true;
     const NodeId neighbour = surface.neighbour[facet];
     return neighbour.is_valid() ? !left_out.contains(neighbour) : outer;
 }
 
 std::string PartFacets::key() const {
-    return all ? "" : fmt::format(" {}without {}", outer ? "" : "outer, ", numbers_text(left_out));
+    if (all) return "";
+    std::string patches;
+    for (const char is_hidden : hidden_patches) patches += is_hidden ? '1' : '0';
+    return fmt::format(" {}without {}, {}", outer ? "" : "outer, ", numbers_text(left_out), patches);
 }
 
 PartFacets chosen_facets(const SceneContext& context, NodeId part, const NodeSurface& surface) {
@@ -73,8 +82,10 @@ PartFacets chosen_facets(const SceneContext& context, NodeId part, const NodeSur
     const Document& document = context.document;
     const bool walls = context.state.visibility.walls;
     const std::string* region = context.shows_parts() ? region_of(document, part) : nullptr;
-    chosen.all = !region || surface.neighbour.empty() || !(walls || is_glass(context.state, document, part));
-    if (chosen.all) return chosen;
+    chosen.hidden_patches = hidden_patches(context.state, document);
+    chosen.by_neighbours = region && !surface.neighbour.empty() && (walls || is_glass(context.state, document, part));
+    chosen.all = !chosen.by_neighbours && chosen.hidden_patches.empty();
+    if (!chosen.by_neighbours) return chosen;
     chosen.outer = !walls;
     const auto order = [&](NodeId one) {
         return std::pair(is_glass(context.state, document, one), document.tree.find(one)->region);

@@ -7,11 +7,14 @@
 
 namespace kerf::view {
 
-/// The facets of a part's surface that are drawn, where not all are: walls alone, or those of a region of glass.
+/// The facets of a surface that are drawn, where not all are: patches are hidden, or there are walls alone, or it is a
+/// part of a region of glass.
 struct PartFacets {
     bool all = true;
-    bool outer = true;          ///< facets behind which no other part lies are drawn
-    std::set<NodeId> left_out;  ///< parts in front of which no facets are drawn
+    std::vector<char> hidden_patches = {};  ///< 1 for those whose facets are not drawn; empty: none
+    bool by_neighbours = false;             ///< the following two decide
+    bool outer = true;                      ///< facets behind which no other part lies are drawn
+    std::set<NodeId> left_out;              ///< parts in front of which no facets are drawn
 
     bool wants(const NodeSurface& surface, std::int32_t facet) const;
     std::string key() const;

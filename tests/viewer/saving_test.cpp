@@ -1,0 +1,152 @@
+// What is made in the window stays: runs, meshes, pages and pictures, each by a command that is shown, too.
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include "base/core/shell_word.h"
+#include "support/assets.h"
+#include "support/file_contents.h"
+#include "support/places.h"
+#include "support/program.h"
+#include "support/shapes.h"
+#include "support/surface_files.h"
+#include "support/temporary_folder.h"
+#include "viewer/app/keys.h"
+#include "viewer/driver.h"
+#include "viewer/words_on_screen.h"
+
+namespace kerf::test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace view;
+
+Driver::Options of_two_parts(bool asks_to_save) {
+    Driver::Options options;
+    options.parts = 2;
+    options.asks_to_save = asks_to_save;
+    return options;
+}
+
+// Dialogs offer places in the folder where the viewer was started.
+class StartedIn {
+ public:
+    explicit StartedIn(const std::string& folder) { fs::current_path(folder); }
+    ~StartedIn() { fs::current_path(before_); }
+    StartedIn(const StartedIn&) = delete;
+    StartedIn& operator=(const StartedIn&) = delete;
+
+ private:
+    fs::path before_ = fs::current_path();
+};
+
+void save_by_menu(Driver& driver, const std::string& entry) {
+    driver.click("File");
+    driver.click(entry);
+    driver.settle();
+}
+
+ChildResult run_in_shell(const std::string& command) {
+    const std::string folder = fs::path(test::kerf_program()).parent_path().string();
+    return run_program("/bin/sh", {"-c", "PATH=" + shell_word(folder) + ":$PATH; " + command});
+}
+
+// The command that is copied makes the same bytes as the window has made.
+TEST(Saving, ExportsAsTheShownCommandDoes) {
+    const TemporaryFolder folder;
+    const StartedIn here(folder.file(""));
+    Driver driver(of_two_parts(false));
+    driver.open(asset_path("cube"));
+    save_by_menu(driver, "Export mesh...");
+    driver.click("Copy command");
+    const std::string command = ImGui::GetClipboardText();
+    EXPECT_NE(command.find("cube_run"), std::string::npos)
+        << "a mesh in a temporary folder is made once more: " << command;
+    driver.click("Save");
+    driver.await("the file", [&] { return driver.app().facts().notice.starts_with("saved as"); });
+    const std::string bytes = bytes_of_file(folder.file("cube.vtu"));
+    fs::remove(folder.file("cube.vtu"));
+    EXPECT_EQ(run_in_shell(command).exit_code, 0) << command;
+    EXPECT_TRUE(bytes_of_file(folder.file("cube.vtu")) == bytes);
+
+    save_by_menu(driver, "Save report page...");
+    driver.click("Save");
+    driver.await("the page", [&] { return fs::exists(folder.file("cube.html")); });
+    driver.await("its end", [&] { return !driver.app().session().writer().is_writing(); });
+
+    save_by_menu(driver, "Save picture...");
+    driver.click("Save");
+    driver.await("the picture", [&] { return fs::exists(folder.file("cube.json")); });
+    EXPECT_EQ(read_png(folder.file("cube.png")).width, 1280);
+}
+
+TEST(Saving, TellsWhyItCannot) {
+    const TemporaryFolder folder;
+    const StartedIn here(folder.file(""));
+    Driver driver(of_two_parts(false));
+    driver.open(asset_path("cube"));
+    fs::create_directories(folder.file("cube.vtu/x"));
+    save_by_menu(driver, "Export mesh...");
+    driver.click("Save");
+    driver.await("the end", [&] { return driver.app().facts().notice_is_error; });
+    EXPECT_NE(driver.app().facts().notice.find("cube.vtu"), std::string::npos) << driver.app().facts().notice;
+}
+
+// Nobody loses a mesh by opening another file or closing the window.
+TEST(Saving, AsksBeforeAMeshIsLost) {
+    const TemporaryFolder folder;
+    const StartedIn here(folder.file(""));
+    std::ofstream(folder.file("box.stl")) << to_ascii_stl(box({0, 0, 0}, {3, 2, 1}, {3, 2, 1}));
+    Driver driver(of_two_parts(true));
+    driver.open(asset_path("cube"));
+    const std::string cube = driver.document().path;
+    driver.drop(folder.file("box.stl"));
+    driver.click("Stay here");
+    EXPECT_EQ(driver.document().path, cube);
+    EXPECT_FALSE(driver.app().facts().asks_to_save);
+    driver.drop(folder.file("box.stl"));
+    EXPECT_TRUE(driver.app().facts().asks_to_save);
+    driver.click("Let it go");
+    driver.await("the box", [&] {
+        return driver.document().path == folder.file("box.stl") && driver.app().session().pair().can_save();
+    });
+
+    driver.app().desk().quit();
+    EXPECT_FALSE(driver.app().desk().wants_to_quit());
+    driver.settle();
+    driver.click("Save it...");
+    driver.settle();
+    driver.click("Save");
+    driver.await("the end", [&] { return driver.app().desk().wants_to_quit(); });
+    EXPECT_EQ(run_kerf({"verify", folder.file("box_run"), "-q"}).exit_code, 0);
+}
+
+// A patch in the way is hidden under the mouse, by a key or by its menu, and seen again.
+TEST(Saving, HidesThePatchUnderTheMouse) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("box.stl")) << to_ascii_stl(box({0, 0, 0}, {3, 2, 1}, {3, 2, 1}));
+    Driver driver(of_two_parts(false));
+    driver.open(folder.file("box.stl"));
+    driver.settle();
+    const std::int64_t all = driver.drawn(LayerKind::part).triangles;
+    const Rectangle body = driver.app().scene_area();
+    driver.move_to(body.x + 0.45f * body.width, body.y + body.height / 2);
+    driver.key(key_of('P'));
+    driver.settle();
+    ASSERT_EQ(driver.state().visibility.hidden_patches.size(), 1u);
+    EXPECT_LT(driver.drawn(LayerKind::part).triangles, all);
+    driver.key(key_of('P'), false, true);
+    driver.settle();
+    EXPECT_TRUE(driver.state().visibility.hidden_patches.empty());
+    EXPECT_EQ(driver.drawn(LayerKind::part).triangles, all);
+    driver.click_at(body.x + 0.45f * body.width, body.y + body.height / 2, 1);
+    driver.settle();
+    driver.click("Hide this patch");
+    EXPECT_EQ(driver.state().visibility.hidden_patches.size(), 1u);
+}
+
+}  // namespace
+}  // namespace kerf::test
