@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/core/error.h"
+#include "support/shapes.h"
 #include "viewer/app/command_line.h"
+#include "viewer/model/off_faces.h"
 #include "viewer/model/view_state.h"
 #include "viewer/scene/inside/shapes.h"
 
@@ -352,6 +354,29 @@ TEST(ClipText, NamesAxesNormalsAndNodes) {
     EXPECT_LT((side.normal - row.plane()->normal).norm(), 1e-15);
     for (const char* text : {"", "x", "w=1", "x=", "1,2=0.5", "node=x", "0,0,0=1", "node=3"})
         EXPECT_THROW(clip_from_text(text, {}, document), Error) << text;
+}
+
+// Of two blocks along x, whose faces lie at 0, 0.5, 0.6 and 1 of the whole.
+TEST(ClipPlane, KeepsOffFacesOfTheBody) {
+    NodeSurface blocks;
+    for (const Soup& block :
+         {test::box({0, 0, 0}, {5, 4, 4}, {2, 2, 2}), test::box({6, 0, 0}, {10, 4, 4}, {2, 2, 2})}) {
+        const auto first = static_cast<std::int32_t>(blocks.vertices.size());
+        blocks.vertices.insert(blocks.vertices.end(), block.vertices.begin(), block.vertices.end());
+        for (const Triangle& t : block.facets) blocks.facets.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    const Eigen::AlignedBox3d whole(Vec3(0, 0, 0), Vec3(10, 4, 4));
+    const auto moved = [&](double position, const Vec3& normal = Vec3::UnitX()) {
+        Clip clip{.normal = normal, .position = position};
+        keep_off_faces(clip, blocks, whole);
+        return clip.position;
+    };
+    EXPECT_DOUBLE_EQ(moved(0.502), 0.516) << "in the middle of the gap between face and reach";
+    EXPECT_DOUBLE_EQ(moved(0.598), 0.584);
+    EXPECT_DOUBLE_EQ(moved(0.5), 0.485) << "of two gaps alike the first";
+    for (const double position : {0.0, 0.3, 0.52, 1.0}) EXPECT_EQ(moved(position), position);
+    EXPECT_EQ(moved(0.45, Vec3::UnitY()), 0.45) << "no face has this direction there";
+    EXPECT_EQ(moved(0.5, Vec3(1, 1, 0).normalized()), 0.5);
 }
 
 TEST(ClipPlane, DrawCoordinatesAgreeWithThoseOfTheFile) {

@@ -83,6 +83,7 @@ void App::follow_session() {
     desk_.follow();
     if (view_.session_changed) input_.resolve_click();
     navigation_.resolve_turn();
+    navigation_.resolve_clip();
     const Document& document = session.document();
     // A node that is asked for before the tree is known is waited for.
     const bool is_final = !session.busy() && !session.pending() && !document.progress.running;

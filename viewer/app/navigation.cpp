@@ -12,6 +12,7 @@
 #include <imgui.h>
 
 #include "viewer/app/keys.h"
+#include "viewer/model/off_faces.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
@@ -73,6 +74,15 @@ void Navigation::resolve_turn() {
             view_.wake();
         }
     turning_to_.reset();
+}
+
+void Navigation::resolve_clip() {
+    const Document& document = view_.session.document();
+    if (!view_.chosen.clip_fraction || document.box.isEmpty() || !document.tree.find(view_.state.node)) return;
+    const auto surface = surface_of(view_.session, view_.state.node);
+    if (!surface) return;
+    keep_off_faces(view_.state.clip, *surface, document.box);
+    view_.chosen.clip_fraction = false;
 }
 
 void Navigation::clip_through_selection(bool faces_eye) {

@@ -28,6 +28,7 @@ class Navigation : public CameraActions {
     /// Makes the camera turn about the point that was hit from now on.
     void center(const PickHit& hit);
     void resolve_turn();  ///< turns to the selection once its cells have arrived
+    void resolve_clip();  ///< moves a plane that was asked for off faces of the body, once these are known
     /// Sets the camera and its projection for the scene as it was built.
     void project_scene();
     /// Notes the view in the history once nothing moves it.

@@ -289,6 +289,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     command.chosen.stage = is_whole || !options.side.stage.empty();
     command.chosen.explode = is_whole || options.clip.explode >= 0;
     command.chosen.faces_clip = !command.clip.empty();
+    command.chosen.clip_fraction = !command.clip.empty() && !command.clip.starts_with("node=");
     if (!options.clip.style.empty()) state.clip.style = clip_style_from_name(options.clip.style);
     apply_colors(options.colors, command);
     if (options.clip.explode >= 0) state.explosion.amount = options.clip.explode;

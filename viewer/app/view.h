@@ -34,7 +34,8 @@ struct AppOptions {
 /// The parts of the view that somebody has asked for; all others suit the document.
 struct ChosenView {
     bool color = false, stage = false, explode = false;
-    bool faces_clip = false;  ///< without a camera the clip plane is looked at, and the part that it leaves fits
+    bool faces_clip = false;     ///< without a camera the clip plane is looked at, and the part that it leaves fits
+    bool clip_fraction = false;  ///< the clip plane was asked for by a fraction, so that it may keep off faces
     std::optional<Eigen::Quaterniond> turn = {};  ///< direction of a camera whose place is where all fits
 };
 

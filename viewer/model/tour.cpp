@@ -4,7 +4,7 @@
 // it has them, since it knows more than the trace of all that happened after the cut. Views are made from three
 // directions: the normal of the plane (`normal`), a direction in the plane (`aside`), and one across both (`up`),
 // upright where that can be. Stages of the border show the interface obliquely and closely, others the body; the
-// tetrahedra are cut open by a clip plane across `aside`.
+// tetrahedra are cut open by a clip plane across `aside`, beside faces that lie there.
 #include "viewer/model/tour.h"
 
 #include <algorithm>
@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include "base/core/number_text.h"
+#include "base/geometry/box.h"
+#include "viewer/model/off_faces.h"
 #include "viewer/model/timeline.h"
 
 namespace kerf::view {
@@ -28,6 +30,7 @@ struct Sentence {
     Stage stage;
     const char* text;
     bool (*holds)(const Cut& cut) = nullptr;  // null: always
+    bool cut_open = false;                    // as of the stop
 };
 
 bool is_straight_cut(const Cut& cut) { return cut.method == ContourMethod::straight; }
@@ -77,8 +80,10 @@ constexpr Sentence sentences[] = {
     {Stage::split, "Their volumes are {volume_below} and {volume_above}."},
     {Stage::split, "From here on neither needs to know of the other."},
     {Stage::parts, "The halves were cut again, and so on: there are {parts} now, each with a closed surface."},
-    {Stage::tetrahedra, "At last {parts} were filled with {cells} tetrahedra, each on its own, here cut open."},
-    {Stage::tetrahedra, "Their meshes fit together because both sides of a wall have the same triangles."},
+    {Stage::tetrahedra, "At last {parts} were filled with {cells} tetrahedra, each on its own."},
+    {Stage::tetrahedra, "Cut open, one sees the tetrahedra inside.", nullptr, true},
+    {Stage::tetrahedra, "Meshes of parts fit together because both sides of a wall have the same triangles.", nullptr,
+     true},
 };
 
 std::string number_of_things(std::int64_t n, const char* noun) {
@@ -198,13 +203,24 @@ std::optional<NodeId> node_of_tour(const Document& document, NodeId wanted) {
     return {};
 }
 
-std::vector<Step> stops_of_tour(const Document& document, NodeId node) {
-    std::vector<Step> steps = steps_of(document, node);
-    std::erase_if(steps, [](const Step& step) { return step.refused_try >= 0 || step.stage < Stage::input; });
-    return steps;
+std::vector<TourStop> stops_of_tour(const Document& document, NodeId node) {
+    std::vector<TourStop> stops;
+    for (const Step& step : steps_of(document, node)) {
+        if (step.refused_try >= 0 || step.stage < Stage::input) continue;
+        stops.push_back({step.stage});
+        if (step.stage == Stage::tetrahedra) stops.push_back({step.stage, true});
+    }
+    return stops;
 }
 
-std::string tell(const Document& document, NodeId node, Stage stage) {
+std::size_t nearest_stop(const std::vector<TourStop>& stops, const ViewState& state) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < stops.size(); ++i)
+        if (stops[i].stage <= state.step.stage && (!stops[i].cut_open || state.clip.on)) nearest = i;
+    return nearest;
+}
+
+std::string tell(const Document& document, NodeId node, const TourStop& stop) {
     const Cut none, *recorded = recorded_cut(document, node), &cut = recorded ? *recorded : none;
     Figures figures;
     add_tree(document, node, figures);
@@ -212,16 +228,18 @@ std::string tell(const Document& document, NodeId node, Stage stage) {
     if (recorded) add_contour(cut, figures);
     std::string text;
     for (const Sentence& sentence : sentences) {
-        if (sentence.stage != stage || (sentence.holds && !sentence.holds(cut))) continue;
+        if (TourStop{sentence.stage, sentence.cut_open} != stop || (sentence.holds && !sentence.holds(cut))) continue;
         const std::string told = filled(sentence.text, figures);
         if (!told.empty()) text += (text.empty() ? "" : " ") + told;
     }
     return text;
 }
 
-TourView view_of_stop(const Document& document, NodeId node, Stage stage, const Eigen::AlignedBox3d& body,
+TourView view_of_stop(const Document& document, NodeId node, const TourStop& stop, const NodeSurface* surface,
                       const ViewState& before) {
     const Cut& cut = *recorded_cut(document, node);
+    const Stage stage = stop.stage;
+    const Eigen::AlignedBox3d body = surface ? box_around_finite(surface->vertices) : document.box;
     TourView view;
     ViewState& state = view.state;
     state.theme = before.theme;
@@ -236,9 +254,10 @@ TourView view_of_stop(const Document& document, NodeId node, Stage stage, const 
     if (stage == Stage::triangulation || stage == Stage::interface)
         view.back = (0.85 * normal + 0.45 * aside + 0.3 * up).normalized();
     if (stage == Stage::input) state.look.axes = true;  // of which it tells
-    if (stage == Stage::split || stage == Stage::parts) state.explosion.amount = tour_explosion;
-    if (stage == Stage::tetrahedra) {
+    if (stage >= Stage::split && !stop.cut_open) state.explosion.amount = tour_explosion;
+    if (stop.cut_open) {
         snap_to(state.clip, Plane(body.center(), aside), document.box);
+        if (surface) keep_off_faces(state.clip, *surface, document.box);
         view.back = (0.25 * normal + 0.9 * aside + 0.35 * up).normalized();
     }
     return view;

@@ -43,7 +43,7 @@ class TimelineBar {
     void show_step(std::size_t index) {
         const Step& step = steps_[index];
         if (dialogs_.tour.node != no_node && step.refused_try < 0 && step.stage >= Stage::input)
-            dialogs_.tour.go_to = step.stage;
+            dialogs_.tour.go_to = TourStop{step.stage};
         else
             context_.state.step = step;
     }

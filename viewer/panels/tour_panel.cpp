@@ -21,7 +21,7 @@ void await_cut(UiContext& context, Tour& tour) {
     const Session& session = context.session;
     const Document& document = session.document();
     if (const std::optional<NodeId> node = node_of_tour(document, context.state.node)) {
-        tour = {.node = *node, .go_to = Stage::input, .before = context.state};
+        tour = {.node = *node, .go_to = TourStop(), .before = context.state};
         return;
     }
     if (session.busy() || session.pending() || document.progress.running) return;
@@ -35,16 +35,9 @@ void await_cut(UiContext& context, Tour& tour) {
     }
 }
 
-Eigen::AlignedBox3d box_of(UiContext& context, NodeId node) {
-    Eigen::AlignedBox3d box;
-    if (const auto surface = context.session.fetched().surface(node))
-        for (const Vec3& p : surface->vertices) box.extend(p);
-    return box.isEmpty() ? context.session.document().box : box;
-}
-
-void show_stop(UiContext& context, const Tour& tour, Stage stage, const Rectangle& scene) {
-    const TourView view =
-        view_of_stop(context.session.document(), tour.node, stage, box_of(context, tour.node), context.state);
+void show_stop(UiContext& context, const Tour& tour, const TourStop& stop, const Rectangle& scene) {
+    const auto surface = context.session.fetched().surface(tour.node);
+    const TourView view = view_of_stop(context.session.document(), tour.node, stop, surface.get(), context.state);
     const Rectangle body = body_area(view.state, scene);
     const float height = std::max(body.height, 1.f);
     Camera camera;
@@ -53,10 +46,6 @@ void show_stop(UiContext& context, const Tour& tour, Stage stage, const Rectangl
     camera.height *= scene.height / height;
     context.state = view.state;
     context.actions.camera.take_camera(camera);
-}
-
-std::size_t current_stop(const UiContext& context, const std::vector<Step>& stops) {
-    return nearest_step(stops, context.state.step);
 }
 
 }  // namespace
@@ -74,9 +63,9 @@ void end_tour(UiContext& context, Dialogs& dialogs) {
 }
 
 void go_on_tour(UiContext& context, Dialogs& dialogs, int count) {
-    const std::vector<Step> stops = stops_of_tour(context.session.document(), dialogs.tour.node);
-    const std::int64_t current = current_stop(context, stops), wanted = current + count;
-    if (wanted >= 0 && wanted < std::ssize(stops)) dialogs.tour.go_to = stops[wanted].stage;
+    const std::vector<TourStop> stops = stops_of_tour(context.session.document(), dialogs.tour.node);
+    const std::int64_t current = nearest_stop(stops, context.state), wanted = current + count;
+    if (wanted >= 0 && wanted < std::ssize(stops)) dialogs.tour.go_to = stops[wanted];
 }
 
 void follow_tour(UiContext& context, Dialogs& dialogs, const Rectangle& scene) {
@@ -93,8 +82,8 @@ void follow_tour(UiContext& context, Dialogs& dialogs, const Rectangle& scene) {
 void draw_tour(UiContext& context, Dialogs& dialogs) {
     const NodeId node = dialogs.tour.node;
     const Palette& colors = palette(context.state.theme);
-    const std::vector<Step> stops = stops_of_tour(context.session.document(), node);
-    const std::size_t current = current_stop(context, stops);
+    const std::vector<TourStop> stops = stops_of_tour(context.session.document(), node);
+    const std::size_t current = nearest_stop(stops, context.state);
     Widgets& widgets = context.widgets;
     ImGui::BeginDisabled(current == 0);
     if (widgets.button("Back")) go_on_tour(context, dialogs, -1);
@@ -108,7 +97,7 @@ void draw_tour(UiContext& context, Dialogs& dialogs) {
     ImGui::SameLine(0, em());
     ImGui::AlignTextToFramePadding();
     show(fmt::format("{} of {}: {}", current + 1, stops.size(), title(stops[current].stage)), colors.accent);
-    show_wrapped(tell(context.session.document(), node, stops[current].stage), colors.text);
+    show_wrapped(tell(context.session.document(), node, stops[current]), colors.text);
     if (is_over) end_tour(context, dialogs);
 }
 

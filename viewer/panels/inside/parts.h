@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/model/tour.h"
 #include "viewer/panels/inside/layout.h"
 #include "viewer/panels/inside/style.h"
 #include "viewer/panels/inside/tree_columns.h"
@@ -65,7 +66,7 @@ struct Tour {
     bool awaited = false;                  ///< it begins as soon as there is a cut to show
     bool has_run = false;                  ///< a run was started to have a cut to show
     NodeId node = no_node;                 ///< the node whose cut is shown; no_node: there is no tour
-    std::optional<Stage> go_to = {};       ///< the stage that the next frame shows
+    std::optional<TourStop> go_to = {};    ///< the stop that the next frame shows
     std::optional<ViewState> before = {};  ///< the view before the tour
 };
 
