@@ -54,16 +54,18 @@ vec3 base_color() {
 // Wraps around the surface and ends softly, so that coarse meshes can be shaded by their corners.
 float lamp(float cosine) {
     float wrapped = max(0.3 + 0.7 * cosine, 0);
-    return wrapped * wrapped;
+    return 0.5 * (wrapped + wrapped * wrapped);
 }
 
 #if defined(SCALE) || defined(CATEGORIES)
 // From the eye and weak: a face that is seen from the front has the colour of the legend, and none is far from it.
 float brightness(vec3 n, vec3 to_eye) { return 0.64 + 0.36 * max(dot(n, normalize(to_eye)), 0); }
 #else
-// A headlight from the upper left, a weak one against it, and a sky that is brighter above.
+// A lamp at the upper left, a weak one against it, one at the eye, and a sky that is brighter above.
 float brightness(vec3 n, vec3 to_eye) {
-    return 0.38 + 0.07 * dot(n, up) + 0.60 * lamp(dot(n, key_light)) + 0.12 * lamp(dot(n, fill_light));
+    float light = 0.20 + 0.07 * dot(n, up) + 0.62 * lamp(dot(n, key_light)) + 0.10 * lamp(dot(n, fill_light)) +
+                  0.20 * max(dot(n, normalize(to_eye)), 0);
+    return min(light, 1.03);
 }
 #endif
 

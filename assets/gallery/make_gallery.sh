@@ -67,7 +67,7 @@ draw_stages() {
 # Of the viewer's start page, which shows them without their captions: viewer/panels/welcome.cpp.
 draw_surfaces() {
     local surface
-    echo '{"edges": false, "legend": false, "size": [400, 300, 0.35]}' >"$work/bare.json"
+    echo '{"edges": false, "legend": false, "scale_bar": false, "size": [400, 300, 0.35]}' >"$work/bare.json"
     mkdir -p "$into/surfaces"
     for surface in assets/*.stl; do
         draw "surfaces/$(basename "$surface" .stl).png" "$surface" --stage input --state "$work/bare.json" \
@@ -124,7 +124,7 @@ draw_bracket() {
 draw_cad_surface() {
     local name=$1 when=$2 ending=$3
     shift 3
-    draw "cad_${name}_$when.png" "$work/cad_$name.$ending" "$@" --stage input \
+    draw "cad_${name}_$when.png" "$work/cad_$name.$ending" "$@" --stage input --up z \
         --no-legend --antialias 2 --resolution 480x360
 }
 

@@ -409,6 +409,41 @@ TEST(Edges, OfTinyTrianglesFade) {
     EXPECT_LT(darkening(48), 1e-4) << "those of 3 are not";
 }
 
+// All channels of a pixel by one factor, most of them by none.
+TEST(Hollows, AreDarkerInTheSameHue) {
+    Driver::Options options;
+    options.width = 320;
+    options.height = 240;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.show_panels(false);
+    driver.open(asset_path("pipe_with_holes"));
+    driver.state().look.edges = false;
+    driver.settle();
+    Scene scene = driver.app().scene().scene;
+    std::erase_if(scene.layers, [](const Layer& layer) { return layer.kind != LayerKind::surface; });
+    const Projection projection = project(driver.app().camera(), driver.app().scene().frame, driver.app().scene().box,
+                                          options.width, options.height);
+    const auto drawn = [&] {
+        driver.app().renderer().clear(scene.background_bottom);
+        driver.app().renderer().draw(scene, projection);
+        return driver.app().renderer().read();
+    };
+    EXPECT_GT(scene.occlusion, 0);
+    const Image dark = drawn();
+    scene.occlusion = 0;
+    const Image bright = drawn();
+    int darker = 0;
+    for (std::size_t i = 0; i < bright.rgb.size(); i += 3) {
+        const double factor = dark.rgb[i] / std::max<double>(1, bright.rgb[i]);
+        for (std::size_t k = i; k < i + 3; ++k) ASSERT_NEAR(dark.rgb[k], factor * bright.rgb[k], 3);
+        ASSERT_LE(factor, 1);
+        darker += factor < 0.8;
+    }
+    EXPECT_GT(darker, 60) << "the holes";
+    EXPECT_LT(darker, 320 * 240 / 4);
+}
+
 // The camera looks along the normal, and what is left fits: half of a long body is seen larger than the whole.
 TEST(Clip, IsLookedAt) {
     const TemporaryFolder folder;

@@ -9,6 +9,7 @@
 #include "support/shapes.h"
 #include "viewer/app/command_line.h"
 #include "viewer/model/off_faces.h"
+#include "viewer/model/upright.h"
 #include "viewer/model/view_state.h"
 #include "viewer/scene/inside/shapes.h"
 
@@ -31,7 +32,7 @@ ViewState unusual_state() {
     s.camera = Camera{{1, 2, 3}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 7, false};
     s.look.shading = Shading::smooth;
     s.look.edges = s.look.context = s.look.plane = s.look.contour = s.look.surface = s.look.interfaces = s.look.legend =
-        s.look.times = false;
+        s.look.scale_bar = s.look.times = false;
     s.look.axes = false;
     s.look.numbers = false;
     s.coloring.percentile = 95;
@@ -70,10 +71,10 @@ auto fields(const ViewState& s) {
                     theme, panels);
 }
 auto fields(const Look& l) {
-    const auto& [shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, numbers, times] =
-        l;
-    return std::tie(shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, numbers,
-                    times);
+    const auto& [shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, scale_bar,
+                 numbers, times] = l;
+    return std::tie(shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, scale_bar,
+                    numbers, times);
 }
 auto fields(const Visibility& v) {
     const auto& [hidden, isolated, hidden_regions, glass_regions, isolated_region, hidden_patches, walls, neighbours] =
@@ -259,6 +260,43 @@ TEST(Camera, LooksFromASideWithAnAxisUp) {
 
 const Eigen::AlignedBox3d box(Vec3(10, 20, 30), Vec3(14, 22, 31));
 
+// z, but for bodies of programs that have y up, which stand or lie along it.
+TEST(Camera, GuessesWhatIsUp) {
+    const auto up = [](const char* path, const char* run_of, const Vec3& size) {
+        Document document;
+        document.path = path;
+        document.options.input = run_of;
+        document.box = Eigen::AlignedBox3d(Vec3(Vec3::Zero()), size);
+        return guessed_up(document);
+    };
+    EXPECT_EQ(up("skull.obj", "", {8.7, 13.9, 12.1}), 1);
+    EXPECT_EQ(up("run", "skull.OBJ", {8.7, 13.9, 12.1}), 1) << "a run looks like its surface";
+    EXPECT_EQ(up("terrain.obj", "", {90, 8, 70}), 1);
+    EXPECT_EQ(up("bust.obj", "", {2.4, 3.6, 5}), 2);
+    EXPECT_EQ(up("car.obj", "", {4.6, 2, 1.4}), 2);
+    EXPECT_EQ(up("cube.obj", "", {1, 1, 1}), 2);
+    EXPECT_EQ(up("bracket.stl", "", {8.7, 13.9, 12.1}), 2);
+}
+
+// However coarse it is, the outline of a body touches two borders of the picture.
+TEST(Camera, FillsThePictureWithAnOutline) {
+    std::vector<Vec3> ball;
+    for (int i = 0; i < 400; ++i) {
+        const double z = 1 - (i + 0.5) / 200, turn = 2.4 * i, r = std::sqrt(1 - z * z);
+        ball.emplace_back(5 + r * std::cos(turn), r * std::sin(turn), z);
+    }
+    const Frame frame = Frame::around({Vec3(4, -1, -1), Vec3(6, 1, 1)});
+    Camera camera;
+    look_from(camera, Direction::corner);
+    fit(camera, ball, 1.5);
+    const Projection projection = project(camera, frame, {Vec3(4, -1, -1), Vec3(6, 1, 1)}, 900, 600);
+    Eigen::AlignedBox3d seen;
+    for (const Vec3& p : ball) seen.extend(to_screen(projection, frame, p));
+    EXPECT_NEAR(seen.sizes().y(), 600 / 1.08, 2);
+    EXPECT_NEAR(seen.center().x(), 450, 1);
+    EXPECT_NEAR(seen.center().y(), 300, 1);
+}
+
 TEST(Camera, FitsTheWholeBoxWhateverTheDirection) {
     const Frame frame = Frame::around(box);
     for (const Direction direction : {Direction::front, Direction::back, Direction::right, Direction::left,
@@ -417,14 +455,12 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
     EXPECT_EQ(parse({"view", "a.stl", "--view", "above"}).exit_code, 2);
     EXPECT_EQ(parse({"view", "a.stl", "--up", "w"}).exit_code, 2);
     EXPECT_EQ(parse({"view", "a.stl", "--view", "top", "--camera", "a.json"}).exit_code, 2);
-    EXPECT_FALSE(parse({"view", "a.stl"}).chosen.turn);
-    Camera wanted;
-    look_from(wanted, Direction::left, 1);
+    EXPECT_FALSE(parse({"view", "a.stl"}).chosen.from);
     const ViewCommand turned = parse({"screenshot", "a.stl", "-o", "b.png", "--view", "left", "--up", "y"});
-    ASSERT_TRUE(turned.chosen.turn) << turned.print;
-    EXPECT_EQ(turned.chosen.turn->coeffs(), wanted.turn.coeffs());
-    look_from(wanted, Direction::corner, 0);
-    EXPECT_EQ(parse({"view", "a.stl", "--up", "x"}).chosen.turn->coeffs(), wanted.turn.coeffs());
+    EXPECT_EQ(turned.chosen.from, Direction::left) << turned.print;
+    EXPECT_EQ(turned.chosen.up, 1);
+    EXPECT_EQ(parse({"view", "a.stl", "--up", "x"}).chosen.from, Direction::corner);
+    EXPECT_FALSE(parse({"view", "a.stl", "--view", "front"}).chosen.up) << "it is guessed";
     const ViewCommand help = parse({"screenshot", "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.print.find("--explode"), std::string::npos);

@@ -90,6 +90,7 @@ void App::follow_session() {
     if (is_final && !document.tree.rows.empty() && !document.tree.find(view_.state.node)) view_.state.node = root_node;
     view_.steps = steps_of(document, view_.shown().node);
     view_.facts.pending = session.pending();
+    view_.facts.up = view_.up();
 }
 
 void App::build_scene() {

@@ -30,6 +30,14 @@ Eigen::AlignedBox3d framed_box(const std::vector<Vec3>& points, double least) {
 
 }  // namespace
 
+// Fits a box, or points, into the part of the scene that the legend leaves.
+template <class Body>
+void Navigation::fit_body(Camera& camera, const Body& body) const {
+    const float height = std::max(view_.body.height, 1.f);
+    fit(camera, body, view_.body.width / height);
+    camera.height *= view_.area.height / height;
+}
+
 void Navigation::frame_selection() {
     const double diagonal = view_.diagonal();
     const std::vector<Vec3> points = selected_points(view_.session, view_.state.selection);
@@ -48,7 +56,7 @@ void Navigation::frame_selection() {
 
 void Navigation::fly_to(const Vec3& point, double radius, const Vec3& back) {
     Camera camera = view_.camera;
-    if (back.squaredNorm() > 0 && !back.isApprox(camera.back())) look_from(camera, back);
+    if (back.squaredNorm() > 0 && !back.isApprox(camera.back())) look_from(camera, back, view_.up());
     camera.target = point;
     camera.height = std::max(6 * radius, 1e-4 * view_.diagonal());
     view_.state.camera = view_.camera = camera;
@@ -70,7 +78,7 @@ void Navigation::resolve_turn() {
     if (!is_known && view_.session.pending()) return;
     if (is_known && view_.state.selection == s && view_.state.camera)
         if (const auto back = direction_to_cell(*cells, *part, *shown, s.index, view_.camera.back())) {
-            if (!back->isApprox(view_.state.camera->back())) look_from(*view_.state.camera, *back);
+            if (!back->isApprox(view_.state.camera->back())) look_from(*view_.state.camera, *back, view_.up());
             view_.wake();
         }
     turning_to_.reset();
@@ -106,13 +114,14 @@ void Navigation::update_camera() {
     view_.camera = {};
     const Clip& clip = view_.state.clip;
     const bool fits_rest = view_.chosen.faces_clip && clip.on && !view_.built.left.isEmpty();
-    if (view_.chosen.turn)
-        view_.camera.turn = *view_.chosen.turn;
-    else if (fits_rest)
-        look_from(view_.camera, clip.flipped ? Vec3(-clip.normal) : clip.normal);
+    if (fits_rest && !view_.chosen.from)
+        look_from(view_.camera, clip.flipped ? Vec3(-clip.normal) : clip.normal, view_.up());
     else
-        look_from(view_.camera, Direction::corner);
-    fit_body(view_.camera, fits_rest ? view_.built.left : view_.built.box);
+        look_from(view_.camera, view_.chosen.from.value_or(Direction::corner), view_.up());
+    if (fits_rest)
+        fit_body(view_.camera, view_.built.left);
+    else
+        fit_body(view_.camera, view_.built.outline);
 }
 
 void Navigation::project_scene() {
@@ -140,13 +149,6 @@ void Navigation::remember() {
 
 void Navigation::show_again(const std::optional<ViewState>& view) {
     if (view) view_.state = *view;
-}
-
-// Fits a box into the part of the scene that the legend leaves.
-void Navigation::fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const {
-    const float height = std::max(view_.body.height, 1.f);
-    fit(camera, box, view_.body.width / height);
-    camera.height *= view_.area.height / height;
 }
 
 // Zooms towards the point that is seen under the cursor, and not through it.

@@ -37,7 +37,8 @@ class Navigation : public CameraActions {
  private:
     void update_camera();
     void show_again(const std::optional<ViewState>& view);
-    void fit_body(Camera& camera, const Eigen::AlignedBox3d& box) const;
+    template <class Body>
+    void fit_body(Camera& camera, const Body& body) const;
     Vec3 seen_point(const PickHit& hit) const;
 
     View& view_;

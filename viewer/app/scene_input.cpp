@@ -72,7 +72,11 @@ void SceneInput::take_drag() {
     if (!dragging_ || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
     Camera camera = view_.camera;
     const double height = view_.height();
-    (pans ? pan : orbit)(camera, io.MouseDelta.x / height, io.MouseDelta.y / height);
+    const double dx = io.MouseDelta.x / height, dy = io.MouseDelta.y / height;
+    if (pans)
+        pan(camera, dx, dy);
+    else
+        orbit(camera, dx, dy, view_.up());
     view_.state.camera = camera;
 }
 

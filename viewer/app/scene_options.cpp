@@ -99,6 +99,7 @@ void add_look_options(CLI::App& app, LookOptions& options) {
     app.add_flag("--no-edges", options.no_edges, "Without the edges of triangles.");
     app.add_flag("--no-context", options.no_context, "Without the rest of the body.");
     app.add_flag("--no-legend", options.no_legend, "Without the legend.");
+    app.add_flag("--no-scale-bar", options.no_scale_bar, "Without the bar of a round length.");
     app.add_flag("--no-numbers", options.no_numbers,
                  "Without the numbers of patches on their faces, and of values on isolines.");
     app.add_option("--theme", options.theme, "Colours of the background and of all around.")
@@ -200,13 +201,12 @@ void take_origin(ViewCommand& command) {
     command.picture.scale = static_cast<float>(origin.scale);
 }
 
-// Turns the camera to the side that is named; its place follows from the scene.
+// Takes the side that is looked from; the place of the camera follows from the scene.
 void apply_view(const SideOptions& options, ViewCommand& command) {
     if (options.view.empty() && options.up.empty()) return;
     const auto* name = std::find(view_names.begin(), view_names.end(), options.view.empty() ? "iso" : options.view);
-    Camera camera;
-    look_from(camera, static_cast<Direction>(name - view_names.begin()), options.up.empty() ? 2 : options.up[0] - 'x');
-    command.chosen.turn = camera.turn;
+    command.chosen.from = static_cast<Direction>(name - view_names.begin());
+    if (!options.up.empty()) command.chosen.up = options.up[0] - 'x';
     command.state.camera.reset();
 }
 
@@ -217,6 +217,7 @@ void apply_look(const LookOptions& options, Look& look) {
     if (options.no_edges) look.edges = false;
     if (options.no_context) look.context = false;
     if (options.no_legend) look.legend = false;
+    if (options.no_scale_bar) look.scale_bar = false;
     if (options.no_numbers) look.numbers = false;
 }
 

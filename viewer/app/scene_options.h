@@ -23,7 +23,7 @@ struct SideOptions {
 /// The options for the layers that are drawn.
 struct LookOptions {
     bool features = false, axes = false, smooth = false, no_edges = false, no_context = false, no_legend = false,
-         no_numbers = false;
+         no_numbers = false, no_scale_bar = false;
     std::string theme;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viewer/model/session.h"
+#include "viewer/model/upright.h"
 #include "viewer/model/view_history.h"
 #include "viewer/panels/panels.h"
 #include "viewer/render/frame_size.h"
@@ -36,7 +37,8 @@ struct ChosenView {
     bool color = false, stage = false, explode = false;
     bool faces_clip = false;     ///< without a camera the clip plane is looked at, and the part that it leaves fits
     bool clip_fraction = false;  ///< the clip plane was asked for by a fraction, so that it may keep off faces
-    std::optional<Eigen::Quaterniond> turn = {};  ///< direction of a camera whose place is where all fits
+    std::optional<Direction> from = {};  ///< side that a camera looks from, whose place is where all fits
+    std::optional<int> up = {};          ///< axis that points up
 };
 
 struct View {
@@ -69,6 +71,8 @@ struct View {
     void wake() { frames_wanted = 3; }
     void notify(const std::string& text);
     ViewState shown() const;  ///< returns the state with a node that the tree, as far as it is known, has
+    /// Returns the axis that points up: the one that was asked for, or guessed.
+    int up() const { return chosen.up.value_or(guessed_up(session.document())); }
     double diagonal() const { return session.document().box.diagonal().norm(); }
     /// Returns the height of the scene in pixels, at least 1, so that it can be divided by.
     float height() const { return std::max(area.height, 1.f); }

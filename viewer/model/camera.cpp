@@ -1,7 +1,7 @@
 // The camera is a target, a rotation (`turn`) and the height of the piece of the plane through the target that fills
 // the viewport. The eye lies on the axis `back`, at the distance at which that height is seen under 30 degrees: zooming
-// is a change of the height alone, and both projections show the target's plane alike. An orbit turns about the z axis
-// of the file first and about the eye's x axis then, so that up stays up; where the camera stands on its head the first
+// is a change of the height alone, and both projections show the target's plane alike. An orbit turns about the axis
+// that is up first and about the eye's x axis then, so that up stays up; where the camera stands on its head the first
 // turn is reversed, so that the body follows the cursor. Near and far planes enclose the box of all that is drawn. In
 // perspective the near one is never closer to the eye than a hundredth of the target's distance, because the precision
 // of depths is lost otherwise.
@@ -15,7 +15,7 @@ namespace kerf::view {
 namespace {
 
 constexpr double half_field_of_view = 15 * M_PI / 180;  // from the middle to the upper border
-constexpr double margin = 1.04;                         // factor of the size of the fitted box
+constexpr double margin = 1.08;                         // factor of the size of what is fitted
 constexpr double orbit_per_height = M_PI;               // a drag over the whole viewport turns by half a turn
 
 Eigen::Quaterniond turn_of(const Vec3& right, const Vec3& up) {
@@ -82,32 +82,50 @@ void look_from(Camera& camera, Direction direction, int up) {
     if (up == 0) camera.turn = turn_of(y, z) * camera.turn;
 }
 
-void look_from(Camera& camera, const Vec3& back) {
-    Vec3 right = Vec3::UnitZ().cross(back);
+void look_from(Camera& camera, const Vec3& back, int up) {
+    Vec3 right = Vec3::Unit(up).cross(back);
     if (right.norm() < 1e-3) right = camera.right() - back * back.dot(camera.right());
     if (right.norm() < 1e-3) right = back.unitOrthogonal();
     right.normalize();
     camera.turn = turn_of(right, back.cross(right));
 }
 
-void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect) {
-    if (box.isEmpty()) return;
-    camera.target = box.center();
-    const Vec3 half = box.sizes() / 2;
-    const auto reach = [&](const Vec3& axis) { return half.dot(axis.cwiseAbs()); };
-    const double up = reach(camera.up()), right = reach(camera.right());
-    // In perspective things nearer than the target are larger.
-    const double nearer = camera.perspective ? reach(camera.back()) * std::tan(half_field_of_view) : 0;
-    const double wanted = std::max(up, right / std::max(aspect, 1e-3)) + nearer;
+// A point at x beside the target and z before it is seen inside of the borders if |x| + s z <= s d, where s is the
+// slope of the border's ray and d the distance of the eye, s d half of what is seen at the target.
+void fit(Camera& camera, std::span<const Vec3> points, double aspect) {
+    if (points.empty()) return;
+    const auto reach = [&](const Vec3& axis) {
+        double most = -HUGE_VAL;
+        for (const Vec3& p : points) most = std::max(most, axis.dot(p));
+        return most;
+    };
+    const Vec3 back = camera.back();
+    const double depth = (reach(back) - reach(-back)) / 2;
+    double wanted = 0;
+    camera.target = depth * back;
+    aspect = std::max(aspect, 1e-3);
+    for (const auto& [axis, shape] : {std::pair(camera.right(), aspect), {camera.up(), 1.0}}) {
+        const double slope = camera.perspective ? shape * std::tan(half_field_of_view) : 0;
+        const double low = reach(-axis + slope * back), high = reach(axis + slope * back);
+        camera.target += (high - low) / 2 * axis;
+        wanted = std::max(wanted, ((high + low) / 2 - slope * depth) / shape);
+    }
     camera.height = std::max(2 * margin * wanted, 1e-300);
 }
 
-void orbit(Camera& camera, double dx, double dy) {
+void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect) {
+    if (box.isEmpty()) return;
+    std::array<Vec3, 8> corners;
+    for (int i = 0; i < 8; ++i) corners[i] = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    fit(camera, corners, aspect);
+}
+
+void orbit(Camera& camera, double dx, double dy, int up) {
     // About the vertical axis of the file first, so that up stays up.
-    const double side = camera.up().z() < 0 ? -1 : 1;
-    const Eigen::AngleAxisd about_z(-side * dx * orbit_per_height, Vec3::UnitZ());
+    const double side = camera.up()[up] < 0 ? -1 : 1;
+    const Eigen::AngleAxisd about_up(-side * dx * orbit_per_height, Vec3::Unit(up));
     const Eigen::AngleAxisd about_right(-dy * orbit_per_height, Vec3::UnitX());
-    camera.turn = (about_z * camera.turn * about_right).normalized();
+    camera.turn = (about_up * camera.turn * about_right).normalized();
 }
 
 void pan(Camera& camera, double dx, double dy) {

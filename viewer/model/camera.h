@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include <Eigen/Geometry>
 
@@ -61,15 +62,18 @@ enum class Direction { front, back, right, left, top, bottom, corner };
 /// Turns the camera to a named direction. `up` is the axis (0 to 2) that points up; the front has x to the right where
 /// z or y is up, and y where x is.
 void look_from(Camera& camera, Direction direction, int up = 2);
-/// Turns the camera so that `back`, of length 1, leads from the target to the eye. The z axis is up where it can be.
-void look_from(Camera& camera, const Vec3& back);
+/// Turns the camera so that `back`, of length 1, leads from the target to the eye. The axis `up` is up where it can be.
+void look_from(Camera& camera, const Vec3& back, int up = 2);
 
-/// Moves target and height so that the box, as it is seen from the present direction, fits into a viewport with a small
-/// margin. `aspect` is width over height.
+/// Moves target and height so that the points, as they are seen from the present direction, fill a viewport but for a
+/// small margin, in its middle. `aspect` is width over height.
+void fit(Camera& camera, std::span<const Vec3> points, double aspect);
+/// Fits the corners of a box.
 void fit(Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
 
-/// Turns the camera about the target by a drag in fractions of the viewport's height; y is down as on screens.
-void orbit(Camera& camera, double dx, double dy);
+/// Turns the camera about the target by a drag in fractions of the viewport's height; y is down as on screens. `up` is
+/// the axis that points up.
+void orbit(Camera& camera, double dx, double dy, int up = 2);
 /// Moves the target with the cursor by a drag in fractions of the viewport's height; y is down as on screens.
 void pan(Camera& camera, double dx, double dy);
 /// Moves the target along the line of sight to the depth of a point that lies before the eye; the picture stays.

@@ -169,6 +169,7 @@ std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
             {"surface", &s.look.surface},
             {"interfaces", &s.look.interfaces},
             {"legend", &s.look.legend},
+            {"scale_bar", &s.look.scale_bar},
             {"features", &s.look.features},
             {"times", &s.look.times},
             {"isolines", &s.coloring.isolines},

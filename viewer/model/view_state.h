@@ -140,6 +140,7 @@ struct Look {
     bool surface = true;
     bool interfaces = true;
     bool legend = true;
+    bool scale_bar = true;
     bool numbers = true;  ///< numbers of patches on the faces that are coloured by them; values on isolines
     bool times = true;    ///< seconds in the tree
 

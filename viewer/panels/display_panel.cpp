@@ -34,7 +34,8 @@ void draw_switches(UiContext& context) {
                                {"Contour", &look.contour, "The contour of the cut"},
                                {"Axes", &axes, "Principal axes and centre of gravity of the node"},
                                {"Features", &look.features, "Sharp edges and borders of patches"},
-                               {"Legend", &look.legend, "What the colours mean"}};
+                               {"Legend", &look.legend, "What the colours mean"},
+                               {"Scale bar", &look.scale_bar, "A length, as it is seen at the middle of the body"}};
     const float half = ImGui::GetContentRegionAvail().x / 2;
     int i = 0;
     for (const Switch& one : switches) {

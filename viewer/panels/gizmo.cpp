@@ -1,4 +1,6 @@
-// The axes of the file as the camera has turned them; a click on an end looks from there.
+// The axes of the file as the camera has turned them; a click on an end looks from there. Ends are axes of the file,
+// sides (Direction) depend on what is up: the side of an end is the one whose camera looks along it. Ends are drawn from
+// back to front, and clicked from front to back.
 #include <algorithm>
 
 #include "viewer/panels/inside/parts.h"
@@ -12,16 +14,27 @@ struct AxisEnd {
     const char* letter;
     int axis;
     double sign;
-    Direction from;
-    const char* tip;
 };
 
-constexpr std::array<AxisEnd, 6> ends = {{{"view x", "x", 0, 1, Direction::right, "From the right (3)"},
-                                          {"view -x", "", 0, -1, Direction::left, "From the left"},
-                                          {"view y", "y", 1, 1, Direction::back, "From the back"},
-                                          {"view -y", "", 1, -1, Direction::front, "From the front (1)"},
-                                          {"view z", "z", 2, 1, Direction::top, "From the top (7)"},
-                                          {"view -z", "", 2, -1, Direction::bottom, "From the bottom"}}};
+constexpr std::array<AxisEnd, 6> ends = {{{"view x", "x", 0, 1},
+                                          {"view -x", "", 0, -1},
+                                          {"view y", "y", 1, 1},
+                                          {"view -y", "", 1, -1},
+                                          {"view z", "z", 2, 1},
+                                          {"view -z", "", 2, -1}}};
+
+// In the order of Direction.
+constexpr std::array<const char*, 6> tips = {"From the front (1)", "From the back",    "From the right (3)",
+                                             "From the left",      "From the top (7)", "From the bottom"};
+
+// The side from which one looks along an axis.
+Direction side_of(const AxisEnd& end, int up) {
+    Camera camera;
+    int side = 0;
+    for (look_from(camera, Direction::front, up); camera.back()[end.axis] * end.sign < 0.9 && side < 5;)
+        look_from(camera, static_cast<Direction>(++side), up);
+    return static_cast<Direction>(side);
+}
 
 constexpr std::array<Color, 3> axis_colors = {{{0.80f, 0.22f, 0.22f}, {0.24f, 0.60f, 0.25f}, {0.20f, 0.42f, 0.85f}}};
 
@@ -77,12 +90,12 @@ void draw_gizmo(UiContext& context, const Rectangle& scene) {
         ImGui::SetCursorScreenPos({placed[i].at.x - radius, placed[i].at.y - radius});
         if (ImGui::InvisibleButton(placed[i].end->label, {2 * radius, 2 * radius})) {
             Camera camera = context.camera;
-            look_from(camera, placed[i].end->from);
+            look_from(camera, side_of(*placed[i].end, context.facts.up), context.facts.up);
             context.actions.camera.take_camera(camera);
         }
         hovered[i] = ImGui::IsItemHovered();
         context.widgets.record(placed[i].end->label);
-        explain(placed[i].end->tip);
+        explain(tips[static_cast<std::size_t>(side_of(*placed[i].end, context.facts.up))]);
     }
     for (std::size_t i = placed.size(); i-- > 0;) draw_end(list, placed[i], center, radius, hovered[i]);
     ImGui::End();

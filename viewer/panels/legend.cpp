@@ -1,8 +1,9 @@
 // The legend at the lower right of the scene: a title, a scale with ticks where colours are numbers, and samples of
 // other colours. It is a part of the picture and should not cover the body: body_area() gives it a strip at the right
-// of a wide scene and below the body of another one, of a size that does not depend on its content, and the camera fits
-// the body into the rest. The legend is measured first (prepare_scale(), prepare_entries()) and then placed by its
-// lower right corner. Entries that have no room become "+ N more". Ticks are round values with equally many decimals.
+// of a wide scene and below the body of another one, besides one for the caption above, of a size that does not depend
+// on its content, and the camera fits the body into the rest. The legend is measured first (prepare_scale(),
+// prepare_entries()) and then placed by its lower right corner. Entries that have no room become "+ N more". Ticks are
+// round values with equally many decimals.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +35,8 @@ class LegendBox {
         const float e = em();
         const Rectangle body = body_area(context.state, scene);
         widest_ = (is_wide(scene) ? scene.width - body.width : scene.width) - 2 * e;
-        highest_ = (is_wide(scene) ? scene.height - 9 * e : scene.height - body.height) - 1.5f * e;
+        const float below = scene.y + scene.height - body.y - body.height;
+        highest_ = (is_wide(scene) ? scene.height - 9 * e : below) - 1.5f * e;
         if (!legend_.title.empty()) highest_ -= ImGui::GetTextLineHeight() + 0.4f * e;
     }
 
@@ -249,8 +251,11 @@ class LegendBox {
 }  // namespace
 
 Rectangle body_area(const ViewState& state, const Rectangle& scene) {
-    if (!state.look.legend) return scene;
     Rectangle body = scene;
+    const float caption = std::min(3.4f * em(), 0.15f * scene.height);
+    body.y += caption;
+    body.height -= caption;
+    if (!state.look.legend) return body;
     if (is_wide(scene))
         body.width -= std::clamp(0.25f * scene.width, std::min(10.5f * em(), 0.34f * scene.width), 13 * em());
     else

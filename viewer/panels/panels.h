@@ -128,6 +128,7 @@ struct SceneFacts {
     std::optional<ValueLabel> probe;              ///< the value under the mouse
     std::string patch;                            ///< the patch that was clicked with the right button last
     int patch_clicks = 0;                         ///< number of such clicks
+    int up = 2;                                   ///< axis that points up
     bool has_earlier = false, has_later = false;  ///< there are views to go back to, or on to
     bool playing = false;
     bool moving = false;        ///< the deformation is in motion
@@ -205,8 +206,8 @@ Rectangle rectangle_of(const ValueLabel& label);
 Rectangle scene_rectangle(const ViewState& state, const Document& document, const PanelSizes& sizes, float width,
                           float height, bool panels);
 
-/// Returns the part of the scene that the legend leaves, on its left or above it, so that the body stands beside it. It
-/// is the same for all steps and colourings.
+/// Returns the part of the scene that legend and caption leave, so that the body stands beside them. It is the same for
+/// all steps and colourings.
 Rectangle body_area(const ViewState& state, const Rectangle& scene);
 
 /// The user interface, with its state between frames: open dialogs, edited options.

@@ -41,7 +41,7 @@ void show_stop(UiContext& context, const Tour& tour, const TourStop& stop, const
     const Rectangle body = body_area(view.state, scene);
     const float height = std::max(body.height, 1.f);
     Camera camera;
-    look_from(camera, view.back);
+    look_from(camera, view.back, context.facts.up);
     fit(camera, view.box, body.width / height);
     camera.height *= scene.height / height;
     context.state = view.state;

@@ -211,6 +211,7 @@ void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
     draw_caption(context, scene);
     draw_legend(context, scene);
     draw_gizmo(context, scene);
+    draw_scale_bar(context, scene);
 }
 
 void Ui::press(UiContext& context, const std::string& key, bool repeat) {

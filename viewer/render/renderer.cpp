@@ -1,10 +1,10 @@
-// A picture is drawn in this order: background; opaque triangles; the parts of lines and points that shine through;
-// lines and points; triangles that are not opaque, backs before fronts, without writing depth. Backs before fronts is
-// the right order within a convex body and needs no sorting. Closed bodies that nothing cuts open are drawn without
-// their backs (PaintJob::hides_backs()), which is up to twice as fast. The picture is in a framebuffer of its own, so
-// that it is the same with and without a window. A Projection's viewport counts pixels from the lower left corner as
-// OpenGL does; places that callers give and get count from the top left. OpenGL's state is at its default between
-// calls.
+// A picture is drawn in this order: background; opaque triangles; their hollows darker; the parts of lines and points
+// that shine through; lines and points; triangles that are not opaque, backs before fronts, without writing depth.
+// Backs before fronts is the right order within a convex body and needs no sorting. Closed bodies that nothing cuts
+// open are drawn without their backs (PaintJob::hides_backs()), which is up to twice as fast. The picture is in a
+// framebuffer of its own, so that it is the same with and without a window. A Projection's viewport counts pixels from
+// the lower left corner as OpenGL does; places that callers give and get count from the top left. OpenGL's state is at
+// its default between calls.
 #include "viewer/render/renderer.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "viewer/render/inside/framebuffer.h"
 #include "viewer/render/inside/gl.h"
 #include "viewer/render/inside/gpu_geometry.h"
+#include "viewer/render/inside/occlusion.h"
 #include "viewer/render/inside/picker.h"
 #include "viewer/render/inside/shader_program.h"
 #include "viewer/render/inside/stroke_painter.h"
@@ -68,12 +69,13 @@ class Renderer::Impl {
  public:
     Impl(const Gl& gl, const std::string& shader_folder)
         : gl_(checked_version(gl)),
-          target_(gl, GL_RGBA8, 1, 1),
+          target_(gl, GL_RGBA8, 1, 1, true),
           background_(gl, shader_folder, "background.vert", "background.frag"),
           no_vertices_(GlObject::vertex_array(gl)),
           cache_(gl),
           triangles_(gl, shader_folder),
           strokes_(gl, shader_folder),
+          occlusion_(gl, shader_folder),
           ui_(gl, shader_folder),
           picker_(gl) {
         gl.Enable(GL_CLIP_DISTANCE0);
@@ -83,7 +85,8 @@ class Renderer::Impl {
     }
 
     void resize(int width, int height) {
-        if (width != target_.width() || height != target_.height()) target_ = Framebuffer(gl_, GL_RGBA8, width, height);
+        if (width != target_.width() || height != target_.height())
+            target_ = Framebuffer(gl_, GL_RGBA8, width, height, true);
     }
 
     void clear(const Color& color) {
@@ -127,6 +130,7 @@ class Renderer::Impl {
     GpuGeometryCache cache_;
     TrianglePainter triangles_;
     StrokePainter strokes_;
+    Occlusion occlusion_;
     UiPainter ui_;
     Picker picker_;
     std::vector<DrawnLayer> drawn_;
@@ -138,6 +142,7 @@ void Renderer::Impl::draw(const Scene& scene, const Projection& projection) {
     begin(projection);
     draw_background(scene);
     draw_opaque_triangles(scene, projection);
+    if (scene.occlusion > 0) occlusion_.draw(target_, projection, scene.occlusion);
     draw_strokes(scene, projection);
     draw_see_through_triangles(scene, projection);
     end();

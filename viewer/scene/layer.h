@@ -185,7 +185,8 @@ struct Scene {
     ColorScale scale;
     std::vector<Color> palette;
     Color background_top, background_bottom;
-    Color edge;  ///< colour of triangle edges; its alpha is their strength
+    Color edge;           ///< colour of triangle edges; its alpha is their strength
+    float occlusion = 0;  ///< how much darker opaque bodies are in hollows; 0 to 1
 
     /// Returns the first layer of a kind, of `owner` if one is given, or nullptr.
     const Layer* find(LayerKind kind, std::optional<NodeId> owner = {}) const {

@@ -20,6 +20,9 @@ namespace kerf::view {
 
 namespace {
 
+// Between cells everything is a hollow, and values are to be found in the legend, too.
+constexpr float occlusion_of_bodies = 1, occlusion_of_cells = 0.4;
+
 constexpr std::size_t most_cached_bytes = std::size_t{1} << 30;
 
 std::size_t bytes_in(const Geometry& geometry) {
@@ -72,6 +75,11 @@ void add_layers(const SceneContext& context, LayerSink& sink) {
     else if (stage == (document.remeshed ? Stage::before_remeshing : Stage::input))
         add_defects(context, sink, document.checked.get());
     add_selection(context, sink);
+    // The picture has one scale from step to step.
+    if (context.state.look.context && !surface)
+        sink.extend(document.box);
+    else if (context.state.look.context)
+        sink.extend(surface->vertices);
 }
 
 BuiltScene build_scene(SceneContext& context) {
@@ -98,9 +106,12 @@ BuiltScene build_scene(SceneContext& context) {
     SolutionLayers lines(context, sink);
     if (built.legend.values) lines.add_isolines(*built.legend.values);
     scale.mark_extremes();
+    const bool is_busy = std::any_of(scene.layers.begin(), scene.layers.end(), [](const Layer& layer) {
+        return layer.fill != Fill::plain || layer.kind == LayerKind::cells;
+    });
+    scene.occlusion = is_busy ? occlusion_of_cells : occlusion_of_bodies;
     lines.add_vectors();
     LegendMaker(context, scene, sink.drawn_parts(), built.legend).run();
-    if (state.look.context) sink.extend(document.box);
     built.pending &= context.session.pending() || context.session.busy();  // a value whose fetch failed does not come
     return built;
 }

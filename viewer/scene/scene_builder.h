@@ -18,9 +18,10 @@ struct BuiltScene {
     Scene scene;
     Legend legend;
     Frame frame;
-    Eigen::AlignedBox3d box;   ///< box of all that is drawn, moved parts included; coordinates of the file
-    Eigen::AlignedBox3d left;  ///< box of the rest that the clip plane leaves of the body; empty without one
-    bool pending = false;      ///< something is still being fetched: build again when it has arrived
+    Eigen::AlignedBox3d box;    ///< box of all that is drawn, moved parts included; coordinates of the file
+    std::vector<Vec3> outline;  ///< outermost points of all that is drawn, by which it is fitted into the picture
+    Eigen::AlignedBox3d left;   ///< box of the rest that the clip plane leaves of the body; empty without one
+    bool pending = false;       ///< something is still being fetched: build again when it has arrived
 };
 
 /// Remembers geometry by a key that tells how it was made and the value that it was made from.

@@ -70,13 +70,13 @@ void act_by_repairs(UiContext& context, Dialogs& /*dialogs*/) {
 template <Direction From>
 void look_at_it(UiContext& context, Dialogs& /*dialogs*/) {
     Camera camera = context.camera;
-    look_from(camera, From);
+    look_from(camera, From, context.facts.up);
     context.actions.camera.take_camera(camera);
 }
 
 void look_from_behind(UiContext& context, Dialogs& /*dialogs*/) {
     Camera camera = context.camera;
-    camera.turn = (Eigen::AngleAxisd(M_PI, Vec3::UnitZ()) * camera.turn).normalized();
+    camera.turn = (Eigen::AngleAxisd(M_PI, Vec3::Unit(context.facts.up)) * camera.turn).normalized();
     context.actions.camera.take_camera(camera);
 }
 

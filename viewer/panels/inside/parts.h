@@ -232,6 +232,8 @@ void draw_legend(UiContext& context, const Rectangle& scene);
 /// Draws a caption at the upper left of the scene: its content in words for a reader who does not know Kerf.
 void draw_caption(UiContext& context, const Rectangle& scene);
 void draw_gizmo(UiContext& context, const Rectangle& scene);
+/// Draws a bar of a round length at the lower left of a scene that has room for it.
+void draw_scale_bar(UiContext& context, const Rectangle& scene);
 /// Draws handles between panels and scene: a drag resizes the panel, a double click gives it back the size that the
 /// window suggests.
 void draw_splitters(UiContext& context, const Layout& layout);

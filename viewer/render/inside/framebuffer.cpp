@@ -26,15 +26,28 @@ GlObject attach(const Gl& gl, GLenum attachment, GLenum format, int width, int h
     return buffer;
 }
 
+GlObject attach_depth_texture(const Gl& gl, int width, int height) {
+    GlObject texture = GlObject::texture(gl);
+    gl.BindTexture(GL_TEXTURE_2D, texture.id());
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH24_STENCIL8, width, height, 0, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8,
+                  nullptr);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, texture.id(), 0);
+    return texture;
+}
+
 }  // namespace
 
-Framebuffer::Framebuffer(const Gl& gl, GLenum color_format, int width, int height)
+Framebuffer::Framebuffer(const Gl& gl, GLenum color_format, int width, int height, bool reads_depth)
     : gl_(&gl), width_(width), height_(height) {
     check_size(gl, width, height);
     object_ = GlObject::framebuffer(gl);
     bind();
     color_ = attach(gl, GL_COLOR_ATTACHMENT0, color_format, width, height);
-    depth_ = attach(gl, GL_DEPTH_STENCIL_ATTACHMENT, GL_DEPTH24_STENCIL8, width, height);
+    depth_ = reads_depth ? attach_depth_texture(gl, width, height)
+                         : attach(gl, GL_DEPTH_STENCIL_ATTACHMENT, GL_DEPTH24_STENCIL8, width, height);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw Error(ErrorCode::internal,
                     fmt::format("The OpenGL driver cannot make a picture of {} x {} pixels.", width, height));

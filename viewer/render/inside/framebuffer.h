@@ -9,11 +9,13 @@ namespace kerf::view {
 class Framebuffer {
  public:
     /// Makes a framebuffer with 24 bits of depth and 8 of stencil, and binds it. `color_format`: GL_RGBA8, GL_RGBA32UI,
-    /// ... Throws Error(usage) beyond the largest size of the driver, Error(internal) if the driver cannot make one.
-    Framebuffer(const Gl& gl, GLenum color_format, int width, int height);
+    /// ... `reads_depth`: depth() is a texture. Throws Error(usage) beyond the largest size of the driver,
+    /// Error(internal) if the driver cannot make one.
+    Framebuffer(const Gl& gl, GLenum color_format, int width, int height, bool reads_depth = false);
 
     void bind() const { gl_->BindFramebuffer(GL_FRAMEBUFFER, object_.id()); }
     GLuint id() const { return object_.id(); }
+    GLuint depth() const { return depth_.id(); }
     int width() const { return width_; }
     int height() const { return height_; }
 

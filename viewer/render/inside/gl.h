@@ -11,6 +11,7 @@ namespace kerf::view {
 
 // clang-format off
 #define KERF_GL_FUNCTIONS(X) \
+    X(PFNGLACTIVETEXTUREPROC, ActiveTexture) \
     X(PFNGLATTACHSHADERPROC, AttachShader) \
     X(PFNGLBINDBUFFERPROC, BindBuffer) \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer) \
@@ -45,6 +46,7 @@ namespace kerf::view {
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
     X(PFNGLFINISHPROC, Finish) \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
+    X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D) \
     X(PFNGLGENBUFFERSPROC, GenBuffers) \
     X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers) \
     X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers) \

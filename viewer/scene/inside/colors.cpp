@@ -89,7 +89,7 @@ SceneColors scene_colors(Theme theme) {
     c.background_top = color_from_hex(light ? "#FFFFFF" : "#2B313A");
     c.background_bottom = color_from_hex(light ? "#DDE3EA" : "#15181D");
     c.edge = color_from_hex(light ? "#1C2733" : "#0B0D10", light ? 0.55f : 0.7f);
-    c.surface = color_from_hex(light ? "#B9C4CF" : "#8D99A6");
+    c.surface = color_from_hex(light ? "#C6CED6" : "#97A2AE");
     c.interface = color_from_hex("#E6B65C");
     c.context = color_from_hex(light ? "#8FA3B8" : "#6F8296");
     c.plane = color_from_hex("#3F8FD2");

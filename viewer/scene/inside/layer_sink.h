@@ -25,10 +25,10 @@ class LayerSink {
     /// Returns an offset in coordinates of the file as one in draw coordinates.
     std::array<float, 3> move_of(const Vec3& offset) const;
 
-    /// Extends the box of the scene by a body of which nothing is cut away.
-    void extend(Eigen::AlignedBox3d box, const Vec3& offset = Vec3::Zero()) {
-        if (!box.isEmpty()) built_.box.extend(box.translate(offset));
-    }
+    /// Extends box and outline of the scene by a body of which nothing is cut away.
+    void extend(Eigen::AlignedBox3d box, const Vec3& offset = Vec3::Zero());
+    /// Extends them by a body with these vertices, whose outline is tighter than its box.
+    void extend(const std::vector<Vec3>& vertices, const Vec3& offset = Vec3::Zero());
     /// Extends the boxes of the scene by the facets of a body that the clip plane may cut.
     void extend_by_facets(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const Vec3& offset);
 

@@ -97,7 +97,7 @@ void PartLayers::add_facets(NodeId part, const std::shared_ptr<const NodeSurface
     if (shows_error) choice.value = solved.found->error_at_facet;
     choice.places = solved.moved;
     choice.edges = solved.drawn(surface->edges);
-    sink_.extend(box_of(solved.moved_edges.empty() ? surface->edges.places : solved.moved_edges), offset);
+    sink_.extend(solved.moved_edges.empty() ? surface->edges.places : solved.moved_edges, offset);
     if (!chosen.all) choice.wanted = [&](std::int32_t f) { return chosen.wants(*surface, f); };
     const std::shared_ptr<const void> source = solved.found    ? std::shared_ptr<const void>(solved.found)
                                                : values        ? std::shared_ptr<const void>(values)
@@ -121,7 +121,7 @@ void PartLayers::add_facets(NodeId part, const std::shared_ptr<const NodeSurface
 
 // Shows where in the body the shown cells lie: sharp edges, and the far side as glass, which covers no cell.
 void PartLayers::add_outline(NodeId owner, const std::shared_ptr<const NodeSurface>& surface, const Vec3& offset) {
-    sink_.extend(box_of(surface->vertices), offset);
+    sink_.extend(surface->vertices, offset);
     const auto lines = context_.feature_lines(surface, owner);
     if (!lines->segments.empty()) {
         Layer& layer = sink_.add(LayerKind::outline, lines, context_.colors.feature, owner, offset);

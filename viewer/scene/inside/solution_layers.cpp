@@ -107,7 +107,7 @@ void SolutionLayers::add_vectors() {
     });
     if (geometry->segments.empty()) return;
     const Vec3 reach = Vec3::Constant(longest_arrow(context_.document.box.diagonal().norm()));
-    sink_.extend({sink_.box().min() - reach, sink_.box().max() + reach});
+    sink_.extend(Eigen::AlignedBox3d(sink_.box().min() - reach, sink_.box().max() + reach));
     sink_.add_strokes(LayerKind::vectors, geometry, context_.colors.feature, thin_pixels);
 }
 

@@ -203,7 +203,7 @@ void SurfaceLayers::add_context() {
         Layer& layer = sink_.add(LayerKind::context, geometry, context_.colors.context, other);
         make_glass(layer);
         layer.smooth = true;
-        sink_.extend(context_.document.box);
+        sink_.extend(surface->vertices);
     }
 }
 
