@@ -40,13 +40,14 @@ def run_measured(command, log, limit):
 
 def run_gmsh(script, log, limit):
     """Has gmsh run a script. What it did, and the seconds of the processor that its log has for cells: to make them,
-    and to make them better afterwards (0 where that is part of the first)."""
+    and to make them better afterwards (0 where that is part of the first). Raises RuntimeError with what it says of its
+    end, or else with its exit code, that of a signal negative."""
     done = run_measured(["gmsh", "-nopopup", "-parse_and_exit", script], log, limit)
     error = re.search(r"^Error *: (.*)", done.log, re.MULTILINE)
     seconds = [re.search(rf"Done {step} \(Wall [\d.e+-]+s, CPU ([\d.e+-]+)s\)", done.log)
                for step in ("meshing 3D", "optimizing mesh")]
     if error or not seconds[0]:
-        raise RuntimeError(error[1] if error else "gmsh has failed")
+        raise RuntimeError(error[1] if error else f"gmsh has failed ({done.exit_code})")
     made, improved = (float(found[1]) if found else 0.0 for found in seconds)
     return done, made, improved
 
