@@ -135,7 +135,7 @@ TEST_F(Outputs, FilesOfAnotherKindAreNotReplaced) {
                                    {"c.svg", {"quality", run, "--picture"}},
                                    {"d.vtu", {"check", input_, "--offenders"}},
                                    {"e.stl", {"remesh", input_, "-q", "-o"}}};
-    for (const char* ending : {"msh", "mesh", "inp", "su2", "vtk", "unv", "feb", "med", "h5", "cgns"})
+    for (const char* ending : {"msh", "mesh", "inp", "su2", "vtk", "unv", "feb", "med", "cgns"})
         outputs.push_back({std::string("merged.") + ending, {"merge", run, "-o"}});
     for (const char* option : {"--report", "--trace", "--events"}) {
         outputs.push_back({option + 2, meshing});
