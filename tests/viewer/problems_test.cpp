@@ -182,5 +182,22 @@ TEST(ProblemsOfAFile, AreMendedByOpeningItAgain) {
                  [&] { return driver.document().soup && driver.document().soup != before; });
 }
 
+// Hundreds of warnings would hide the one error.
+TEST(Problems, WarningsAreNotDrawnBesideErrors) {
+    const TemporaryFolder folder;
+    Soup bar = box({0, 0, 0}, {1000, 1, 1}, {1, 1, 1});
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    write_off(folder.file("bar.off"), bar.vertices, bar.facets);
+    driver.open(folder.file("bar.off"));
+    EXPECT_GT(driver.drawn(LayerKind::warning_places).points, 0) << "needles";
+    bar.facets.pop_back();
+    write_off(folder.file("open.off"), bar.vertices, bar.facets);
+    driver.open(folder.file("open.off"));
+    EXPECT_GT(driver.drawn(LayerKind::defect_places).points, 0);
+    EXPECT_EQ(driver.drawn(LayerKind::warning_places).points, 0);
+}
+
 }  // namespace
 }  // namespace kerf::test

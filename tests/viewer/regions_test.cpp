@@ -81,6 +81,22 @@ TEST_F(RegionsShown, TheRunIsOpenedWithItsTrace) {
         EXPECT_EQ(row.region.is_valid(), row.id > root_node) << "node " << row.id.value();
 }
 
+TEST_F(RegionsShown, ARunOpensInTheirColours) {
+    driver_->open(run_folder());
+    EXPECT_EQ(state().step.stage, Stage::tetrahedra);
+    EXPECT_EQ(state().coloring.by, ColorBy::region);
+}
+
+TEST_F(RegionsShown, SayWhyTheyAreDisabled) {
+    state().step = {Stage::input, -1};
+    driver_->settle();
+    EXPECT_FALSE(driver_->offers("show region bone"));
+    driver_->click("Show the parts");
+    EXPECT_EQ(state().step.stage, Stage::tetrahedra);
+    driver_->settle();
+    EXPECT_TRUE(driver_->offers("show region bone"));
+}
+
 TEST_F(RegionsShown, AreHiddenIsolatedAndShownByTheirButtons) {
     using Names = std::set<std::string>;
     state().coloring.by = ColorBy::region;

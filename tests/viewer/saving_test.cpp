@@ -124,6 +124,31 @@ TEST(Saving, AsksBeforeAMeshIsLost) {
     EXPECT_EQ(run_kerf({"verify", folder.file("box_run"), "-q"}).exit_code, 0);
 }
 
+// Two runs of other times are compared like two of this window, under one camera.
+TEST(Saving, TwoRunsAreOpenedToBeCompared) {
+    const TemporaryFolder folder;
+    const auto run = [&](const char* name, const char* parts) {
+        EXPECT_EQ(run_kerf({"mesh", asset_path("cube"), "-o", folder.file(name), "-n", parts, "-q"}).exit_code, 0);
+        return folder.file(name);
+    };
+    const std::string a = run("a", "2"), b = run("b", "3");
+    Driver driver;
+    driver.open_files({a, b});
+    ASSERT_TRUE(driver.document().error.empty()) << driver.document().error;
+    EXPECT_EQ(driver.document().path, b);
+    ASSERT_TRUE(driver.app().session().other_document());
+    EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 3u);
+    EXPECT_GT(driver.drawn(LayerKind::part).triangles, 0);
+    EXPECT_TRUE(driver.offers("B"));
+    const Vec3 target = driver.app().camera().target;
+    driver.key(key_of('B'));
+    driver.settle();
+    EXPECT_EQ(driver.document().path, a);
+    EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 2u);
+    EXPECT_GT(driver.drawn(LayerKind::part).triangles, 0);
+    EXPECT_EQ(driver.app().camera().target, target);
+}
+
 // A patch in the way is hidden under the mouse, by a key or by its menu, and seen again.
 TEST(Saving, HidesThePatchUnderTheMouse) {
     const TemporaryFolder folder;

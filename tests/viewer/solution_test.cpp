@@ -42,7 +42,8 @@ TEST_F(SolvedCube, IsSeenByItsStressUntilSomebodyChooses) {
     };
     EXPECT_EQ(picture("out", {}), picture("out", {"--color", "von-mises"}));
     EXPECT_EQ(picture("out", {"--color", "part"}), picture("out/mesh", {"--color", "part"}));
-    EXPECT_EQ(picture("out", {"--stage", "input"}), picture("out/mesh", {}));
+    EXPECT_EQ(picture("out", {"--stage", "input"}), picture("out/mesh", {"--stage", "input"}));
+    EXPECT_EQ(picture("out/mesh", {}), picture("out/mesh", {"--stage", "tetrahedra"})) << "a finished run";
     for (const bool is_solution : {false, true}) {
         driver_->open(folder_->file(is_solution ? "out" : "out/mesh"));
         driver_->settle();

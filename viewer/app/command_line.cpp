@@ -75,7 +75,9 @@ void read_run_config(const std::string& path, RunRequest& run) {
 }
 
 void add_inputs(CLI::App& app, SceneOptions& options, const std::string& what) {
-    app.add_option("input", options.inputs, what + " Several surfaces are opened together.")->type_name("INPUT");
+    app.add_option("input", options.inputs,
+                   what + " Several surfaces are opened together; of two runs B shows one or the other.")
+        ->type_name("INPUT");
 }
 
 void add_screenshot_options(CLI::App& app, ViewCommand& command, SceneOptions& options) {

@@ -47,6 +47,7 @@ void Opening::show(const ViewState& state, const ChosenView& chosen) {
 
 void Opening::await_document() {
     opened_.clear();
+    is_running_ = false;  // a run that is left has no end here
     view_.session_changed = true;
     view_.wake();
 }
@@ -140,6 +141,7 @@ void Opening::choose_view() {
     const Document& document = view_.session.document();
     if (is_view_complete_ || document.kind == Document::Kind::none) return;
     is_view_complete_ = true;
+    if (view_.session.other_document()) view_.state.panels.parameters = true;  // which compares the two
     if (document.solution && !view_.chosen.color && !view_.chosen.stage) {
         const auto& cases = document.solution->cases;
         view_.state.coloring.by =

@@ -30,7 +30,7 @@ struct Session::Parts {
     OwnRuns own_runs{kerf, background, pair.now, repairs, follower};
     Writer writer{kerf};
     RunPair runs{background, pair, fetched, follower};
-    DocumentLoader loader{background, pair.now, fetched, repairs, follower};
+    DocumentLoader loader{background, pair, fetched, repairs, follower};
 };
 
 Session::Session(std::string kerf_program) : parts_(std::make_unique<Parts>(std::move(kerf_program))) {}

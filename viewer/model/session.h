@@ -27,9 +27,10 @@ class Session {
 
     /// Opens a surface file, a trace, a run folder, a solution on one (find_solution()), the folder of a run that is
     /// under way (DIR or DIR.kerf-partial), or its events (a file of --events). The files of
-    /// InputOptions::more_files are opened with it, and all must be surfaces. Closes the document before, with all
-    /// work for it. Never throws: errors are in document().error. `options` are those of the next run of a surface, by
-    /// which it is read and checked; a run and a trace bring theirs.
+    /// InputOptions::more_files are opened with it, and all must be surfaces, or two finished runs: the second one is
+    /// shown, the first one is other_document(). Closes the document before, with all work for it. Never throws: errors
+    /// are in document().error. `options` are those of the next run of a surface, by which it is read and checked; a
+    /// run and a trace bring theirs.
     void open(const std::string& path, const RunRequest& options = {});
     void reload();
     void close();

@@ -11,6 +11,7 @@
 
 #include "base/core/ids.h"
 #include "files/io/surface_formats.h"
+#include "viewer/model/saving.h"
 #include "viewer/panels/imgui_input.h"
 #include "viewer/panels/inside/icons.h"
 #include "viewer/panels/inside/parts.h"
@@ -211,14 +212,18 @@ class Dialog {
     }
 
     void open(const std::string& path) {
+        const bool compares = browser_.compares;
         close();
-        context_.actions.files.open_files({path});
+        if (compares)
+            context_.actions.files.open_files({folder_of(context_.session.document()), path});
+        else
+            context_.actions.files.open_files({path});
     }
 
     void close() {
         context_.settings.browser_folder = browser_.folder;
         ImGui::CloseCurrentPopup();
-        browser_.open = false;
+        browser_.open = browser_.compares = false;
     }
 
     UiContext& context_;
@@ -273,7 +278,7 @@ void draw_browser(UiContext& context, FileBrowser& browser) {
                                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
     ImGui::PopStyleVar();
     if (!shown) {
-        browser.open = false;
+        browser.open = browser.compares = false;
         return;
     }
     // The veil would fade in slowly, and stop on the way where frames are drawn on demand.

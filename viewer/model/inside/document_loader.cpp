@@ -7,6 +7,7 @@
 #include "viewer/model/inside/document_loader.h"
 
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,12 +43,20 @@ void DocumentLoader::open(const std::string& path, const RunRequest& options) {
 
 Loader::Completion DocumentLoader::read(const std::string& path, const InputOptions& input) {
     const OpenedPath what = tell_kind(path);
+    if (what.kind == OpenedPath::Kind::run && input.more_files.size() == 1) {
+        const std::string& other = input.more_files.front();
+        const OpenedPath beside = tell_kind(other);
+        if (beside.kind == OpenedPath::Kind::run)
+            return [this, other, before = read_run(what.folder), now = read_run(beside.folder)]() mutable {
+                show_runs(std::move(before), std::move(now), other);
+            };
+    }
     if (!input.more_files.empty())
         for (const std::string& file : files_of(path, input))
             if (tell_kind(file).kind != OpenedPath::Kind::surface)
                 throw Error(ErrorCode::usage,
                             fmt::format("{} is no surface: open it alone. Several files are opened together where each "
-                                        "is the surface of a body.",
+                                        "is the surface of a body, and two finished runs to be compared.",
                                         file));
     switch (what.kind) {
         case OpenedPath::Kind::surface: {
@@ -113,6 +122,19 @@ void DocumentLoader::show_run(OpenedRun run) {
     background_.note_failure(run.report.damage);
     complete_from_report(std::move(run), shown_);
     find_trace_of_run(trace);
+}
+
+// The first run is the one before, without its trace, which would come too late. The second one is shown.
+void DocumentLoader::show_runs(OpenedRun before, OpenedRun now, const std::string& path) {
+    Document& document = shown_.document;
+    document.kind = Document::Kind::run;
+    document.title = title_of(document.path, {});
+    background_.note_failure(before.report.damage);
+    complete_from_report(std::move(before), shown_);
+    pair_.set_aside(std::exchange(document, {}));
+    document.path = path;
+    document.title = title_of(path, {});
+    show_run(std::move(now));
 }
 
 void DocumentLoader::show_partial_run(const OpenedPartialRun& run) {

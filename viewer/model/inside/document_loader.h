@@ -13,8 +13,13 @@ namespace kerf::view {
 
 class DocumentLoader {
  public:
-    DocumentLoader(Background& background, Shown& shown, Fetched& fetched, Repairs& repairs, RunFollower& follower)
-        : background_(background), shown_(shown), fetched_(fetched), repairs_(repairs), follower_(follower) {}
+    DocumentLoader(Background& background, ShownPair& pair, Fetched& fetched, Repairs& repairs, RunFollower& follower)
+        : background_(background),
+          pair_(pair),
+          shown_(pair.now),
+          fetched_(fetched),
+          repairs_(repairs),
+          follower_(follower) {}
 
     /// Opens a path as Session::open() does, where nothing is open.
     void open(const std::string& path, const RunRequest& options);
@@ -25,10 +30,12 @@ class DocumentLoader {
     void show_files(const std::shared_ptr<const InputFiles>& files, const std::shared_ptr<const NodeSurface>& surface);
     void show_trace(std::shared_ptr<const Trace> trace, const RunRequest& options);
     void show_run(OpenedRun run);
+    void show_runs(OpenedRun before, OpenedRun now, const std::string& path);
     void show_partial_run(const OpenedPartialRun& run);
     void find_trace_of_run(const std::string& path);
 
     Background& background_;
+    ShownPair& pair_;
     Shown& shown_;
     Fetched& fetched_;
     Repairs& repairs_;

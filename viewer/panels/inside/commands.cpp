@@ -148,6 +148,10 @@ void leave(UiContext& context, Dialogs& dialogs) {
 
 void choose_file(UiContext& /*context*/, Dialogs& dialogs) { dialogs.browser.requested = true; }
 
+void choose_other_run(UiContext& /*context*/, Dialogs& dialogs) {
+    dialogs.browser.requested = dialogs.browser.compares = true;
+}
+
 template <SaveDialog::Kind Kind>
 void ask_where_to_save(UiContext& /*context*/, Dialogs& dialogs) {
     dialogs.save.request(Kind);
@@ -213,6 +217,12 @@ constexpr Command save_as(const char* name, const char* keys, bool (*is_enabled)
 
 const std::vector<Command> all_commands = {
     {.name = "Open...", .keys = "Ctrl+O", .heading = files, .menu = "File", .run = choose_file},
+    {.name = "Compare with...",
+     .keys = "",
+     .heading = files,
+     .menu = "File",
+     .run = choose_other_run,
+     .is_enabled = can_be_exported},
     {.name = "Reload",
      .keys = "Ctrl+R",
      .heading = files,

@@ -28,6 +28,7 @@ struct FileBrowser {
         std::uintmax_t bytes = 0;
     };
     bool requested = false;  ///< it opens in the next frame
+    bool compares = false;   ///< the run that is chosen is opened beside the open one
     bool open = false;
     int frames_to_focus = 0;  ///< frames until the path has the keyboard
     bool all_files = false;
