@@ -63,9 +63,10 @@ float brightness(vec3 n, vec3 to_eye) { return 0.64 + 0.36 * max(dot(n, normaliz
 #else
 // A lamp at the upper left, a weak one against it, one at the eye, and a sky that is brighter above.
 float brightness(vec3 n, vec3 to_eye) {
-    float light = 0.20 + 0.07 * dot(n, up) + 0.62 * lamp(dot(n, key_light)) + 0.10 * lamp(dot(n, fill_light)) +
-                  0.20 * max(dot(n, normalize(to_eye)), 0);
-    return min(light, 1.03);
+    float light = 0.32 + 0.07 * dot(n, up) + 0.62 * lamp(dot(n, key_light)) + 0.10 * lamp(dot(n, fill_light)) +
+                  0.22 * max(dot(n, normalize(to_eye)), 0);
+    float above = max(light - 0.85, 0);  // what is bright saturates softly
+    return min(light - above * above, 1.03);
 }
 #endif
 

@@ -168,6 +168,7 @@ TEST(Legend, BodyStandsBesideIt) {
         driver.show_panels(false);
         for (const char* asset : {"pipe_with_holes", "knee_tibial", "cube"}) {
             driver.open(asset_path(asset));
+            driver.state().look.scale_bar = false;
             const Image picture = driver.picture();
             const Rectangle body = body_area(driver.state(), driver.app().scene_area());
             const auto pixel = [&](int x, int y) {
@@ -176,7 +177,7 @@ TEST(Legend, BodyStandsBesideIt) {
             const bool is_beside = body.width < static_cast<float>(width);
             ASSERT_TRUE(is_beside || body.height < static_cast<float>(height));
             const int from_x = is_beside ? static_cast<int>(body.width) : 0,
-                      from_y = is_beside ? height / 3 : static_cast<int>(body.height);
+                      from_y = is_beside ? height / 3 : static_cast<int>(body.y + body.height);
             const int to_x = is_beside ? width : width / 3, to_y = is_beside ? height / 2 : height;
             std::int64_t drawn = 0;
             for (int y = from_y; y < to_y; ++y)

@@ -1,6 +1,6 @@
 // The axes of the file as the camera has turned them; a click on an end looks from there. Ends are axes of the file,
-// sides (Direction) depend on what is up: the side of an end is the one whose camera looks along it. Ends are drawn from
-// back to front, and clicked from front to back.
+// sides (Direction) depend on what is up: the side of an end is the one whose camera looks along it. Ends are drawn
+// from back to front, and clicked from front to back.
 #include <algorithm>
 
 #include "viewer/panels/inside/parts.h"

@@ -28,7 +28,8 @@ void draw_scale_bar(UiContext& context, const Rectangle& scene) {
     const auto pixels = static_cast<float>(length * unit);
     const std::string text = fmt::format("{:.6g} {}", length, length == 1 ? "unit" : "units");
     const float line = ImGui::GetTextLineHeight(), width = std::max(pixels, width_of(text)), end = 0.3f * e;
-    const ImVec2 from = {scene.x + 1.2f * e, scene.y + scene.height - 1.1f * e - line - 2 * end};
+    const Rectangle body = body_area(context.state, scene);  // a legend below it may be as wide as the scene
+    const ImVec2 from = {scene.x + 1.2f * e, body.y + body.height - 1.1f * e - line - 2 * end};
     const Palette& colors = palette(context.state.theme);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     draw_backdrop(list, context.state.theme, from, {from.x + width, from.y + line + 2 * end});
