@@ -30,6 +30,7 @@ view::AppOptions app_options(const Driver::Options& options) {
     app.run.cut.contour = options.contour;
     app.run.remeshing = options.remeshing;
     app.run.workers.count = 2;
+    app.frame_seconds = options.frame_seconds;
     return app;
 }
 

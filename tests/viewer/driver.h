@@ -25,6 +25,7 @@ class Driver {
         std::int32_t parts = 4;
         ContourMethod contour = ContourMethod::min_cut;
         Remeshing remeshing = Remeshing::where_needed;
+        double frame_seconds = view::AppOptions().frame_seconds;
         std::string config_folder, example_folder, screenshot_folder = ".";
     };
     explicit Driver(const Options& options);

@@ -18,6 +18,7 @@
 #include "viewer/golden_image.h"
 #include "viewer/scene/inside/cell_shapes.h"
 #include "viewer/scene/selection.h"
+#include "viewer/scene/stand_in.h"
 
 namespace kerf::test {
 namespace {
@@ -442,6 +443,48 @@ TEST(Hollows, AreDarkerInTheSameHue) {
     }
     EXPECT_GT(darker, 60) << "the holes";
     EXPECT_LT(darker, 320 * 240 / 4);
+}
+
+TEST(StandIn, HasTheShapeOfTheSceneWithFewerTriangles) {
+    Scene scene;
+    for (const int n : {800, 20}) {
+        auto geometry = std::make_shared<Geometry>();
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n / 4; ++j)
+                for (const auto& [s, t] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
+                    const double u = 2 * M_PI * (i + s) / n, v = 8 * M_PI * (j + t) / n, r = 0.6 + 0.2 * std::cos(v);
+                    const Vec3 p(r * std::cos(u), r * std::sin(u), 0.2 * std::sin(v));
+                    Corner corner;
+                    for (int k = 0; k < 3; ++k) corner.position[k] = static_cast<float>(p[k]);
+                    geometry->corners.push_back(corner);
+                }
+        Layer& layer = scene.layers.emplace_back();
+        const auto half = static_cast<std::uint32_t>(geometry->triangle_count() / 2);
+        for (const std::uint32_t first : {0u, half}) {
+            Range& range = layer.ranges.emplace_back();
+            range.first = first;
+            range.count = half;
+        }
+        layer.geometry = std::move(geometry);
+    }
+    const Scene coarse = stand_in_for(scene), again = stand_in_for(scene);
+    EXPECT_EQ(coarse.layers[1].geometry, scene.layers[1].geometry) << "a small layer stays";
+    const Geometry &before = *scene.layers[0].geometry, &after = *coarse.layers[0].geometry;
+    EXPECT_LT(after.triangle_count(), before.triangle_count() * 2 / 3);
+    EXPECT_GT(after.triangle_count(), before.triangle_count() / 10);
+    std::array<double, 2> reach = {};
+    for (const auto& [geometry, most] : {std::pair(&before, &reach[0]), {&after, &reach[1]}})
+        for (const Corner& c : geometry->corners)
+            *most = std::max<double>(*most, std::hypot(c.position[0], c.position[1]));
+    EXPECT_NEAR(reach[1], reach[0], 0.01);
+    const std::vector<Range>& ranges = coarse.layers[0].ranges;
+    EXPECT_GT(ranges[0].count, after.triangle_count() / 3);
+    EXPECT_EQ(ranges[1].first, ranges[0].count);
+    EXPECT_EQ(ranges[0].count + ranges[1].count, after.triangle_count());
+    const Geometry& twin = *again.layers[0].geometry;
+    ASSERT_EQ(twin.corners.size(), after.corners.size());
+    for (std::size_t i = 0; i < twin.corners.size(); ++i)
+        ASSERT_EQ(twin.corners[i].position, after.corners[i].position);
 }
 
 // The camera looks along the normal, and what is left fits: half of a long body is seen larger than the whole.

@@ -331,6 +331,36 @@ TEST(SceneUi, ColoursAreThoseOfTheLegend) {
     }
 }
 
+// What takes too long is drawn coarser while the mouse moves it, and whole once it rests or is kept as a picture.
+TEST(SceneUi, TurningALargeBodyDrawsAStandIn) {
+    Driver::Options options = cut_in_two();
+    options.auto_run = false;
+    for (const double wanted : {0.0, 1e9}) {
+        options.frame_seconds = wanted;
+        Driver driver(options);
+        driver.open(asset_path("bearing_cap_52k"));
+        const auto painted = [&] {
+            driver.app().paint();
+            std::int64_t triangles = 0;
+            for (const DrawnLayer& layer : driver.app().renderer().drawn()) triangles += layer.triangles;
+            return triangles;
+        };
+        const Rectangle scene = driver.app().scene_area();
+        const float x = scene.x + scene.width / 2, y = scene.y + scene.height / 2;
+        const std::int64_t whole = painted();
+        driver.move_to(x, y);
+        driver.press();
+        for (int i = 1; i < 4; ++i) driver.move_to(x + 20.f * static_cast<float>(i), y);
+        if (wanted > 0)
+            EXPECT_EQ(painted(), whole);
+        else
+            EXPECT_LT(painted(), whole);
+        driver.settle();
+        EXPECT_EQ(painted(), whole) << "the mouse rests, still pressed";
+        driver.release();
+    }
+}
+
 // Wherever there is the body without gaps, there is something of it with gaps.
 TEST(SceneUi, NoGapShowsTheBackground) {
     Driver driver(cut_in_two());

@@ -147,18 +147,6 @@ void App::lay_out(bool panels) {
     navigation_.project_scene();
 }
 
-void App::paint() {
-    Renderer& renderer = view_.renderer;
-    renderer.clear(view_.built.scene.background_bottom);
-    if (view_.area.width >= 1 && view_.area.height >= 1) renderer.draw(view_.built.scene, view_.projection);
-    if (const ImDrawData* ui = ImGui::GetDrawData()) renderer.draw_ui(*ui, *ImGui::GetIO().Fonts);
-}
-
-Image App::picture() {
-    paint();
-    return view_.renderer.read();
-}
-
 void App::frame(const FrameSize& size, bool panels) {
     view_.size = size;
     // A window of one pixel is iconified.
@@ -175,6 +163,7 @@ void App::frame(const FrameSize& size, bool panels) {
     }
     lay_out(panels);
     if (panels) navigation_.remember();
+    painting_.follow(panels);
     // Data that were asked for are mostly there at once: better than a picture without them.
     if (view_.built.pending) wait(0.04);
 }
@@ -199,7 +188,7 @@ bool App::wants_frame() {
 
 bool App::settled() const {
     return view_.frames_wanted == 0 && !view_.built.pending && !view_.session_changed && !view_.facts.playing &&
-           !view_.facts.moving && !desk_.wants_picture();
+           !view_.facts.moving && !painting_.is_coarse() && !desk_.wants_picture();
 }
 
 }  // namespace kerf::view

@@ -14,6 +14,7 @@
 #include "viewer/app/labels.h"
 #include "viewer/app/navigation.h"
 #include "viewer/app/opening.h"
+#include "viewer/app/painting.h"
 #include "viewer/app/playing.h"
 #include "viewer/app/scene_input.h"
 
@@ -45,8 +46,8 @@ class App {
     void frame(const FrameSize& size, bool panels);
     /// Paints the layout of the last frame. That is most of a frame's time where the CPU draws, so call it only if the
     /// picture is looked at.
-    void paint();
-    Image picture();  ///< paints and returns the picture
+    void paint() { painting_.paint(); }
+    Image picture() { return painting_.picture(); }  ///< paints and returns the picture
     Renderer& renderer() { return view_.renderer; }
 
     /// Takes a key event of the window, or of a test. The next frame with panels acts on events in the order in which
@@ -83,6 +84,7 @@ class App {
     Navigation navigation_{view_};
     Playing playing_{view_};
     Labels labels_{view_};
+    Painting painting_{view_};
     Desk desk_{view_, unsaved_};
     Ui ui_;
     SceneInput input_{view_, ui_, navigation_};

@@ -30,6 +30,8 @@ struct AppOptions {
     bool auto_run = true, volume = true;
     bool asks_to_save = false;  ///< before a mesh is lost that nobody has saved
     RunRequest run;
+    /// A scene that takes longer to paint has a stand-in while the camera is moved.
+    double frame_seconds = 1. / 30;
 };
 
 /// The parts of the view that somebody has asked for; all others suit the document.

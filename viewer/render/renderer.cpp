@@ -108,6 +108,7 @@ class Renderer::Impl {
     std::vector<NumberPlace> places_of_patches(const Scene& scene, const Projection& projection);
     std::vector<SeenSegment> seen_isolines(const Scene& scene, const Projection& projection);
     const std::vector<DrawnLayer>& drawn() const { return drawn_; }
+    void finish() { gl_.Finish(); }
     Image read();
     void present();
     std::string driver() const;
@@ -291,6 +292,7 @@ std::vector<SeenSegment> Renderer::seen_isolines(const Scene& scene, const Proje
     return impl_->seen_isolines(scene, projection);
 }
 const std::vector<DrawnLayer>& Renderer::drawn() const { return impl_->drawn(); }
+void Renderer::finish() { impl_->finish(); }
 Image Renderer::read() { return impl_->read(); }
 void Renderer::present() { impl_->present(); }
 std::string Renderer::driver() const { return impl_->driver(); }

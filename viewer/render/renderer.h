@@ -80,6 +80,8 @@ class Renderer {
     /// Returns the numbers of primitives of the last draw(), in the order of its layers.
     const std::vector<DrawnLayer>& drawn() const;
 
+    /// Waits until all that was asked for has been drawn.
+    void finish();
     /// Returns the picture.
     Image read();
     /// Copies the picture to the framebuffer of the window, which has the same size.
