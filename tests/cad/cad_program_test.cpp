@@ -64,7 +64,7 @@ TEST_F(CadProgram, WrapTakesWhatIsRefused) {
     const std::string open = folder_.file("open.step"), around = folder_.file("around.off");
     test::write_cad(open, test::open_shell(test::box({0, 0, 0}, {2, 1, 1})));
     for (const std::string& file : {part(), open}) {
-        const ChildResult wrapped = test::run_kerf({"wrap", file, "-o", around, "--gap", "60%"});
+        const ChildResult wrapped = test::run_kerf({"wrap", file, "-o", around, "--gap", "45%"});
         EXPECT_EQ(wrapped.exit_code, 0) << wrapped.log;
         EXPECT_NE(wrapped.log.find("as they are"), std::string::npos) << wrapped.log;
         EXPECT_EQ(test::run_kerf({"check", around}).exit_code, 0);
