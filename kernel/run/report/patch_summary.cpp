@@ -73,11 +73,12 @@ std::vector<std::pair<std::string, std::string>> words_for(
     const std::vector<std::pair<const Format*, std::vector<std::string>>>& spelled) {
     std::vector<std::pair<std::string, std::string>> words;
     for (const auto& [format, names] : spelled) {
-        if (names[patch] == name) continue;
+        const std::string& spelling = names[patch];
+        if (spelling == name) continue;
         const auto same =
-            std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == names[patch]; });
+            std::find_if(words.begin(), words.end(), [&](const auto& word) { return word.first == spelling; });
         if (same == words.end())
-            words.emplace_back(names[patch], format->name);
+            words.emplace_back(spelling, format->name);
         else
             same->second += fmt::format(", {}", format->name);
     }
