@@ -64,14 +64,14 @@ draw_stages() {
     done
 }
 
-# Of the viewer's start page, which shows them without their captions: viewer/panels/welcome.cpp.
+# Of the viewer's start page, which shows the part of the body: viewer/panels/welcome.cpp.
 draw_surfaces() {
     local surface
-    echo '{"edges": false, "legend": false, "scale_bar": false, "size": [400, 300, 0.35]}' >"$work/bare.json"
+    echo '{"edges": false, "scale_bar": false}' >"$work/bare.json"
     mkdir -p "$into/surfaces"
     for surface in assets/*.stl; do
         draw "surfaces/$(basename "$surface" .stl).png" "$surface" --stage input --state "$work/bare.json" \
-            --antialias 3
+            --antialias 2 --resolution 400x300
     done
 }
 

@@ -143,7 +143,9 @@ TEST(Ui, ASession) {
     EXPECT_EQ(read.node, state.node);
     EXPECT_EQ(read.explosion.amount, state.explosion.amount);
     ASSERT_TRUE(read.camera);
-    EXPECT_LT((read.camera->target - driver.app().camera().target).norm(), 1e-12);
+    // The body fits into a picture without panels, which has another shape.
+    EXPECT_LT((read.camera->target - driver.app().camera().target).norm(),
+              0.01 * driver.document().box.diagonal().norm());
 }
 
 // What the histogram is brushed over is what is shown, and a click on a bad cell goes there.

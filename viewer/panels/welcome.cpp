@@ -1,7 +1,7 @@
 // The start page: files opened before, kinds of files that can be opened, and surfaces to try. It is drawn in the place
 // of the scene while there is no body, which includes the time that a file takes to open and the case that it cannot be
 // opened. Opening a file changes the list of recent files, and with it the document, so that lists are copied before
-// buttons are drawn. Pictures of examples show only the middle of a screenshot (seen_from, seen_to).
+// buttons are drawn. Pictures of examples show only a part of a screenshot (seen_from, seen_to).
 #include <algorithm>
 #include <cmath>
 
@@ -34,9 +34,10 @@ std::vector<std::string> what_can_be_opened() {
 // The example whose cut the tour shows.
 constexpr const char* example_of_tour = "Bearing cap 14k";
 
-// The part of an example's picture that is shown, as fractions of its size: caption and gizmo lie above and beside it.
-const ImVec2 seen_from = {0.13f, 0.125f}, seen_to = {0.87f, 0.945f};
-constexpr float picture_shape = 0.83f;  // height over width of that part
+// The part of an example's picture that is shown, as fractions of its size: that which caption and legend leave to the
+// body.
+const ImVec2 seen_from = {0, 0.15f}, seen_to = {0.66f, 1};
+constexpr float picture_shape = 0.966f;  // height over width of that part
 
 void show_centered(const std::string& text, const ImVec4& color) {
     const float room = ImGui::GetContentRegionAvail().x, width = ImGui::CalcTextSize(text.c_str()).x;
