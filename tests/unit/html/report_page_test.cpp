@@ -144,7 +144,8 @@ TEST(PageSurface, ValuesAreMeansOfTheirCellsHoweverCoarse) {
         const double cell_size = surface.step() * std::exp2(surface.joins());
         for (const PagePart& part : surface.parts())
             for (std::size_t cell = 0; cell < part.cells.size(); ++cell)
-                EXPECT_NEAR(part.value(0, cell), surface.low().x() + surface.step() * surface.place_of(part.cells[cell])[0],
+                EXPECT_NEAR(part.value(0, cell),
+                            surface.low().x() + surface.step() * surface.place_of(part.cells[cell])[0],
                             1.01 * cell_size);
         const std::vector<ValueRange> ranges = ranges_of(surface);
         ASSERT_EQ(ranges.size(), 1U);
