@@ -15,8 +15,7 @@ constexpr MouseUse mouse_uses[] = {{"Left button", "turn"},
                                    {"Right or middle", "move; also Shift and the left button"},
                                    {"Wheel", "come closer to what is under the mouse"},
                                    {"Click", "select the facet, cell or vertex"},
-                                   {"Double click", "turn about this point from now on"},
-                                   {"Right click", "hide the patch"}};
+                                   {"Double click", "turn about this point from now on"}};
 
 void draw_row(const char* left, const char* right, const Palette& colors) {
     ImGui::TableNextRow();

@@ -183,11 +183,11 @@ void draw_welcome(UiContext& context, Dialogs& dialogs, const Rectangle& scene) 
     const Palette& colors = palette(context.state.theme);
     const bool is_opening = !document.path.empty() && document.error.empty();
     const float e = em(), width = std::min((context.examples.empty() ? 40 : 84) * e, scene.width - 2 * e);
-    const float head = 7.3f * e, most = scene.height - 2 * e;
+    const float head = 8.7f * e, most = scene.height - 2 * e;
     Tiles tiles;
     if (!context.examples.empty())
         tiles = arranged(count_of(context.examples), {share_of_tiles * width - 2 * e, most - head - 2 * e});
-    const float least = std::max(26 * e, head + tiles.height + e);
+    const float least = std::max(26 * e, head + tiles.height + 2 * e);
     const float height = std::min(is_opening ? 5 * e : least, most);
     begin_place("##welcome",
                 {scene.x + (scene.width - width) / 2, scene.y + (scene.height - height) / 2, width, height},
