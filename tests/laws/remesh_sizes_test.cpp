@@ -153,8 +153,11 @@ TEST(Sizes, AreMeanEdgesOrBounds) {
                 ASSERT_EQ(report.exit_code, 0);
                 EXPECT_NEAR(report.mesh.sizes.mean(), 1, 0.05);
                 const double beyond = report.mesh.sizes.share_from(1 / options.sizes.mean_over_size());
-                if (meaning == SizeMeaning::bound) EXPECT_LT(beyond, 0.002);
-                if (meaning == SizeMeaning::mean) EXPECT_GT(beyond, 0.3);
+                if (meaning == SizeMeaning::bound) {
+                    EXPECT_LT(beyond, 0.002);
+                } else {
+                    EXPECT_GT(beyond, 0.3);
+                }
             }
 }
 
