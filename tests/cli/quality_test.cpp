@@ -180,12 +180,12 @@ TEST_F(Quality, OfARunThatIsBadIsExplained) {
         for (const double z : {0.0, length}) text += fmt::format("v 0 0 {0}\nv 1 0 {0}\nv 1 {1} {0}\n", z, height);
         return text + "f 1 3 2\nf 4 5 6\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 3 1 4\nf 3 4 6\n";
     };
-    struct Case {
+    struct Bad {
         std::string file, cause, words;
     };
     for (const auto& [file, cause, words] :
-         {Case{write("wedge.obj", prism(0.03, 0.2)), "edge", "an edge of 1.7 degrees there. Nothing helps"},
-          Case{write("long.obj", prism(0.8, 150)), "facet", "--surface remesh makes better ones."}}) {
+         {Bad{write("wedge.obj", prism(0.03, 0.2)), "edge", "an edge of 1.7 degrees there. Nothing helps"},
+          Bad{write("long.obj", prism(0.8, 150)), "facet", "--surface remesh makes better ones."}}) {
         const ChildResult run = test::run_kerf({"mesh", file, "-o", path("bad"), "-n", "1", "--surface", "keep"});
         ASSERT_EQ(run.exit_code, 0) << run.log;
         EXPECT_NE(run.log.find("\nsharp       "), std::string::npos) << run.log;
