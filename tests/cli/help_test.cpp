@@ -204,7 +204,7 @@ TEST_F(BashCompletion, OffersCommandsOptionsValuesAndFiles) {
     EXPECT_EQ(offers("me"), (Words{"merge", "mesh"}));
     EXPECT_TRUE(offers("''").contains("screenshot"));
     EXPECT_EQ(offers("mesh part.stl --size-"),
-              (Words{"--size-field", "--size-in", "--size-near", "--size-on", "--size-region"}));
+              (Words{"--size-field", "--size-in", "--size-is", "--size-near", "--size-on", "--size-region"}));
     EXPECT_EQ(offers("mesh part.stl --cut ''"), (Words{"equidistant", "inertia", "volume"}));
     EXPECT_EQ(offers("mesh part.stl --cut = e"), (Words{"equidistant"})) << "bash takes --cut=e for three words";
     EXPECT_EQ(offers("mesh part.stl --cut ="), offers("mesh part.stl --cut ''"));
@@ -278,7 +278,7 @@ TEST(UsageErrors, SayWhatIsMissingOrTooMuch) {
         EXPECT_NE(result.log.find(sentence), std::string::npos) << result.log;
         EXPECT_NE(result.log.find("\nExample: kerf " + arguments.front() + " "), std::string::npos) << result.log;
     };
-    expect({"mesh", cube, "--size"}, "--size needs a value: --size H. Wanted edge length");
+    expect({"mesh", cube, "--size"}, "--size needs a value: --size H. Wanted mean edge length");
     expect({"mesh", cube, "-o", "a", "-o", "b"}, "--output is given more than once. Choose one.");
     expect({"merge", "out", "out", "-o", "a.msh"}, "kerf merge takes no further arguments, but there is out");
     expect({"mesh", cube, "--resume", "out"}, "INPUT and --resume do not go together");

@@ -149,4 +149,4 @@ def test_a_worker_that_crashes_is_an_exception(cube, temporary, signal_of_crash,
 
 def test_memory_has_a_limit(cube, temporary):
     with pytest.raises(kerf.OutOfMemory):
-        kerf.mesh(kerf.Surface(*cube), size=0.02, parts=1, memory="64M", attempts=1)
+        kerf.mesh(kerf.Surface(*cube), size=0.017, parts=1, memory="64M", attempts=1)
