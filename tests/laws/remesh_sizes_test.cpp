@@ -127,8 +127,8 @@ TEST(RemeshedSizes, AreNotExceededOnCurvedBodies) {
         }
 }
 
-// A size is the mean edge of the mesh within 5 %, or a bound that hardly an edge exceeds, whether facets are divided or
-// remeshed.
+// A size is the mean edge of the mesh within 5 %, or 6 where sizes differ, or a bound that less than one edge in a
+// hundred exceeds, whether facets are divided or remeshed.
 TEST(Sizes, AreMeanEdgesOrBounds) {
     const TemporaryFolder folder;
     const Soup soup = box(Vec3::Zero(), Vec3(10, 8, 6), 1);
@@ -151,10 +151,10 @@ TEST(Sizes, AreMeanEdgesOrBounds) {
                 SingleRank rank;
                 const RunReport report = run(options, 2, rank);
                 ASSERT_EQ(report.exit_code, 0);
-                EXPECT_NEAR(report.mesh.sizes.mean(), 1, 0.05);
+                EXPECT_NEAR(report.mesh.sizes.mean(), 1, is_graded ? 0.06 : 0.05);
                 const double beyond = report.mesh.sizes.share_from(1 / options.sizes.mean_over_size());
                 if (meaning == SizeMeaning::bound) {
-                    EXPECT_LT(beyond, 0.002);
+                    EXPECT_LT(beyond, 0.01);
                 } else {
                     EXPECT_GT(beyond, 0.3);
                 }

@@ -205,7 +205,7 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
      "surface.",
      place<&SizeOptions::size>, true, size_range::length},
     {"size-is", "", option_group::sizes, "",
-     "What lengths of all these options are: the mean edge, or a bound, below which all but one edge in a thousand "
+     "What lengths of all these options are: the mean edge, or a bound, below which all but one edge in a hundred "
      "stay. Default mean.",
      [](SizeOptions& o) -> OptionField::Value {
          return choice(o.meaning, {"mean", "bound"});
