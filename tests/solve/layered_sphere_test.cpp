@@ -77,7 +77,7 @@ Input sphere_input(int subdivisions) {
 // A folder with the mesh, and the solution in out/.
 void solve_sphere(const test::TemporaryFolder& folder, int subdivisions) {
     RunRequest options;
-    options.sizes.size = 1.6 / (1 << (subdivisions - 1));
+    options.sizes.size = 1.4 / (1 << (subdivisions - 1));
     ASSERT_EQ(test::run_parts(sphere_input(subdivisions), folder.file("mesh"), 4, options).exit_code, 0);
     std::ofstream file(folder.file("case.toml"));
     for (const Material& material : layer_materials)

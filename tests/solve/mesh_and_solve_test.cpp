@@ -136,7 +136,7 @@ TEST_F(MeshAndSolve, RefusesWhatCannotBe) {
 
 // Each step is told before the next mesh is begun.
 TEST_F(MeshAndSolve, StepsAreToldAsTheyCome) {
-    std::vector<std::string> command = bracket({"--adapt", "1"});
+    std::vector<std::string> command = bracket({"--adapt", "1", "--size", "4"});
     std::erase(command, "-q");
     const ChildResult result = test::run_kerf(command);
     ASSERT_EQ(result.exit_code, 0) << result.log;
