@@ -28,7 +28,7 @@ inline constexpr NumberRange cells_across = {"0.1 to 10000, or 0 for none", 0.1,
 /// The size of facets and cells where no size is given.
 enum class Fineness { coarse, medium, fine };
 
-/// The meaning of lengths in options: the mean edge, or a bound of edges, which all but one in a thousand obey.
+/// The meaning of lengths in options: the mean edge, or a bound of edges, which all but one in a hundred obey.
 enum class SizeMeaning { mean, bound };
 
 /// Lengths are in units of the input or, before resolve_lengths(), in percent of its diagonal; 0, or an empty text,
@@ -52,8 +52,8 @@ struct SizeOptions {
     std::shared_ptr<const SizedMesh> background = {};  ///< in place of a field_file, for programs; no option sets it
 
     /// The share of a bound that mean edges have. 99.9 % of the edges of cells are shorter than 1.52 to 1.66 times the
-    /// mean, measured on assets and surfaces of others with several sizes. The inverse is a border of bins of
-    /// RatioCounts.
+    /// mean, measured on assets and surfaces of others with several sizes; up to 0.7 % are longer where facets that are
+    /// coarse are divided. The inverse is a border of bins of RatioCounts.
     static constexpr double mean_below_bound = 0.62723;
     /// The growth if none is given.
     static constexpr double usual_growth = 0.3;
@@ -64,7 +64,7 @@ struct SizeOptions {
     /// check(), and for a chord error longer than the diagonal, which no chord has.
     void resolve_lengths(double diagonal);
     /// Returns the mean edge of cells over the length that is given for them: 1, or the share with which all but one
-    /// edge in a thousand are shorter than the length.
+    /// edge in a hundred are shorter than the length.
     double mean_over_size() const { return meaning == SizeMeaning::mean ? 1 : mean_below_bound; }
     /// Returns `max_volume`, or the volume that follows from `size`, a resolved length; 0: none.
     double constant_max_volume() const;
