@@ -41,8 +41,8 @@ class CubeOfParts : public testing::Environment {
             folder_ = std::make_unique<TemporaryFolder>();
             mesh("fine", "0.2", "keep");
             mesh("coarse", "0.5", "remesh");
-            mesh("sized0", "0.5", "remesh");
-            mesh("sized1", "0.14", "remesh");
+            mesh("sized0", "0.2", "remesh");
+            mesh("sized1", "0.1", "remesh");
             folder_->file("").copy(path.data(), path.size() - 1);
         }
         MPI_Bcast(path.data(), static_cast<int>(path.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
