@@ -196,12 +196,10 @@ std::string lines_of_regions(const Array<RegionIndex, RegionSummary>& regions) {
 
 // Returns a line on a region that fills a box with the others inside of it, as air in a tunnel does: these may be left
 // out. Empty if there is none.
-std::string line_on_air(const FileDiagnosis& found) {
+std::string line_on_air(const Array<RegionIndex, RegionSummary>& regions, const SurfaceMeasures& measures) {
     constexpr double rounding = 1e-9;
     constexpr std::size_t most_named = 3;
-    const auto& regions = found.regions;
     if (regions.size() < 2) return "";
-    const SurfaceMeasures measures = measures_of(found);
     const Vec3 sides = measures.box.sizes();
     const double area = 2 * (sides.x() * sides.y() + sides.y() * sides.z() + sides.z() * sides.x());
     std::string air;
@@ -376,8 +374,9 @@ std::string to_text(const FileDiagnosis& found) {
         fmt::format("{}: {} facets, {} vertices, {} patch{}\n", found.path, soup.facets.size(), soup.vertices.size(),
                     soup.patch_names.size(), soup.patch_names.size() == 1 ? "" : "es");
     for (const std::string& note : soup.notes) text += fmt::format("  note      {}\n", note);
-    text +=
-        text_of(measures_of(found)) + to_text(checked.ladder) + lines_of_regions(found.regions) + line_on_air(found);
+    const SurfaceMeasures measures = measures_of(found);
+    text += text_of(measures) + to_text(checked.ladder) + lines_of_regions(found.regions);
+    text += line_on_air(found.regions, measures);
     text += text_of_defects(checked, false, found.remedy ? found.remedy->caps : 0);
     const bool clean = found.can_be_meshed();
     if (const Slivers slivers = find_slivers(soup.vertices, soup.facets);

@@ -77,9 +77,8 @@ std::string to_json(const FileDiagnosis& found);
 std::string to_text(const FileDiagnosis& found);
 
 /// Returns a table with a line for each region of the file, one with a line for each wall, and for each region the
-/// option
-/// --region with a point inside of it; names are last. Throws the Error for which the file was refused or cannot be
-/// meshed.
+/// option --region with a point inside of it; names are last. Throws the Error for which the file was refused or cannot
+/// be meshed.
 std::string tables_of_regions(const FileDiagnosis& found);
 
 /// Returns the patches that a run would have: those of the file, or those that InputOptions::feature_angle_deg makes.

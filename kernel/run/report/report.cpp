@@ -215,8 +215,7 @@ std::string remeshing_text(const InputRemeshing& done) {
     if (done.only_divided) return "divided: " + division_text(done);
     const std::string kept = done.facets_kept > 0 ? fmt::format(", {} of them kept", grouped(done.facets_kept)) : "";
     return fmt::format(
-        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}, 1 % {:.3g} from {:.3g}; largest "
-        "distances {:.2g} and "
+        "from {} facets{}; smallest angle {:.3g} deg from {:.3g}, 1 % {:.3g} from {:.3g}; largest distances {:.2g} and "
         "{:.2g} of {:.2g}{}{}",
         grouped(done.facets_before), kept, done.angles.smallest, done.angles_before.smallest, done.angles.first_percent,
         done.angles_before.first_percent, done.distance_to_input, done.distance_from_input, done.deviation,

@@ -24,10 +24,10 @@ std::vector<SharpPlace> sharp_places(const RunReport& report);
 /// Returns the name of a cause in JSON.
 const char* name_of(SharpnessCause cause);
 
-/// Returns why cells are sharp there: "they stand on facets with angles of 0.03 degrees".
+/// Returns why cells are sharp there, as "a facet there has an angle of 0.03 degrees".
 std::string why(const SharpPlace& place);
 
-/// Returns "12 cells below 5 degrees, the worst with 0.02 at (1, 2, 3) in part 9, patch lid: they ...".
+/// Returns "12 cells below 5 degrees, the worst of 0.02 at (1, 2, 3) in part 9, at patch lid: a facet there ...".
 std::string sharp_text(const SharpPlace& place);
 
 }  // namespace kerf
