@@ -62,9 +62,9 @@ def test_the_table_is_that_of_the_command_line():
 
 #: Calls that together have every option of a mesh in memory.
 CALLS = [
-    dict(parts=2, size=0.5, size_is="bound", max_volume=0, cells=None, fineness="medium", size_in={"sphere:0,0,0,0.3": 0.3},
-         size_on={"cube": "40%"}, size_near={"cube": (0.4, 0.1)}, size_region={}, growth=1, chord_error="1%",
-         segments_per_turn=3, cells_across=0.5, radius_edge=2, cut="inertia", balance="work", contour="edges",
+    dict(parts=2, size=0.5, size_is="bound", max_volume=0, cells=None, fineness="medium",
+         size_in={"sphere:0,0,0,0.3": 0.3}, size_on={"cube": "40%"}, size_near={"cube": (0.4, 0.1)}, size_region={},
+         growth=1, chord_error="1%", segments_per_turn=3, cells_across=0.5, radius_edge=2, cut="inertia", balance="work", contour="edges",
          surface="split", deviation=0.01, mesher="lattice", improve=True, workers=1, timeout=100, attempts=3,
          tetgen_switches=None),
     dict(order=2, curve="straight", cells=1e2, axis="x", surface="keep", memory="1G", improve=False, feature_angle=30, optimise_surface=1),
