@@ -128,8 +128,8 @@ TEST(RemeshedSizes, AreNotExceededOnCurvedBodies) {
 }
 
 // A size is the mean edge of the mesh within 5 %, or 6 where sizes differ, or a bound that less than one edge in a
-// hundred exceeds, whether facets are divided or remeshed. Ratios are to what the field asks, so that cells are counted,
-// too: for a bound there are four times as many.
+// hundred exceeds, whether facets are divided or remeshed. Ratios are to what the field asks, so that cells are
+// counted, too: for a bound there are four times as many.
 TEST(Sizes, AreMeanEdgesOrBounds) {
     const TemporaryFolder folder;
     const Soup soup = box(Vec3::Zero(), Vec3(10, 8, 6), 1);

@@ -95,6 +95,28 @@ TEST(Saving, TellsWhyItCannot) {
     EXPECT_NE(driver.app().facts().notice.find("cube.vtu"), std::string::npos) << driver.app().facts().notice;
 }
 
+// A picture has its view beside it, as JSON: neither replaces what somebody else has written.
+TEST(Saving, APictureReplacesPicturesAndViewsOfKerfAlone) {
+    const TemporaryFolder folder;
+    const StartedIn here(folder.file(""));
+    Driver driver(of_two_parts(false));
+    driver.open(asset_path("cube"));
+    const auto save_picture = [&] {
+        save_by_menu(driver, "Save picture...");
+        driver.click("Save");
+        driver.settle();
+        return driver.app().facts().notice;
+    };
+    for (const char* file : {"cube.json", "cube.png"}) {
+        std::ofstream(folder.file(file)) << "mine";
+        EXPECT_NE(save_picture().find(file), std::string::npos);
+        EXPECT_EQ(bytes_of_file(folder.file(file)), "mine");
+        fs::remove(folder.file(file));
+    }
+    EXPECT_TRUE(save_picture().starts_with("saved as"));
+    EXPECT_TRUE(save_picture().starts_with("saved as")) << "its own are replaced";
+}
+
 // Nobody loses a mesh by opening another file or closing the window.
 TEST(Saving, AsksBeforeAMeshIsLost) {
     const TemporaryFolder folder;

@@ -11,12 +11,21 @@
 #include <imgui.h>
 
 #include "base/core/error.h"
+#include "files/io/output_file.h"
 #include "files/io/text_file.h"
 #include "viewer/model/file_kind.h"
 
 namespace kerf::view {
 
 namespace {
+
+// The beginning of to_json() of a view with its origin.
+constexpr OutputKind view_kind = {
+    "view", [](std::string_view text) {
+        return text.starts_with("{\n  \"size\": [") ||
+               (text.starts_with("{\n  \"input\": \"") &&
+                (text.find("\n  \"run\": {") != text.npos || text.find("\n  \"size\": [") != text.npos));
+    }};
 
 // The file with the view of a picture.
 std::string view_of(const std::string& picture) {
@@ -91,6 +100,8 @@ ViewOrigin Desk::origin_of_picture() const {
 void Desk::write_picture(const Image& picture) {
     const std::string path = std::exchange(picture_, "");
     try {
+        require_writable("Its name", path, output_kind::picture);
+        require_writable("The file of its view", view_of(path), view_kind);
         write_png(path, picture);
         ViewState state = view_.state;
         state.camera = view_.camera;

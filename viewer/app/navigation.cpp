@@ -151,7 +151,6 @@ void Navigation::show_again(const std::optional<ViewState>& view) {
     if (view) view_.state = *view;
 }
 
-// Zooms towards the point that is seen under the cursor, and not through it.
 const std::string* Navigation::patch_at(float x, float y) {
     const std::optional<PickHit> hit = view_.pick(x, y);
     if (!hit) return nullptr;
@@ -174,6 +173,7 @@ void Navigation::hide_patch() {
     set_member(view_.state.visibility.hidden_patches, *patch, true);
 }
 
+// Zooms towards the point that is seen under the cursor, and not through it.
 void Navigation::zoom(float x, float y, float notches) {
     Camera camera = view_.camera;
     const double diagonal = view_.diagonal();
