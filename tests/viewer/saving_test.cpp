@@ -1,4 +1,5 @@
 // What is made in the window stays: runs, meshes, pages and pictures, each by a command that is shown, too.
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -169,6 +170,55 @@ TEST(Saving, TwoRunsAreOpenedToBeCompared) {
     EXPECT_EQ(driver.document().tree.parts_below(root_node).size(), 2u);
     EXPECT_GT(driver.drawn(LayerKind::part).triangles, 0);
     EXPECT_EQ(driver.app().camera().target, target);
+}
+
+// A run and its copy are the same picture on either side, from wherever one looks.
+TEST(Saving, TwoRunsStandSideBySide) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a", "b"})
+        ASSERT_EQ(run_kerf({"mesh", asset_path("bracket"), "-o", folder.file(name), "-n", "2", "-q"}).exit_code, 0);
+    Driver driver;
+    driver.open_files({folder.file("a"), folder.file("b")});
+    ASSERT_TRUE(driver.document().error.empty()) << driver.document().error;
+    driver.state().look.legend = driver.state().look.scale_bar = false;
+    // Pixels of one side that are not the other's, where no words are, and those that are not the background's.
+    struct Pixels {
+        int other = 0, drawn = 0;
+    };
+    const auto compare = [&] {
+        driver.settle();
+        const Image picture = driver.picture();
+        const Rectangle left = driver.app().facts().beside->area, right = driver.app().scene_area();
+        EXPECT_EQ(left.x + left.width, right.x);
+        Pixels pixels;
+        for (int y = static_cast<int>(left.y + left.height / 4); y < left.y + left.height * 3 / 4; ++y)
+            for (int x = 0; x < left.width; ++x) {
+                const auto at = [&](float column) {
+                    const std::uint8_t* rgb = picture.pixel(static_cast<int>(column), y);
+                    return std::array{rgb[0], rgb[1], rgb[2]};
+                };
+                pixels.other += at(left.x + x) != at(right.x + x);
+                pixels.drawn += at(left.x + x) != at(left.x + 2);
+            }
+        return pixels;
+    };
+    const Pixels fitted = compare();
+    EXPECT_EQ(fitted.other, 0);
+    EXPECT_GT(fitted.drawn, 10'000);
+    const Camera before = driver.app().camera();
+    const Rectangle other = driver.app().facts().beside->area;
+    const float x = other.x + other.width / 2, y = other.y + other.height / 2;
+    driver.drag(x, y, x + 100, y + 50);
+    driver.wheel(x, y, 2);
+    EXPECT_NE(driver.app().camera().turn.coeffs(), before.turn.coeffs());
+    EXPECT_LT(driver.app().camera().height, before.height);
+    const Pixels nearer = compare();
+    EXPECT_EQ(nearer.other, 0);
+    EXPECT_GT(nearer.drawn, fitted.drawn);
+    driver.key(key_of('B'), false, true);
+    driver.settle();
+    EXPECT_FALSE(driver.app().facts().beside);
+    EXPECT_GT(driver.app().scene_area().width, other.width + 1);
 }
 
 // A patch in the way is hidden under the mouse, by a key or by its menu, and seen again.

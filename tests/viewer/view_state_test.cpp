@@ -36,7 +36,7 @@ ViewState unusual_state() {
     s.look.axes = false;
     s.look.numbers = false;
     s.coloring.percentile = 95;
-    s.look.features = s.visibility.neighbours = true;
+    s.look.features = s.look.beside = s.visibility.neighbours = true;
     s.explosion.amount = 0.25;
     s.explosion.shrink = 0.125;
     s.clip = {true, ClipStyle::layer, Vec3(0.6, 0, 0.8), 0.3, true};
@@ -72,9 +72,9 @@ auto fields(const ViewState& s) {
 }
 auto fields(const Look& l) {
     const auto& [shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, scale_bar,
-                 numbers, times] = l;
+                 numbers, times, beside] = l;
     return std::tie(shading, edges, context, plane, axes, contour, features, surface, interfaces, legend, scale_bar,
-                    numbers, times);
+                    numbers, times, beside);
 }
 auto fields(const Visibility& v) {
     const auto& [hidden, isolated, hidden_regions, glass_regions, isolated_region, hidden_patches, walls, neighbours] =

@@ -22,14 +22,6 @@ namespace {
 
 constexpr float nearby_pixels = 6;  // how far the hand may tremble at a double click
 
-// The state without the members that the scene does not depend on.
-ViewState of_scene(ViewState state) {
-    state.camera.reset();
-    state.panels = {};
-    state.deformation.speed = ViewState().deformation.speed;
-    return state;
-}
-
 }  // namespace
 
 ImGuiOwner::ImGuiOwner() {
@@ -81,6 +73,7 @@ void App::follow_session() {
     }
     opening_.follow(ui_.leads_tour());
     desk_.follow();
+    beside_.follow();
     if (view_.session_changed) input_.resolve_click();
     navigation_.resolve_turn();
     navigation_.resolve_clip();
@@ -125,25 +118,27 @@ void App::lay_out(bool panels) {
     }
     ImGui::NewFrame();
     widgets_.begin_frame();
-    view_.area = scene_rectangle(view_.state, view_.session.document(), view_.settings.panels, io.DisplaySize.x,
-                                 io.DisplaySize.y, panels);
+    beside_.share(scene_rectangle(view_.state, view_.session.document(), view_.settings.panels, io.DisplaySize.x,
+                                  io.DisplaySize.y, panels));
     view_.body = body_area(view_.state, view_.area);
     UiContext context{view_.state, view_.session, view_.settings, view_.facts,        view_.steps,
                       actions_,    widgets_,      view_.camera,   gallery_.examples()};
     if (panels) input_.take(context);
     playing_.go_on();
     build_scene();
+    beside_.build();
     navigation_.project_scene();
     labels_.place(input_.is_dragging());
     labels_.probe(panels && !input_.is_pressed());
     if (panels)
-        ui_.draw(context, io.DisplaySize.x, io.DisplaySize.y);
+        ui_.draw(context, view_.area, io.DisplaySize.x, io.DisplaySize.y);
     else
         ui_.draw_overlays(context, view_.area);
     ImGui::Render();
     // Changes by the panels are part of this picture.
     view_.steps = steps_of(view_.session.document(), view_.shown().node);
     build_scene();
+    beside_.build();
     navigation_.project_scene();
 }
 
@@ -158,7 +153,7 @@ void App::frame(const FrameSize& size, bool panels) {
     if (desk_.wants_picture()) {
         lay_out(false);
         // The picture does not wait for data that a run has not made yet, as it may take long.
-        if (!view_.built.pending || !view_.session.pending()) desk_.write_picture(picture());
+        if ((!view_.built.pending || !view_.session.pending()) && !beside_.is_pending()) desk_.write_picture(picture());
         wake();
     }
     lay_out(panels);
@@ -166,6 +161,7 @@ void App::frame(const FrameSize& size, bool panels) {
     painting_.follow(panels);
     // Data that were asked for are mostly there at once: better than a picture without them.
     if (view_.built.pending) wait(0.04);
+    if (beside_.is_pending()) beside_.wait(0.04);
 }
 
 bool App::wait(double seconds) {
@@ -188,7 +184,7 @@ bool App::wants_frame() {
 
 bool App::settled() const {
     return view_.frames_wanted == 0 && !view_.built.pending && !view_.session_changed && !view_.facts.playing &&
-           !view_.facts.moving && !painting_.is_coarse() && !desk_.wants_picture();
+           !view_.facts.moving && !painting_.is_coarse() && !desk_.wants_picture() && !beside_.is_pending();
 }
 
 }  // namespace kerf::view

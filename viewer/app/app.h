@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "viewer/app/beside.h"
 #include "viewer/app/desk.h"
 #include "viewer/app/gallery.h"
 #include "viewer/app/labels.h"
@@ -83,6 +84,7 @@ class App {
     Opening opening_{view_, unsaved_};
     Navigation navigation_{view_};
     Playing playing_{view_};
+    Beside beside_{view_};
     Labels labels_{view_};
     Painting painting_{view_};
     Desk desk_{view_, unsaved_};

@@ -76,7 +76,7 @@ void read_run_config(const std::string& path, RunRequest& run) {
 
 void add_inputs(CLI::App& app, SceneOptions& options, const std::string& what) {
     app.add_option("input", options.inputs,
-                   what + " Several surfaces are opened together; of two runs B shows one or the other.")
+                   what + " Several surfaces are opened together; two runs stand side by side.")
         ->type_name("INPUT");
 }
 

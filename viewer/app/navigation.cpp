@@ -118,24 +118,17 @@ void Navigation::update_camera() {
         look_from(view_.camera, clip.flipped ? Vec3(-clip.normal) : clip.normal, view_.up());
     else
         look_from(view_.camera, view_.chosen.from.value_or(Direction::corner), view_.up());
-    if (fits_rest)
-        fit_body(view_.camera, view_.built.left);
-    else
-        fit_body(view_.camera, view_.built.outline);
+    if (fits_rest) return fit_body(view_.camera, view_.built.left);
+    std::vector<Vec3> outline = view_.built.outline;
+    if (view_.beside)
+        outline.insert(outline.end(), view_.beside->built.outline.begin(), view_.beside->built.outline.end());
+    fit_body(view_.camera, outline);
 }
 
 void Navigation::project_scene() {
     update_camera();
-    view_.projection = project(view_.camera, view_.built.frame, view_.built.box, static_cast<int>(view_.area.width),
-                               static_cast<int>(view_.area.height));
-    move_center(
-        view_.projection,
-        (2 * view_.body.x + view_.body.width - 2 * view_.area.x - view_.area.width) / std::max(view_.area.width, 1.f),
-        -(2 * view_.body.y + view_.body.height - 2 * view_.area.y - view_.area.height) /
-            std::max(view_.area.height, 1.f));
-    view_.projection.x = static_cast<int>(view_.area.x);
-    view_.projection.y = view_.size.height - static_cast<int>(view_.area.y + view_.area.height);
-    view_.projection.pixel_ratio = view_.size.scale;
+    view_.projection = view_.projection_into(view_.area, view_.built);
+    if (view_.beside) view_.beside->projection = view_.projection_into(view_.beside->area, view_.beside->built);
     view_.renderer.resize(view_.size.width, view_.size.height);
 }
 

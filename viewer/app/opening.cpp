@@ -141,7 +141,7 @@ void Opening::choose_view() {
     const Document& document = view_.session.document();
     if (is_view_complete_ || document.kind == Document::Kind::none) return;
     is_view_complete_ = true;
-    if (view_.session.other_document()) view_.state.panels.parameters = true;  // which compares the two
+    if (view_.session.other_document()) view_.state.panels.parameters = view_.state.look.beside = true;  // two runs
     if (document.solution && !view_.chosen.color && !view_.chosen.stage) {
         const auto& cases = document.solution->cases;
         view_.state.coloring.by =

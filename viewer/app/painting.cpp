@@ -26,20 +26,26 @@ void Painting::follow(bool by_hand) {
 }
 
 void Painting::paint() {
-    if (is_coarse_) {
-        if (stand_in_of_ != view_.scenes_built) stand_in_ = stand_in_for(view_.built.scene);
-        stand_in_of_ = view_.scenes_built;
-        return paint(stand_in_);
-    }
+    const SceneBeside* beside = view_.beside ? &*view_.beside : nullptr;
+    if (is_coarse_)
+        return paint(stand_in(stand_in_, view_.built, view_.scenes_built),
+                     beside ? &stand_in(stand_in_beside_, beside->built, beside->scenes_built) : nullptr);
     const Stopwatch stopwatch;
-    paint(view_.built.scene);
+    paint(view_.built.scene, beside ? &beside->built.scene : nullptr);
     view_.renderer.finish();
     whole_seconds_ = stopwatch.seconds();
 }
 
-void Painting::paint(const Scene& scene) {
+const Scene& Painting::stand_in(StandIn& stand_in, const BuiltScene& of, std::int64_t scenes_built) {
+    if (stand_in.of != scenes_built) stand_in.scene = stand_in_for(of.scene);
+    stand_in.of = scenes_built;
+    return stand_in.scene;
+}
+
+void Painting::paint(const Scene& scene, const Scene* beside) {
     Renderer& renderer = view_.renderer;
     renderer.clear(scene.background_bottom);
+    if (beside && view_.beside->area.width >= 1) renderer.draw(*beside, view_.beside->projection);
     if (view_.area.width >= 1 && view_.area.height >= 1) renderer.draw(scene, view_.projection);
     if (const ImDrawData* ui = ImGui::GetDrawData()) renderer.draw_ui(*ui, *ImGui::GetIO().Fonts);
 }

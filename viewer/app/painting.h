@@ -18,14 +18,20 @@ class Painting {
     bool is_coarse() const { return is_coarse_; }  ///< the stand-in is painted, until the camera has come to rest
 
  private:
-    void paint(const Scene& scene);
+    /// Paints the scene, and the one beside it if there is one.
+    void paint(const Scene& scene, const Scene* beside);
 
     View& view_;
     Camera camera_;
     double moved_at_ = -1, whole_seconds_ = 0;
     bool is_coarse_ = false;
-    Scene stand_in_;
-    std::int64_t stand_in_of_ = -1;  // View::scenes_built of its scene
+    // The stand-in of a scene, with the number of scenes that were built before it was made.
+    struct StandIn {
+        Scene scene;
+        std::int64_t of = -1;
+    };
+    static const Scene& stand_in(StandIn& stand_in, const BuiltScene& of, std::int64_t scenes_built);
+    StandIn stand_in_, stand_in_beside_;
 };
 
 }  // namespace kerf::view

@@ -48,18 +48,22 @@ void SceneInput::take(UiContext& context) {
 
 void SceneInput::take_mouse() {
     const ImGuiIO& io = ImGui::GetIO();
-    const bool in_scene = !io.WantCaptureMouse && view_.area.contains(io.MousePos.x, io.MousePos.y);
+    const bool in_shown = view_.area.contains(io.MousePos.x, io.MousePos.y);
+    const bool in_other = view_.beside && view_.beside->area.contains(io.MousePos.x, io.MousePos.y);
+    const bool in_scene = !io.WantCaptureMouse && (in_shown || in_other);
     for (int button = 0; button < 3; ++button)
         if (ImGui::IsMouseClicked(button)) pressed_in_scene_ = in_scene;
     if (pressed_in_scene_) {
         take_drag();
         const bool is_double = ImGui::IsMouseDoubleClicked(0);
-        if (is_double || (ImGui::IsMouseReleased(0) && !dragging_)) take_click(is_double);
-        if (ImGui::IsMouseReleased(1) && !dragging_) take_right_click();
+        if (in_shown && (is_double || (ImGui::IsMouseReleased(0) && !dragging_))) take_click(is_double);
+        if (in_shown && ImGui::IsMouseReleased(1) && !dragging_) take_right_click();
         if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
             dragging_ = pressed_in_scene_ = false;
     }
-    if (in_scene && io.MouseWheel != 0) navigation_.zoom(io.MousePos.x, io.MousePos.y, io.MouseWheel);
+    // One camera for both: a place of the other scene is that of the shown one.
+    const float to_shown = in_other ? view_.area.x - view_.beside->area.x : 0;
+    if (in_scene && io.MouseWheel != 0) navigation_.zoom(io.MousePos.x + to_shown, io.MousePos.y, io.MouseWheel);
 }
 
 void SceneInput::take_drag() {

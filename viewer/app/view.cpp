@@ -12,6 +12,13 @@ constexpr double seconds_of_notice = 6;
 
 }  // namespace
 
+ViewState of_scene(ViewState state) {
+    state.camera.reset();
+    state.panels = {};
+    state.deformation.speed = ViewState().deformation.speed;
+    return state;
+}
+
 View::View(const Gl& gl, AppOptions given)
     : options(std::move(given)),
       settings(load_settings(options.config_folder)),
@@ -31,6 +38,19 @@ ViewState View::shown() const {
     ViewState shown = state;
     if (!session.document().tree.find(shown.node)) shown.node = root_node;
     return shown;
+}
+
+// The camera's target is in the middle of what the legend leaves.
+Projection View::projection_into(const Rectangle& rectangle, const BuiltScene& scene) const {
+    Projection into =
+        project(camera, scene.frame, scene.box, static_cast<int>(rectangle.width), static_cast<int>(rectangle.height));
+    const Rectangle left = body_area(state, rectangle);
+    move_center(into, (2 * left.x + left.width - 2 * rectangle.x - rectangle.width) / std::max(rectangle.width, 1.f),
+                -(2 * left.y + left.height - 2 * rectangle.y - rectangle.height) / std::max(rectangle.height, 1.f));
+    into.x = static_cast<int>(rectangle.x);
+    into.y = size.height - static_cast<int>(rectangle.y + rectangle.height);
+    into.pixel_ratio = size.scale;
+    return into;
 }
 
 std::optional<PickHit> View::pick(float x, float y) {

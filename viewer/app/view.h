@@ -43,6 +43,17 @@ struct ChosenView {
     std::optional<int> up = {};          ///< axis that points up
 };
 
+/// Returns the state without the members that a scene does not depend on.
+ViewState of_scene(ViewState state);
+
+/// Another run that is drawn beside the shown one, under the same camera.
+struct SceneBeside {
+    BuiltScene built;
+    std::int64_t scenes_built = 0;  ///< grows with each scene that is built of any such run
+    Projection projection;
+    Rectangle area;
+};
+
 struct View {
     /// Requires that the context of `gl` is current.
     View(const Gl& gl, AppOptions given);
@@ -60,12 +71,13 @@ struct View {
     Renderer renderer;
     BuiltScene built;
     std::int64_t scenes_built = 0;
+    std::optional<SceneBeside> beside;
     SceneFacts facts;
     double notice_until = 0;  ///< time until which the notice of the facts is shown
     Camera camera;            ///< the camera in use, also where the state has none
     Projection projection;
     FrameSize size;
-    Rectangle area;         ///< rectangle of the scene
+    Rectangle area;         ///< rectangle of the shown document's scene
     Rectangle body;         ///< the part of it that the legend leaves
     int frames_wanted = 0;  ///< frames to be drawn even if nothing else changes
 
@@ -78,6 +90,8 @@ struct View {
     double diagonal() const { return session.document().box.diagonal().norm(); }
     /// Returns the height of the scene in pixels, at least 1, so that it can be divided by.
     float height() const { return std::max(area.height, 1.f); }
+    /// Returns the projection of a scene, seen by the camera, into a rectangle.
+    Projection projection_into(const Rectangle& rectangle, const BuiltScene& scene) const;
     std::optional<PickHit> pick(float x, float y);  ///< returns the primitive at a pixel; none: the background
 };
 

@@ -61,10 +61,10 @@ class Session {
     Fetched& fetched();
     /// The repairs of the surface that is open.
     Repairs& repairs();
-    /// The operations on the run that is shown and the one before.
     /// Writes a file of the open run by a command of kerf (Writer::start()), whose result poll() brings.
     void write(const std::vector<std::string>& arguments, const std::string& file);
     Writer& writer();
+    /// The operations on the run that is shown and the one before.
     RunPair& pair();
     const RunPair& pair() const;
 

@@ -172,6 +172,7 @@ std::vector<std::pair<const char*, bool*>> switches(ViewState& s) {
             {"scale_bar", &s.look.scale_bar},
             {"features", &s.look.features},
             {"times", &s.look.times},
+            {"beside", &s.look.beside},
             {"isolines", &s.coloring.isolines},
             {"extremes", &s.coloring.extremes},
             {"vectors", &s.deformation.vectors},

@@ -143,6 +143,7 @@ struct Look {
     bool scale_bar = true;
     bool numbers = true;  ///< numbers of patches on the faces that are coloured by them; values on isolines
     bool times = true;    ///< seconds in the tree
+    bool beside = false;  ///< two runs stand side by side, where two are open
 
     /// Returns whether axes are drawn at a stage: where nobody has chosen they explain the plane of a cut.
     bool has_axes(Stage stage) const { return axes.value_or(stage == Stage::plane); }

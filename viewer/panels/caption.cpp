@@ -144,6 +144,14 @@ bool shows_neighbours(const UiContext& context) {
            step.stage == Stage::tetrahedra;
 }
 
+// Which of two runs a picture shows; empty where there is one.
+std::string name_of_run(const UiContext& context, bool other) {
+    const Session& session = context.session;
+    if (!context.facts.beside || !session.other_document()) return "";
+    const Document& document = other ? *session.other_document() : session.document();
+    return fmt::format("{}: {}", session.shows_before() != other ? "A" : "B", document.title);
+}
+
 // The lines of the caption, for a scene that has room for lines of this width.
 std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     const Document& document = context.session.document();
@@ -153,6 +161,10 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     const auto add = [&](const std::string& text, const ImVec4& color) {
         lines.push_back({broken(text, room), color});
     };
+    if (const std::string run = name_of_run(context, false); !run.empty()) {
+        add(run, colors.accent);
+        add(outcome_of(document, false), colors.text);
+    }
     if (has_tree(document)) {
         const Step& step = context.steps[nearest_step(context.steps, state.step)];
         add(heading(document, state, step), colors.text);
@@ -189,22 +201,42 @@ std::vector<CaptionLine> caption_of(const UiContext& context, float room) {
     return lines;
 }
 
-}  // namespace
-
-void draw_caption(UiContext& context, const Rectangle& scene) {
-    const float e = em(), room = std::max(scene.width - 9 * e, 8 * e);
-    const std::vector<CaptionLine> lines = caption_of(context, room);
+void draw_lines(const std::vector<CaptionLine>& lines, const Rectangle& scene, Theme theme) {
+    const float e = em();
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 from = {scene.x + 1.2f * e, scene.y + e}, size = {0, 0};
     for (const CaptionLine& line : lines) {
         const ImVec2 extent = ImGui::CalcTextSize(line.text.c_str());
         size = {std::max(size.x, extent.x), size.y + extent.y};
     }
-    draw_backdrop(list, context.state.theme, from, {from.x + size.x, from.y + size.y});
+    draw_backdrop(list, theme, from, {from.x + size.x, from.y + size.y});
     for (const CaptionLine& line : lines) {
         list.AddText(from, packed(line.color), line.text.c_str());
         from.y += ImGui::CalcTextSize(line.text.c_str()).y;
     }
+}
+
+float room_for_lines(const Rectangle& scene) { return std::max(scene.width - 9 * em(), 8 * em()); }
+
+}  // namespace
+
+void draw_caption(UiContext& context, const Rectangle& scene) {
+    draw_lines(caption_of(context, room_for_lines(scene)), scene, context.state.theme);
+}
+
+void draw_caption_beside(UiContext& context, const RunBeside& other) {
+    const Palette& colors = palette(context.state.theme);
+    const float room = room_for_lines(other.area);
+    std::vector<CaptionLine> lines = {{broken(name_of_run(context, true), room), colors.accent}};
+    if (!other.error.empty())
+        lines.push_back({broken(other.error, room), colors.bad});
+    else if (const Document* document = context.session.other_document())
+        lines.push_back({broken(outcome_of(*document, false), room), colors.text});
+    draw_lines(lines, other.area, context.state.theme);
+    const bool is_right = context.session.shows_before();
+    const float border = other.area.x + (is_right ? 0 : other.area.width);
+    ImGui::GetBackgroundDrawList()->AddLine({border, other.area.y}, {border, other.area.y + other.area.height},
+                                            packed(colors.dim));
 }
 
 }  // namespace kerf::view

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/core/words.h"
+#include "viewer/model/saving.h"
 #include "viewer/panels/inside/parts.h"
 
 namespace kerf::view {
@@ -141,6 +142,10 @@ void draw_switch(UiContext& context) {
     const bool wants_b = context.widgets.radio("B##run", !shows_before);
     explain("What the last run or cut has made (key B)");
     ImGui::EndDisabled();
+    if (has_mesh(context.session.document()) && has_mesh(*context.session.other_document())) {
+        ImGui::SameLine();
+        context.widgets.checkbox("Side by side", &context.state.look.beside, "Both under one camera (Shift+B)");
+    }
     if ((wants_a && !shows_before) || (wants_b && shows_before)) context.actions.runs.swap_runs();
 }
 

@@ -103,6 +103,13 @@ struct Actions {
     WindowActions& window;
 };
 
+/// A rectangle of the window in ImGui's units, y down.
+struct Rectangle {
+    float x = 0, y = 0, width = 0, height = 0;
+
+    bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
+};
+
 /// A number on a face, and the place of its middle in ImGui's units of the window.
 struct FaceNumber {
     std::int32_t number = 0;
@@ -116,6 +123,12 @@ struct ValueLabel {
     bool is_beside = false;  ///< the text stands beside the place, not on it
 };
 
+/// The other of two runs, Session::other_document(), which is drawn beside the shown one.
+struct RunBeside {
+    Rectangle area;     ///< its part of the scene
+    std::string error;  ///< reason why it is not drawn; empty: it is
+};
+
 /// The facts about the scene that panels show.
 struct SceneFacts {
     Legend legend;
@@ -126,6 +139,7 @@ struct SceneFacts {
     std::vector<FaceNumber> numbers;              ///< numbers of patches, to be drawn on them
     std::vector<ValueLabel> labels;               ///< values of isolines, the least and the largest value
     std::optional<ValueLabel> probe;              ///< the value under the mouse
+    std::optional<RunBeside> beside;              ///< another run beside the shown one
     std::string patch;                            ///< the patch that was clicked with the right button last
     int patch_clicks = 0;                         ///< number of such clicks
     int up = 2;                                   ///< axis that points up
@@ -191,13 +205,6 @@ struct UiContext {
     const std::vector<Example>& examples;  ///< surfaces for the start page
 };
 
-/// A rectangle of the window in ImGui's units, y down.
-struct Rectangle {
-    float x = 0, y = 0, width = 0, height = 0;
-
-    bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
-};
-
 /// Returns the rectangle behind a label in the scene.
 Rectangle rectangle_of(const ValueLabel& label);
 
@@ -218,10 +225,11 @@ class Ui {
 
     /// Sets style, colours and fonts for a theme and a HiDPI factor.
     void apply(Theme theme, float scale);
-    /// Draws all panels, dialogs and overlays. Call it between ImGui::NewFrame() and ImGui::Render().
-    void draw(UiContext& context, float width, float height);
-    /// Draws legend, gizmo, caption and labels into the scene's rectangle, or the start page where nothing is open.
-    /// They are part of every picture, also without panels.
+    /// Draws all panels, dialogs and overlays. `scene`: the rectangle of the shown document. Call it between
+    /// ImGui::NewFrame() and ImGui::Render().
+    void draw(UiContext& context, const Rectangle& scene, float width, float height);
+    /// Draws legend, gizmo, caption and labels into the rectangle of the shown document, or the start page where
+    /// nothing is open. They are part of every picture, also without panels.
     void draw_overlays(UiContext& context, const Rectangle& scene);
     /// Runs the command of a key, "Ctrl+Shift+Z", unless a dialog or a text field has the keyboard. `repeat`: the key
     /// is held.

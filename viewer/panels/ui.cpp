@@ -168,7 +168,7 @@ void Ui::apply(Theme theme, float scale) {
     set_style(theme, scale);
 }
 
-void Ui::draw(UiContext& context, float width, float height) {
+void Ui::draw(UiContext& context, const Rectangle& scene, float width, float height) {
     if (context.state.theme != impl_->theme) {
         impl_->theme = context.state.theme;
         set_style(impl_->theme, impl_->scale > 0 ? impl_->scale : 1);
@@ -176,7 +176,7 @@ void Ui::draw(UiContext& context, float width, float height) {
     const Layout layout = layout_of(context.state, context.session.document(), context.settings.panels, width, height);
     Dialogs& dialogs = impl_->dialogs;
     if (ImGui::IsMouseClicked(0) && ImGui::GetIO().WantCaptureMouse) dialogs.list.list = ListKeys::List::none;
-    follow_tour(context, dialogs, layout.scene);
+    follow_tour(context, dialogs, scene);
     draw_menu(context, dialogs);
     draw_splitters(context, layout);  // before the panels: of windows that stay where they are the first is in front
     if (layout.has_left) impl_->draw_left(context, layout);
@@ -191,8 +191,8 @@ void Ui::draw(UiContext& context, float width, float height) {
     draw_border(layout.status, ImGuiDir_Up);
     draw_status(context);
     ImGui::End();
-    draw_overlays(context, layout.scene);
-    if (has_body(context.session.document())) draw_plane_handles(context, impl_->cut_handle, layout.scene);
+    draw_overlays(context, scene);
+    if (has_body(context.session.document())) draw_plane_handles(context, impl_->cut_handle, scene);
     draw_patch_menu(context, impl_->patch_clicks);
     draw_keys(context);
     draw_browser(context, dialogs.browser);
@@ -209,6 +209,7 @@ void Ui::draw_overlays(UiContext& context, const Rectangle& scene) {
     for (const ValueLabel& label : context.facts.labels) draw_label(context, label);
     if (context.facts.probe) draw_label(context, *context.facts.probe);
     draw_caption(context, scene);
+    if (context.facts.beside) draw_caption_beside(context, *context.facts.beside);
     draw_legend(context, scene);
     draw_gizmo(context, scene);
     draw_scale_bar(context, scene);

@@ -133,6 +133,10 @@ bool is_playing(const UiContext& context) { return context.facts.playing; }
 bool has_other(const UiContext& context) {
     return context.session.other_document() || context.session.document().unrepaired;
 }
+bool has_two_runs(const UiContext& context) {
+    const Document* other = context.session.other_document();
+    return other && has_mesh(*other) && has_mesh(context.session.document());
+}
 bool can_undo(const UiContext& context) { return context.session.repairs().can_undo(); }
 bool can_redo(const UiContext& context) { return context.session.repairs().can_redo(); }
 
@@ -354,6 +358,13 @@ const std::vector<Command> all_commands = {
      .menu = "",
      .run = act_by_runs<&RunActions::show_other>,
      .is_enabled = has_other},
+    {.name = "Two runs side by side",
+     .keys = "Shift+B",
+     .heading = stepping,
+     .menu = "",
+     .run = toggle_flag<&ViewState::look, &Look::beside>,
+     .is_on = has_flag<&ViewState::look, &Look::beside>,
+     .is_enabled = has_two_runs},
     {.name = "Undo the last repair",
      .keys = "Ctrl+Z",
      .heading = stepping,

@@ -232,6 +232,8 @@ void draw_welcome(UiContext& context, Dialogs& dialogs, const Rectangle& scene);
 void draw_legend(UiContext& context, const Rectangle& scene);
 /// Draws a caption at the upper left of the scene: its content in words for a reader who does not know Kerf.
 void draw_caption(UiContext& context, const Rectangle& scene);
+/// Draws the caption of the other one of two runs, and a line between the two.
+void draw_caption_beside(UiContext& context, const RunBeside& other);
 void draw_gizmo(UiContext& context, const Rectangle& scene);
 /// Draws a bar of a round length at the lower left of a scene that has room for it.
 void draw_scale_bar(UiContext& context, const Rectangle& scene);
