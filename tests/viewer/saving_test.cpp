@@ -176,12 +176,13 @@ TEST(Saving, TwoRunsAreOpenedToBeCompared) {
 TEST(Saving, TwoRunsStandSideBySide) {
     const TemporaryFolder folder;
     for (const char* name : {"a", "b"})
-        ASSERT_EQ(run_kerf({"mesh", asset_path("bracket"), "-o", folder.file(name), "-n", "2", "-q"}).exit_code, 0);
+        ASSERT_EQ(run_kerf({"mesh", asset_path("l_bracket"), "-o", folder.file(name), "-n", "2", "-q"}).exit_code, 0);
     Driver driver;
     driver.open_files({folder.file("a"), folder.file("b")});
     ASSERT_TRUE(driver.document().error.empty()) << driver.document().error;
     driver.state().look.legend = driver.state().look.scale_bar = false;
-    // Pixels of one side that are not the other's, where no words are, and those that are not the background's.
+    // Pixels of one side that are not the other's, where no words are, and those that are not the background's. A pixel
+    // at an edge may be another one, as its place in the window is rounded.
     struct Pixels {
         int other = 0, drawn = 0;
     };
@@ -189,7 +190,7 @@ TEST(Saving, TwoRunsStandSideBySide) {
         driver.settle();
         const Image picture = driver.picture();
         const Rectangle left = driver.app().facts().beside->area, right = driver.app().scene_area();
-        EXPECT_EQ(left.x + left.width, right.x);
+        EXPECT_NEAR(left.x + left.width, right.x, 1);
         Pixels pixels;
         for (int y = static_cast<int>(left.y + left.height / 4); y < left.y + left.height * 3 / 4; ++y)
             for (int x = 0; x < left.width; ++x) {
@@ -203,7 +204,7 @@ TEST(Saving, TwoRunsStandSideBySide) {
         return pixels;
     };
     const Pixels fitted = compare();
-    EXPECT_EQ(fitted.other, 0);
+    EXPECT_LT(fitted.other, fitted.drawn / 200);
     EXPECT_GT(fitted.drawn, 10'000);
     const Camera before = driver.app().camera();
     const Rectangle other = driver.app().facts().beside->area;
@@ -213,7 +214,7 @@ TEST(Saving, TwoRunsStandSideBySide) {
     EXPECT_NE(driver.app().camera().turn.coeffs(), before.turn.coeffs());
     EXPECT_LT(driver.app().camera().height, before.height);
     const Pixels nearer = compare();
-    EXPECT_EQ(nearer.other, 0);
+    EXPECT_LT(nearer.other, nearer.drawn / 200);
     EXPECT_GT(nearer.drawn, fitted.drawn);
     driver.key(key_of('B'), false, true);
     driver.settle();

@@ -514,12 +514,13 @@ TEST(Clip, IsLookedAt) {
     const Vec3 oblique = Vec3(1, 0, 0.2).normalized();
     const Camera cut = camera(oblique, 0.25, false, true);
     EXPECT_LT(cut.height, 0.6 * whole);
-    // As they are seen, near ones larger, the corners of what is left reach as far to either side of the middle.
+    // As they are seen, near ones larger, the corners of what is left reach about as far to either side of the middle:
+    // exactly so before the margin is added.
     const Eigen::AlignedBox3d left = driver.app().scene().left;
     Eigen::AlignedBox2d seen;
     for (int i = 0; i < 8; ++i)
         seen.extend(*seen_from_target(cut, left.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
-    EXPECT_NEAR(seen.center().norm(), 0, 1e-9);
+    EXPECT_LT(seen.center().norm(), 0.02);
     EXPECT_EQ(camera(oblique, 0.25, false, false).back(), camera(oblique, 0.25, true, false).back()) << "the corner";
 }
 
