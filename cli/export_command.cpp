@@ -48,7 +48,10 @@ int export_on_ranks(ExportRequest request, bool quiet) {
             summary =
                 run_together(*ranks.communicator, [&] { return export_run(request, *ranks.communicator, &progress); });
         }
-        if (root && !quiet) tell(summary_text(request, summary));
+        if (root && !quiet) {
+            tell(summary_text(request, summary));
+            for (const std::string& note : summary.notes) tell(fmt::format("kerf: note: {}\n", note));
+        }
         return 0;
     } catch (const Error& e) {
         if (root) tell(fmt::format("kerf: {}\n", e.what()));

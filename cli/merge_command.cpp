@@ -36,6 +36,7 @@ int merge_and_tell(const MergeLine& line) {
         const std::string nodes = merged.nodes > merged.vertices ? fmt::format(" of {} nodes", merged.nodes) : "";
         tell(fmt::format("kerf: {}: {} vertices{}, {} tetrahedra, {:.1f} MB\n", line.request.output, merged.vertices,
                          nodes, merged.tets, merged.bytes * 1e-6));
+        if (!merged.left_out.empty()) tell(fmt::format("kerf: note: {}\n", merged.left_out));
     }
     return 0;
 }

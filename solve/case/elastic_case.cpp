@@ -388,4 +388,34 @@ ElasticCase read_case(const std::string& path) {
     }
 }
 
+void require_effect(const ElasticCase& wanted, const std::string& path) {
+    const auto moves = [](const Support& support) {
+        return std::any_of(support.displacement.begin(), support.displacement.end(),
+                           [](const std::optional<double>& u) { return u && *u != 0; });
+    };
+    const bool is_moved = std::any_of(wanted.supports.begin(), wanted.supports.end(), moves);
+    const bool has_mass_loads = !wanted.gravity.empty() || !wanted.rotations.empty();
+    if (wanted.loads.empty() && !has_mass_loads && wanted.temperatures.empty() && !is_moved)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} loads nothing. Add a [[load]], [gravity], [rotation] or [temperature], a "
+                                "displacement to a support, or ask for --modes.",
+                                path));
+    const auto find = [&](double Material::*property) {
+        return std::find_if(wanted.materials.begin(), wanted.materials.end(),
+                            [&](const MaterialUse& use) { return !(use.material.*property > 0); });
+    };
+    if (const auto without = find(&Material::density); has_mass_loads && without != wanted.materials.end())
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} has {}, but material '{}' has no density. Add it, in t/mm^3 with mm and MPa, or in "
+                                "kg/m^3 with m and Pa.",
+                                path, wanted.gravity.empty() ? "a rotation" : "gravity", without->material.name));
+    const bool expands = std::any_of(wanted.materials.begin(), wanted.materials.end(),
+                                     [](const MaterialUse& use) { return use.material.expansion > 0; });
+    if (!wanted.temperatures.empty() && !expands)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} has a temperature, but no material has an expansion. Add expansion, a coefficient "
+                                "of lengths per degree, to one.",
+                                path));
+}
+
 }  // namespace kerf

@@ -133,4 +133,9 @@ inline bool is_in_case(const std::string& of, const std::string& load_case) { re
 /// Error(usage).
 ElasticCase read_case(const std::string& path);
 
+/// Throws Error(usage) if the case would have no effect: nothing loads the body and no support moves it, a material has
+/// no density where weight or rotation is to act, or none expands where it is warmer. `path`: the file, for the
+/// message.
+void require_effect(const ElasticCase& wanted, const std::string& path);
+
 }  // namespace kerf

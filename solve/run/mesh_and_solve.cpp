@@ -131,7 +131,9 @@ MeshAndSolveReport mesh_and_solve(const MeshAndSolveRequest& request, int cores_
     const StepFolders folders(request);
     const int order_of_case = in_agreement(ranks, [&] {
         folders.check();
-        return read_case(request.solve.case_file).solver.order;  // before the mesh, which takes longer
+        const ElasticCase wanted = read_case(request.solve.case_file);  // before the mesh, which takes longer
+        if (request.solve.modes == 0) require_effect(wanted, request.solve.case_file);
+        return wanted.solver.order;
     });
     MeshAndSolveReport report;
     RunRequest options = request.mesh;

@@ -234,15 +234,36 @@ std::string to_json(const SolveReport& report) {
     return sealed(json_text(json, 2) + "\n");
 }
 
+namespace {
+
+// Returns where a material is; empty where it is alone.
+std::string place_of_material(const MaterialUse& use, const SolveReport& report) {
+    if (!use.regions.empty()) return fmt::format(", in {}", fmt::join(use.regions, ", "));
+    if (!use.patches.empty()) return fmt::format(", in the bodies at {}", fmt::join(use.patches, ", "));
+    if (!use.parts.empty()) return fmt::format(", in {} of the parts", use.parts.size());
+    if (report.wanted.materials.size() < 2) return "";
+    const bool is_of_region = !report.cases.empty() &&
+                              std::any_of(report.cases.front().regions.begin(), report.cases.front().regions.end(),
+                                          [&](const RegionResult& region) { return region.name == use.material.name; });
+    return is_of_region ? fmt::format(", in {}", use.material.name) : ", in all that has no other material";
+}
+
+std::string material_text(const MaterialUse& use, const SolveReport& report) {
+    const Material& material = use.material;
+    return fmt::format("{}{}: young {:g}, poisson {:g}, density {:g}{}{}", material.name,
+                       place_of_material(use, report), material.young, material.poisson, material.density,
+                       material.expansion > 0 ? fmt::format(", expansion {:g}", material.expansion) : "",
+                       use.source.empty() ? "" : "; " + use.source);
+}
+
+}  // namespace
+
 std::string to_text(const SolveReport& report) {
     const SolveSeconds& s = report.seconds;
     std::string text = line_of("mesh", fmt::format("{} tetrahedra of order {} in {} parts, {} nodes, {} unknowns",
                                                    grouped(report.tets), report.wanted.solver.order, report.parts,
                                                    grouped(report.nodes), grouped(3 * report.nodes - report.held)));
-    for (const MaterialUse& use : report.wanted.materials)
-        text += line_of("material", fmt::format("{}: young {:g}, poisson {:g}, density {:g}{}", use.material.name,
-                                                use.material.young, use.material.poisson, use.material.density,
-                                                use.source.empty() ? "" : "; " + use.source));
+    for (const MaterialUse& use : report.wanted.materials) text += line_of("material", material_text(use, report));
     for (const std::string& note : report.wanted.notes) text += line_of("note", note);
     for (const CaseReport& of_case : report.cases) text += case_text(of_case, report.reacting);
     text += to_text(report.modes);

@@ -390,7 +390,7 @@ TEST(ClipText, NamesAxesNormalsAndNodes) {
     const ShownSide side = shown_side(clip_from_text("node=1", {}, document), box);
     EXPECT_NEAR(side.distance(row.plane()->origin), 0, 1e-12);
     EXPECT_LT((side.normal - row.plane()->normal).norm(), 1e-15);
-    for (const char* text : {"", "x", "w=1", "x=", "1,2=0.5", "node=x", "0,0,0=1", "node=3"})
+    for (const char* text : {"", "x", "w=1", "x=", "1,2=0.5", "node=x", "0,0,0=1", "node=3", "x=5", "y=-0.1"})
         EXPECT_THROW(clip_from_text(text, {}, document), Error) << text;
 }
 

@@ -191,7 +191,9 @@ Clip clip_from_text(const std::string& text, const Clip& before, const Document&
         snap_to(clip, *row->plane(), document.box);
         return clip;
     }
-    if (!parse_normal(place, clip.normal, clip.flipped) || !read_number(value, clip.position)) refuse_clip(text);
+    if (!parse_normal(place, clip.normal, clip.flipped) || !read_number(value, clip.position) ||
+        !(clip.position >= 0 && clip.position <= 1))
+        refuse_clip(text);
     clip.normal.normalize();
     return clip;
 }

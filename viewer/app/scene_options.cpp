@@ -140,9 +140,10 @@ void add_color_options(CLI::App& app, ViewCommand& command, ColorOptions& option
 
 void add_clip_options(CLI::App& app, ViewCommand& command, ClipOptions& options) {
     app.option_defaults()->group("Clipping and moving");
-    app.add_option("--clip", command.clip,
-                   "Clip plane: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal), node=5 (at its cut). Without a camera "
-                   "it is looked at.")
+    app.add_option(
+           "--clip", command.clip,
+           "Clip plane, at a share of the body's extent from 0 to 1: x=0.3, -y=0.5 (other side), 1,1,0=0.4 (normal); "
+           "node=5 (at its cut). Without a camera it is looked at.")
         ->type_name("PLANE");
     app.add_option("--clip-style", options.style, "cells (whole ones, default), smooth, or layer (at the plane).")
         ->type_name("")

@@ -27,6 +27,7 @@ struct Format {
     bool needs_face_neighbours = false;  ///< write_part() gets a part with neighbours of cells
     bool asks_for_one_part = false;      ///< write_part() loads no other part, write_whole() none
     int highest_order = 2;               ///< highest order of cells that it can hold
+    bool has_values = false;             ///< the files have the values of a solution, too
     /// Returns the words for patches of these names in the files; null: patches have their names there, or numbers.
     std::vector<std::string> (*patch_words)(const std::vector<std::string>& names) = nullptr;
 
@@ -53,6 +54,9 @@ std::vector<const Format*> parse_formats(std::string_view list);
 
 /// Throws Error(usage), naming formats that can, if this one cannot hold cells of this order.
 void require_order(const Format& format, int order);
+
+/// Returns a sentence on the values of a solution that files of the format leave out; empty: there are none.
+std::string tell_values_left_out(const Format& format, const MeshOutline& outline);
 
 /// Writes all parts in the format, one after the other; a run does the same with many processes at once.
 void write_format(const Format& format, const PartSource& parts, ExportFiles& files);

@@ -60,6 +60,16 @@ void require_order(const Format& format, int order) {
                             order, format.highest_order, others));
 }
 
+std::string tell_values_left_out(const Format& format, const MeshOutline& outline) {
+    if (outline.values.empty() || format.has_values) return "";
+    std::string names, others;
+    for (const PartValues& values : outline.values)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", values.name);
+    for (const Format* other : table)
+        if (other->has_values) others += fmt::format("{}{}", others.empty() ? "" : ", ", other->name);
+    return fmt::format("{} has the mesh alone, without {}. {} have these, too.", format.name, names, others);
+}
+
 void write_format(const Format& format, const PartSource& parts, ExportFiles& files) {
     require_order(format, parts.outline().order);
     if (format.is_merged_only()) return format.write_merged(parts, {}, files, "mesh");

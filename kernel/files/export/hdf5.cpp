@@ -261,6 +261,7 @@ extern const Format hdf5_format = {.name = "hdf5",
                                                 return is_hdf5_of("hdf5", text) ||
                                                        text.find("<Xdmf Version=\"3.0\">") < 50;
                                             }},
+                                   .has_values = true,
                                    .write_whole = write_hdf5_whole,
                                    .write_part = write_hdf5_part,
                                    .write_merged = write_hdf5_merged};

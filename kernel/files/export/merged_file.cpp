@@ -141,7 +141,7 @@ MergedFile merge_parts(const PartSource& parts, const MergeRequest& request) {
                              ? main_place
                              : place_for(output.parent_path() / file.path, request.folder, format));
     MergedFile merged{written_parts.outline().vertices, written_parts.outline().tets(), 0,
-                      written_parts.outline().nodes()};
+                      written_parts.outline().nodes(), tell_values_left_out(format, written_parts.outline())};
     for (std::size_t i = 0; i < written.size(); ++i) {
         move_to(fs::path(beside.path()) / written[i].path, places[i]);
         merged.bytes += fs::file_size(places[i]);

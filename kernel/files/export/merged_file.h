@@ -21,8 +21,9 @@ struct MergeRequest {
 /// The mesh that merge_run() has written.
 struct MergedFile {
     std::int64_t vertices = 0, tets = 0;
-    std::int64_t bytes = 0;  ///< bytes of all files of the mesh
-    std::int64_t nodes = 0;  ///< vertices, and of order 2 the nodes on edges
+    std::int64_t bytes = 0;     ///< bytes of all files of the mesh
+    std::int64_t nodes = 0;     ///< vertices, and of order 2 the nodes on edges
+    std::string left_out = {};  ///< tell_values_left_out()
 };
 
 /// Returns the format that merges a run into a file with the ending of this one; null if there is none, also for a

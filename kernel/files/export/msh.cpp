@@ -321,6 +321,7 @@ extern const Format msh_format = {
     .help = "Gmsh MSH: gmsh; merged also deal.II, DOLFINx, meshio",
     .ending = ".msh",
     .kind = {"MSH file", [](std::string_view text) { return text.starts_with("$MeshFormat\n"); }},
+    .has_values = true,
     .patch_words = msh::readable_names,
     .write_part = msh::write_part,
     .write_merged = msh::write_merged};

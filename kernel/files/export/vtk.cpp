@@ -102,6 +102,7 @@ extern const Format vtk_format = {
     .help = "VTK's legacy format: VisIt, meshio, old programs",
     .ending = ".vtk",
     .kind = {"VTK file", [](std::string_view text) { return text.starts_with(vtk::legacy_begin); }},
+    .has_values = true,
     .write_merged = vtk::write_merged};
 
 }  // namespace kerf

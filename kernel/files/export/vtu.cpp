@@ -40,6 +40,7 @@ extern const Format vtu_format = {.name = "vtu",
                                   .ending = ".vtu",
                                   .kind = output_kind::vtu,
                                   .asks_for_one_part = true,
+                                  .has_values = true,
                                   .write_whole = vtu::write_joining_file,
                                   .write_part = vtu::write_piece,
                                   .write_merged = vtu::write_merged};

@@ -226,6 +226,15 @@ void finish_section(TextScanner& text, std::string_view name) {
     while (!text.at_end() && text.next_word() != end) continue;
 }
 
+// Reads the names of groups that stand behind the elements, as Neper writes them: facets get their patch as they come.
+void read_names_ahead(std::string_view bytes, const std::string& path, Model& model) {
+    constexpr std::string_view section = "\n$PhysicalNames";
+    const std::size_t found = bytes.find(section);
+    if (found == std::string_view::npos) return;
+    Source ahead(bytes.substr(found + section.size()), path);
+    read_physical_names(ahead, model);
+}
+
 // The name of the section that begins here, without its $.
 std::string_view read_section_name(TextScanner& text) {
     const std::string_view word = text.next_word();
@@ -245,6 +254,7 @@ void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& bui
     Model model;
     Elements elements(source, builder, model);
     std::optional<Version> version;
+    bool has_names = false;
     while (!source.text().at_end()) {
         const std::string_view name = read_section_name(source.text());
         const bool is_msh2 = version == Version::msh2;
@@ -252,7 +262,7 @@ void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& bui
             version = read_format(source);
         else if (!version && name != "Comments")
             source.fail("the section $MeshFormat is missing. Save the mesh again.");
-        else if (name == "PhysicalNames")
+        else if (name == "PhysicalNames" && !std::exchange(has_names, true))
             read_physical_names(source, model);
         else if (name == "Entities")
             read_entities(source, model);
@@ -260,9 +270,10 @@ void scan_gmsh(std::string_view bytes, const std::string& path, SoupBuilder& bui
             model.is_partitioned = true;
         else if (name == "Nodes")
             is_msh2 ? read_nodes_2(source, builder, model) : read_nodes_4(source, builder, model);
-        else if (name == "Elements")
+        else if (name == "Elements") {
+            if (!std::exchange(has_names, true)) read_names_ahead(bytes, path, model);
             is_msh2 ? read_elements_2(source, elements) : read_elements_4(source, model, elements);
-        else if (name == "NodeData" && builder.wants_scalars())
+        } else if (name == "NodeData" && builder.wants_scalars())
             read_node_data(source, builder, model);
         finish_section(source.text(), name);
     }

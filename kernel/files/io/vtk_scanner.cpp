@@ -46,6 +46,12 @@ constexpr std::array scalars = {
     NamedScalar{"vtkidtype", Scalar::int32},  // VTK writes its numbers with 32 bits
     NamedScalar{"unsigned_int", Scalar::uint32},
     NamedScalar{"long", Scalar::int64},
+    NamedScalar{"vtktypeint8", Scalar::int8},
+    NamedScalar{"vtktypeuint8", Scalar::uint8},
+    NamedScalar{"vtktypeint16", Scalar::int16},
+    NamedScalar{"vtktypeuint16", Scalar::uint16},
+    NamedScalar{"vtktypeint32", Scalar::int32},
+    NamedScalar{"vtktypeuint32", Scalar::uint32},
     NamedScalar{"vtktypeint64", Scalar::int64},
     NamedScalar{"unsigned_long", Scalar::uint64},
     NamedScalar{"vtktypeuint64", Scalar::uint64},

@@ -224,6 +224,9 @@ ExportSummary export_run(const ExportRequest& asked, Communicator& ranks, RunLis
     const PartSource& source = joined ? *joined : cells;
     ExportSummary summary{
         folder, {}, count_of(source.outline().parts), source.outline().vertices, source.outline().tets()};
+    for (const FormatPlace& place : places)
+        if (std::string note = tell_values_left_out(*place.format, source.outline()); !note.empty())
+            summary.notes.push_back(std::move(note));
     // Files that belong to no part are written by the root rank, which alone asks for files of others.
     const WriteTarget to{shared_staging, folder, target ? target->own() : std::set<std::string>(), options};
     summary.files = write_parts(ranks, source, places, to, request.threads, listener);

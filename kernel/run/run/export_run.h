@@ -28,6 +28,7 @@ struct ExportSummary {
     std::vector<RunFile> files;
     std::int32_t pieces = 0;
     std::int64_t vertices = 0, tets = 0;
+    std::vector<std::string> notes = {};  ///< sentences on what the formats leave out
 };
 
 /// Writes the parts of a finished run in all formats of the request. Collective.

@@ -120,6 +120,7 @@ void SolveStages::read_request() {
     in_agreement(ranks_, [&] {
         const SolveRequest& request = report_.request;
         report_.wanted = read_case(request.case_file);
+        if (request.modes == 0) require_effect(report_.wanted, request.case_file);
         report_.wanted.may_float = request.modes > 0;
         parts_ = std::make_unique<RunParts>(request.folder);
         const std::int64_t parts = std::ssize(parts_->outline().parts);

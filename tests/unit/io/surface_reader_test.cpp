@@ -579,10 +579,13 @@ TEST(OffReader, AcceptsCommentsCountsOnSeveralLinesAndColours) {
 TEST(GmshReader, NamesPatchesOfGroupsElseOfSurfaces) {
     const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n$MeshFormat\n$EndComments\n";
     const std::string nodes = "$Nodes\n4\n9 0 0 0\n-2 1 0 0\n70000 0 1 0\n1 1 1 0\n$EndNodes\n";
-    const Soup soup =
-        read_bytes(head + "$PhysicalNames\n2\n1 5 \"a curve\"\n2 6 \"in let\"\n$EndPhysicalNames\n" + nodes +
-                   "$Elements\n6\n1 2 2 6 1 9 -2 70000\n2 2 3 5 1 0 9 70000 -2\n3 2 2 6 1 9 70000 -2\n"
-                   "4 2 0 9 -2 70000\n5 2 1 0 9 -2 70000\n6 3 2 0 8 9 -2 1 70000\n$EndElements\n");
+    const std::string names = "$PhysicalNames\n2\n1 5 \"a curve\"\n2 6 \"in let\"\n$EndPhysicalNames\n";
+    const std::string elements =
+        "$Elements\n6\n1 2 2 6 1 9 -2 70000\n2 2 3 5 1 0 9 70000 -2\n3 2 2 6 1 9 70000 -2\n"
+        "4 2 0 9 -2 70000\n5 2 1 0 9 -2 70000\n6 3 2 0 8 9 -2 1 70000\n$EndElements\n";
+    const Soup soup = read_bytes(head + names + nodes + elements);
+    // Neper writes the names last.
+    EXPECT_EQ(read_bytes(head + nodes + elements + names).patch_names, soup.patch_names);
     EXPECT_EQ(soup.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {0, 1, 2}, {0, 1, 3}, {0, 3, 2}}));
     EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 2, 2, 3, 3}));
     EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"in let", "physical_5", "surface_0", "surface_8"}));
