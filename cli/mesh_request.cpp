@@ -15,6 +15,7 @@
 #include "base/core/error.h"
 #include "files/export/format.h"
 #include "files/export/merged_file.h"
+#include "files/io/output_file.h"
 #include "help/nearest.h"
 #include "run/request/config_file.h"
 #include "run/request/saved_run.h"
@@ -77,6 +78,17 @@ void refuse_what_no_file_holds(const RunRequest& options, const std::string& fil
         refuse(fmt::format("--format {} asks for other files", options.outputs.formats));
 }
 
+// A name that looks like one of a file would become that of a folder.
+void refuse_unknown_ending(const std::string& output) {
+    std::vector<std::string> endings;
+    for (const Format* format : formats())
+        if (format->ending) endings.emplace_back(format->ending);
+    const std::string ending = std::filesystem::path(output).extension().string();
+    refuse_file_name(
+        "--output", output,
+        fmt::format("{} Files of one mesh end with {}.", did_you_mean(ending, endings), fmt::join(endings, " ")));
+}
+
 // Chooses the places of the result. A mesh in one file is that of a run in a folder beside it.
 void settle_output(MeshRequest& request) {
     RunRequest& options = request.options;
@@ -84,7 +96,7 @@ void settle_output(MeshRequest& request) {
     request.has_usual_output = options.output.empty();
     if (request.has_usual_output) options.output = usual_output(options);
     const Format* format = find_merged_format(options.output);
-    if (!format) return;
+    if (!format) return refuse_unknown_ending(options.output);
     refuse_what_no_file_holds(options, options.output, *format);
     options.outputs.formats.clear();
     request.merged_file = options.output;

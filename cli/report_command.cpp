@@ -35,8 +35,8 @@ void refuse_inside(const ReportRequest& request) {
 void require_page(const std::string& output) {
     const std::string suffix = std::filesystem::path(output).extension().string();
     if (suffix == ".html" || suffix == ".htm") return;
-    throw Error(ErrorCode::usage,
-                fmt::format("--output {}: the page is a file of HTML. Name it {}.html.", output, output));
+    throw Error(ErrorCode::usage, fmt::format("--output {}: the page is a file of HTML. Name it {}.", output,
+                                              std::filesystem::path(output).replace_extension(".html").string()));
 }
 
 std::string summary(const ReportPage& page, const std::string& output) {

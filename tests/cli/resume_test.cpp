@@ -239,16 +239,25 @@ TEST_F(Resume, APartThatATimeLimitHasShapedIsSaidAndNotTakenOverUnderAnotherLimi
     EXPECT_FALSE(files_of("same") == expected);
 }
 
-TEST_F(Resume, NothingOfARunWithOtherOptionsSurvives) {
+// Other options by mistake do not cost the work that is done, and nothing of it gets into a run with others.
+TEST_F(Resume, ARunWithOtherOptionsIsRefusedUntilTheInterruptedOneIsGone) {
     const auto coarse = [&](const std::string& output) {
         return std::vector<std::string>{"mesh", input_, "-o", folder_.file(output), "-n", "4"};
     };
     ASSERT_EQ(test::run_kerf(coarse("coarse")).exit_code, 0);
     interrupt(SIGKILL);
+    const ChildResult refused = test::run_kerf(coarse("out"));
+    EXPECT_EQ(refused.exit_code, 2) << refused.log;
+    EXPECT_NE(refused.log.find("of an interrupted run, which differs in "), std::string::npos) << refused.log;
+    EXPECT_NE(refused.log.find("--resume"), std::string::npos) << refused.log;
+    const ChildResult resumed = test::run_kerf({"mesh", "--resume", folder_.file("out")});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.log;
+    EXPECT_GT(resumed_parts(), 0u);
+    interrupt(SIGKILL);
+    fs::remove_all(folder_.file("out.kerf-partial"));
     const ChildResult result = test::run_kerf(coarse("out"));
     EXPECT_EQ(result.exit_code, 0) << result.log;
     EXPECT_EQ(resumed_parts(), 0u);
-    EXPECT_NE(result.log.find("parts of an interrupted run were no longer of use"), std::string::npos) << result.log;
     EXPECT_TRUE(files_of("out") == files_of("coarse"));
     EXPECT_FALSE(fs::exists(folder_.file("out/work")));
 }

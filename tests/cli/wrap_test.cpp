@@ -36,6 +36,19 @@ TEST_F(Wrapping, MakesASurfaceThatCheckCallsClean) {
     EXPECT_EQ(checked.exit_code, 0) << checked.log;
 }
 
+// Without its lid a box is a wall that is filled, not a body: the volumes say so.
+TEST_F(Wrapping, TellsThatOnlyTheWallAroundAnOpeningIsFilled) {
+    Soup open = test::box();
+    std::erase_if(open.facets, [&](const Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](std::int32_t v) { return open.vertices[v].z() == 1; });
+    });
+    test::write_off(folder_.file("open.off"), open.vertices, open.facets);
+    const ChildResult wrapped =
+        test::run_kerf({"wrap", folder_.file("open.off"), "-o", folder_.file("around.obj"), "--gap", "8%"});
+    EXPECT_EQ(wrapped.exit_code, 0) << wrapped.log;
+    EXPECT_NE(wrapped.log.find("only the wall around it is filled"), std::string::npos) << wrapped.log;
+}
+
 TEST_F(Wrapping, IsPartOfARunThatTellsOfIt) {
     const std::string out = folder_.file("out");
     const ChildResult meshed =

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -20,17 +21,24 @@ KERF_FORMATS(KERF_DECLARE)
 namespace {
 #define KERF_ADDRESS(name) &name##_format,
 constexpr std::array table = {KERF_FORMATS(KERF_ADDRESS)};
+
+bool is_in_any_case(std::string_view word, std::string_view text) {
+    const auto are_equal = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+    return std::search(text.begin(), text.end(), word.begin(), word.end(), are_equal) != text.end();
+}
 }  // namespace
 
 std::span<const Format* const> formats() { return table; }
 
 const Format& find_format(std::string_view name) {
-    std::string names;
+    std::string names, reader;
     for (const Format* format : table) {
         if (format->name == name) return *format;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", format->name);
+        if (!name.empty() && reader.empty() && is_in_any_case(name, format->help)) reader = format->name;
     }
-    throw Error(ErrorCode::usage, fmt::format("'{}' is no format. There are {}.", name, names));
+    throw Error(ErrorCode::usage, fmt::format("'{}' is no format. There are {}.{}", name, names,
+                                              reader.empty() ? "" : fmt::format(" Did you mean {}?", reader)));
 }
 
 std::vector<const Format*> parse_formats(std::string_view list) {

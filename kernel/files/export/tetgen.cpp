@@ -74,12 +74,15 @@ void write_merged(const PartSource& parts, const MergeOptions&, ExportFiles& fil
 
 }  // namespace tetgen
 
-extern const Format tetgen_format = {
-    .name = "tetgen",
-    .help = "TetGen's .node, .ele and .face",
-    .ending = ".node",
-    .kind = {"TetGen file",
-             [](std::string_view text) { return text.starts_with("# marker ") || (text[0] >= '0' && text[0] <= '9'); }},
-    .write_merged = tetgen::write_merged};
+extern const Format tetgen_format = {.name = "tetgen",
+                                     .help = "TetGen's .node, .ele and .face",
+                                     .ending = ".node",
+                                     .kind = {"TetGen file",
+                                              [](std::string_view text) {
+                                                  return text.starts_with("# marker ") ||
+                                                         text.starts_with("# attribute ") ||
+                                                         (text[0] >= '0' && text[0] <= '9');
+                                              }},
+                                     .write_merged = tetgen::write_merged};
 
 }  // namespace kerf

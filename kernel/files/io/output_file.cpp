@@ -174,16 +174,16 @@ void require_writable(const std::string& option, const std::string& path, const 
                                                option, path, kind.name));
 }
 
-void refuse_file_name(const std::string& option, const std::string& folder) {
+void refuse_file_name(const std::string& option, const std::string& folder, const std::string& hint) {
     const std::string ending = fs::path(folder).extension().string();
     const bool is_of_file =
         ending.size() > 1 && std::isalpha(static_cast<unsigned char>(ending[1])) != 0 &&
         std::all_of(ending.begin() + 1, ending.end(), [](unsigned char c) { return std::isalnum(c); });
     std::error_code error;
     if (!is_of_file || fs::exists(folder, error)) return;
-    throw Error(ErrorCode::usage, fmt::format("{} is {}, the name of a file, but a folder is made there. If you want a "
-                                              "folder of that name, end it with a slash: {}/.",
-                                              option, folder, folder));
+    throw Error(ErrorCode::usage, fmt::format("{} is {}, the name of a file, but a folder is made there.{} If you want "
+                                              "a folder of that name, end it with a slash: {}/.",
+                                              option, folder, hint, folder));
 }
 
 std::FILE* open_output(const std::string& path) {

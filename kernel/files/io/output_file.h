@@ -37,7 +37,8 @@ void require_writable(const std::string& option, const std::string& path, const 
 
 /// Throws Error(usage), with the way out, for a folder to be made whose name looks like that of a file, as "part.stl":
 /// it ends with a dot, a letter, and letters or digits, without a slash. A folder that exists may have any name.
-void refuse_file_name(const std::string& option, const std::string& folder);
+/// `hint`: a sentence on files that may have been meant, with a blank before it.
+void refuse_file_name(const std::string& option, const std::string& folder, const std::string& hint = "");
 
 /// Opens a file to be written from its beginning. `fd:N`, /dev/stdout, /dev/stderr and /dev/fd/N are the process's own
 /// descriptors: they are written to where they stand, and stay open. Returns null with errno if the file cannot be

@@ -153,7 +153,8 @@ void read_ascii(std::string_view text, const std::string& path, SoupBuilder& bui
     std::int64_t without_end = 0;
     for (int solid = 1; !scanner.at_end(); ++solid) {
         expect(scanner, "solid");
-        const std::string_view name = scanner.rest_of_line();
+        std::string_view name = scanner.rest_of_line();
+        if (name.size() > 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
         builder.set_patch(name.empty() ? "solid_" + std::to_string(solid) : std::string(name));
         for (std::string_view word = scanner.next_word(); !ends_solid(scanner, word);) {
             if (!is_keyword(word, "facet")) refuse(scanner, "facet\" or \"endsolid", word);

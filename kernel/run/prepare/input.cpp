@@ -115,7 +115,10 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     input.path = path;
     Soup& soup = checked.soup;
     if (!checked.diagnosis.clean()) {
-        const std::string message = fmt::format("{}: {}{}", path, checked.diagnosis.summary(soup), advice);
+        const bool is_open = checked.diagnosis.count(DefectKind::open_edge) > 0;
+        const std::string message =
+            fmt::format("{}: {}{}{}", path, checked.diagnosis.summary(soup),
+                        is_open ? " Ends of a vessel get patches of their own by --cap." : "", advice);
         throw UnfitSurface(message, std::move(checked));
     }
     const std::vector<std::string> gap_notes = notes_on_gaps(checked);
@@ -142,6 +145,10 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     if (soup.patch_colours.size() == soup.patch_names.size()) input.patch_colours = soup.patch_colours;
     input.diagonal = diagonal_of(soup);
     input.largest_cells = largest_cells_of(soup);
+    if (!input.largest_cells.empty())
+        input.notes.emplace_back(
+            "The file bounds the volumes of cells in its regions: beside --size these hold, too. --size-region takes "
+            "their place.");
     input.complex = make_complex(std::move(soup));
     measure_input(input);
     return input;
@@ -269,11 +276,31 @@ Input input_of_arrays(Soup soup, const InputChoices& choices, const std::functio
     return input;
 }
 
+// Bodies that lie inside of others and fit are regions as they are: steps that make one body of all would leave the
+// inner ones out. Nothing: there are no such bodies, or more is asked for than to mend what is wrong.
+std::optional<CheckedSoup> bodies_that_fit(const InputFiles& files, const InputChoices& choices,
+                                           double needle_angle_deg, const std::function<void()>& check_cancelled) {
+    const RepairPlan& plan = choices.repairs;
+    const bool are_bodies = files.soup.patch_names.size() > 1 && files.soup.sides.empty() && files.walls.empty();
+    const bool may_lose_some =
+        plan.find(RepairKind::intersections) != nullptr && plan.bodies == BodyRepair::as_found && choices.seeds.empty();
+    if (!are_bodies || !may_lose_some || choices.options.wraps() || is_preparation(plan.steps.front().kind)) return {};
+    for (const RepairKind kind : {RepairKind::caps, RepairKind::thicken, RepairKind::snap})
+        if (plan.find(kind) != nullptr) return {};
+    InputChoices as_read = choices;
+    as_read.repairs = {};
+    CheckedSoup checked = check_files(files, as_read, needle_angle_deg, check_cancelled);
+    if (!checked.diagnosis.clean() || checked.soup.sides.empty()) return {};
+    return checked;
+}
+
 }  // namespace
 
 CheckedSoup check_files(InputFiles files, const InputChoices& choices, double needle_angle_deg,
                         const std::function<void()>& check_cancelled) {
     const InputOptions& options = choices.options;
+    if (std::optional<CheckedSoup> as_read = bodies_that_fit(files, choices, needle_angle_deg, check_cancelled))
+        return *std::move(as_read);
     CheckedSoup checked{std::move(files.soup), {}};
     checked.faces_of_patches = std::move(files.faces_of_patches);
     Soup& soup = checked.soup;

@@ -17,6 +17,7 @@
 
 #include "base/core/ids.h"
 #include "base/core/number_text.h"
+#include "base/core/shell_word.h"
 #include "base/geometry/box.h"
 #include "base/geometry/triangle.h"
 #include "files/io/cad_body.h"
@@ -210,7 +211,7 @@ std::string line_on_air(const Array<RegionIndex, RegionSummary>& regions, const 
         else if (region.outer_area > 0)
             return "";
         else if (holes.size() < most_named)
-            holes.push_back("--hole " + region.name);
+            holes.push_back("--hole " + shell_word(region.name));
     if (air.empty() || std::abs(measures.volume.value_or(0) / measures.box.volume() - 1) > rounding) return "";
     if (regions.size() > most_named + 1) holes.emplace_back("...");
     return fmt::format("  flow      {} is a box around the others: {} leaves them empty, and {} alone is meshed.\n",

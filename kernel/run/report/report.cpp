@@ -328,6 +328,18 @@ std::string curve_text(const CurveReport& curve) {
     return text;
 }
 
+// Tells by how much a number of cells that was asked for was missed, where that is more than is promised.
+std::string missed_text(const RunReport& report) {
+    constexpr double promised = 0.15;
+    const FoundSize& found = *report.found_size;
+    const double ratio =
+        static_cast<double>(report.mesh.tets) / static_cast<double>(std::max<std::int64_t>(1, found.cells));
+    if (std::abs(ratio - 1) <= promised) return "";
+    return fmt::format("; {:.0f} % {} than asked for: the forecast errs on such a shape, ask for {} to come nearer",
+                       100 * std::abs(ratio - 1), ratio > 1 ? "more" : "fewer",
+                       short_number(std::clamp(static_cast<double>(found.cells) / ratio, 1.0, 1e12)));
+}
+
 // Returns how long edges are beside what was asked for, and why they are shorter if they are by much.
 std::string mean_size_text(const RunReport& report) {
     constexpr double much_shorter = 0.9;
@@ -365,7 +377,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     lines.add("mesh", fmt::format("{} tetrahedra, {} vertices{}{}", grouped(report.mesh.tets),
                                   grouped(report.mesh.vertices), nodes, parts));
     lines.add("regions", regions_text(report));
-    if (report.found_size) lines.add("cells", found_size_text(*report.found_size));
+    if (report.found_size) lines.add("cells", found_size_text(*report.found_size) + missed_text(report));
     if (all) lines.add("filled", ways_text(report));
     if (all) lines.add("recovered", recovery_text(report.mesh.recovery));
     if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
@@ -389,6 +401,10 @@ std::string volume_text(const RunReport& report) {
     const double volume = input.volume + (report.curve ? report.curve->volume_gain : 0);
     const bool is_as_read = input.ladder.steps.empty() && !input.ladder.changed() && !input.wrapped;
     const char* of = input.enclosure ? "the box without bodies" : is_as_read ? "the file" : "the repaired surface";
+    // Flat facets are a matter of how a CAD file was read, not of its body.
+    if (report.curve && input.is_cad)
+        return fmt::format("{:.7g} with its curved cells; the flat facets that it began with have {:.7g}", volume,
+                           before);
     if (volume == before) return fmt::format("{:.7g}, as {} has it", volume, of);
     return fmt::format("{:.7g}; {} has {:.7g}, difference {:+.1e}", volume, of, before,
                        (volume - before) / input.reference_volume(before)) +

@@ -230,7 +230,8 @@ constexpr OptionRow<SizeOptions> size_rows[] = {
      "Repeatable.",
      place<&SizeOptions::on>},
     {"size-region", "", option_group::sizes, "NAME=H",
-     "Edge length H in a region, in place of --size, as NAME=H. Repeatable.", place<&SizeOptions::in_region>},
+     "Edge length H in regions, in place of --size, as NAME=H; * stands for any characters. Repeatable.",
+     place<&SizeOptions::in_region>},
     {"size-near", "", option_group::sizes, "NAME=H:D",
      "Edge length H up to the distance D from a patch, as NAME=H:D. Repeatable.", place<&SizeOptions::near>},
     {"growth", "", option_group::sizes, "G",
@@ -291,7 +292,7 @@ constexpr OptionRow<RunRequest> meshing_rows[] = {
     {"deviation", "", option_group::input, "D",
      "Largest distance of a remeshed surface from the input, in its units, or with % of its diagonal. Default: a "
      "twentieth of the shortest edge that is wanted, or 0.05% if none is; less where the body is thin; of a wrap, a "
-     "tenth of the gap if that is more. Volumes are held unless it is given.",
+     "tenth of the gap if that is more. Volumes are held, but for those of folds that it takes out.",
      place<&RunRequest::deviation>, true, deviation_range},
     {"order",
      "",

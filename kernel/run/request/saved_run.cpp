@@ -42,6 +42,15 @@ RunRequest load_saved_run(const std::string& file) {
     return options;
 }
 
+bool is_readable(const std::string& saved_run_file) {
+    try {
+        load_saved_run(saved_run_file);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 void save_run(const std::string& path, const RunRequest& options, const std::string& input_hash) {
@@ -84,14 +93,23 @@ void refuse_changed_input(const RunRequest& options, const std::string& input_ha
 }
 
 bool is_same_run(const std::string& saved_run_file, const RunRequest& options, const std::string& input_hash) {
+    std::error_code ignored;
+    return std::filesystem::exists(saved_run_file, ignored) && is_readable(saved_run_file) &&
+           differences_of_runs(saved_run_file, options, input_hash).empty();
+}
+
+std::string differences_of_runs(const std::string& saved_run_file, const RunRequest& options,
+                                const std::string& input_hash) {
     try {
         const RunRequest saved = load_saved_run(saved_run_file);
+        if (saved.input_hash != input_hash) return "the input";
         const std::vector<OptionText> one = option_texts(saved, true), other = option_texts(options, true);
-        return saved.input_hash == input_hash &&
-               std::equal(one.begin(), one.end(), other.begin(), other.end(),
-                          [](const OptionText& a, const OptionText& b) { return a.text == b.text; });
+        std::string names;
+        for (std::size_t i = 0; i < one.size(); ++i)
+            if (one[i].text != other[i].text) names += (names.empty() ? "" : ", ") + one[i].name;
+        return names;
     } catch (const Error&) {
-        return false;
+        return "";
     }
 }
 

@@ -24,6 +24,11 @@ void refuse_changed_input(const RunRequest& options, const std::string& input_ha
 /// Whether a run with these options would have the same part files as the one that has written the file.
 bool is_same_run(const std::string& saved_run_file, const RunRequest& options, const std::string& input_hash);
 
+/// Returns what a run with these options has else than the one that has written the file: "size, parts", "the input";
+/// empty if that is the same run, or cannot be read.
+std::string differences_of_runs(const std::string& saved_run_file, const RunRequest& options,
+                                const std::string& input_hash);
+
 /// Returns the K of the run of this input that was interrupted, or failed in part, while it wrote to the folder
 /// `output`; 0 if there is none that can be read.
 std::int32_t interrupted_part_count(const std::string& output, const std::string& input_hash);

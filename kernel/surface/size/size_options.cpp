@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
 #include <string_view>
 
@@ -211,18 +212,20 @@ double SizeOptions::constant_max_volume() const {
 
 Array<RegionIndex, double> SizeOptions::max_volumes_of_regions(std::span<const std::string> regions) const {
     Array<RegionIndex, double> volumes(in_region.empty() ? 0 : regions.size(), 0);
+    std::set<std::string> names;
     for (const std::string& text : in_region) {
         const auto [name, wanted, reach] = parse_in_region(text);
-        const auto found = std::find(regions.begin(), regions.end(), name);
-        if (found == regions.end())
-            throw Error(
-                ErrorCode::usage,
-                fmt::format("--size-region names the region '{}', but {}.", name,
-                            regions.empty() ? std::string("the input is one body without regions")
-                                            : fmt::format("those of the input are {}", fmt::join(regions, ", "))));
-        double& volume = volumes[found - regions.begin()];
-        if (volume > 0) throw Error(ErrorCode::usage, fmt::format("--size-region names the region '{}' twice.", name));
-        volume = largest_volume_for(mean_over_size() * wanted.number());
+        if (regions.empty())
+            throw Error(ErrorCode::usage, fmt::format("--size-region names the region '{}', but the input is one body "
+                                                      "without regions: --size is its size.",
+                                                      name));
+        if (!names.insert(name).second)
+            throw Error(ErrorCode::usage, fmt::format("--size-region names the region '{}' twice.", name));
+        const double largest = largest_volume_for(mean_over_size() * wanted.number());
+        for (const std::int32_t region : matching_names("--size-region", "region", name, regions)) {
+            double& volume = volumes[region];
+            volume = volume > 0 ? std::min(volume, largest) : largest;
+        }
     }
     return volumes;
 }

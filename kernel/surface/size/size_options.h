@@ -43,7 +43,7 @@ struct SizeOptions {
     std::vector<std::string> inside;     ///< box:x0,y0,z0,x1,y1,z1=H, sphere:x,y,z,r=H, cylinder:x0,y0,z0,x1,y1,z1,r=H
     std::vector<std::string> on;         ///< NAME=H: on a patch
     std::vector<std::string> near;       ///< NAME=H:D: up to the distance D from a patch
-    std::vector<std::string> in_region;  ///< NAME=H: in a region, in place of `size`
+    std::vector<std::string> in_region;  ///< NAME=H: in regions, in place of `size`; '*' stands for any characters
     double growth = 0;  ///< increase of sizes per distance; if given, the surface's edges ask for their lengths, too
     std::string field_file;  ///< a mesh of tetrahedra with a size at every node
     Length chord_error;      ///< see CurvatureSizes
@@ -73,9 +73,9 @@ struct SizeOptions {
     /// Returns the growth for cells beside facets that are kept. Where nobody gives a size, and the fineness is fine,
     /// they grow from the edges of the surface by usual_growth, if no growth is given.
     double growth_beside_kept_facets() const;
-    /// Returns the largest volume of a tetrahedron in each of these regions, from `in_region` with resolved lengths, 0
-    /// for regions that it does not name; empty if `in_region` is. Throws Error(usage) for a name that is none of the
-    /// regions', or that comes twice.
+    /// Returns the largest volume of a tetrahedron in each of these regions, from `in_region` with resolved lengths,
+    /// the smallest of several, 0 for regions that it does not name; empty if `in_region` is. Throws Error(usage) for a
+    /// name that is none of the regions', or that comes twice.
     Array<RegionIndex, double> max_volumes_of_regions(std::span<const std::string> regions) const;
     /// Whether any option but a constant is given, so that the field follows from the surface and files.
     bool depends_on_place() const {

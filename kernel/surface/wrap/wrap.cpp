@@ -86,6 +86,29 @@ std::vector<std::int32_t> patches_of_wrap(const TriangleSet& wrap, const Triangl
     return patch;
 }
 
+// Returns the volume between the facets and the middle of their box, which openings change little.
+double bounded_volume(const TriangleSet& surface) {
+    const Vec3 middle = box_around(surface.vertices).center();
+    double six_volumes = 0;
+    for (const auto& [a, b, c] : surface.facets) {
+        const std::vector<Vec3>& p = surface.vertices;
+        six_volumes += (p[a] - middle).cross(p[b] - middle).dot(p[c] - middle);
+    }
+    return std::abs(six_volumes) / 6;
+}
+
+// Tells a volume that is not what one may have taken the facets for.
+std::string volume_text(const WrapReport& report) {
+    constexpr double alike = 0.05;
+    std::string text = fmt::format("; volume {:.6g}", report.volume);
+    const double ratio = report.volume / report.volume_of_input;
+    if (!(report.volume_of_input > 0) || std::abs(ratio - 1) < alike) return text;
+    text += fmt::format(", where the facets bound about {:.6g}", report.volume_of_input);
+    return text + (ratio < 1 ? ": bodies that overlap count once, and where an opening is wider than the gap, only "
+                               "the wall around it is filled (a larger --gap, --fill-holes or --cap closes it)"
+                             : ": hollows that nothing leads into are filled, too");
+}
+
 // Puts the wrap into the soup, in the place of its surface.
 void put_wrap_into(Soup& soup, TriangleSet wrap, std::vector<std::int32_t> patch) {
     Soup wrapped{std::move(wrap.vertices), std::move(wrap.facets), std::move(patch), std::move(soup.patch_names)};
@@ -148,6 +171,8 @@ WrapReport wrap(Soup& soup, const WrapOptions& options, const std::function<void
     TriangleSet wrapped = pulled_back(alpha_wrap(before, report.gap / 2, report.offset, check_cancelled), tree,
                                       report.offset, check_cancelled);
     report.facets = std::ssize(wrapped.facets);
+    report.volume = bounded_volume(wrapped);
+    report.volume_of_input = bounded_volume(before);
 
     report.distance_to_input = proven_distance(wrapped.vertices, wrapped.facets, {}, tree, before.facets,
                                                no_length_of_wrap * diagonal, check_cancelled);
@@ -167,9 +192,9 @@ std::string to_text(const WrapReport& report) {
                             : "";
     return fmt::format(
         "{} facets around {}{}, gap {:.3g}, offset {:.3g}; at most {:.2g} from the input, whose {} "
-        "visible facets are at most {:.2g} from it",
+        "visible facets are at most {:.2g} from it{}",
         grouped(report.facets), grouped(report.facets_before), left_out, report.gap, report.offset,
-        report.distance_to_input, grouped(report.seen), report.distance_from_input);
+        report.distance_to_input, grouped(report.seen), report.distance_from_input, volume_text(report));
 }
 
 }  // namespace kerf

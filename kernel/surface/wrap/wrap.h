@@ -28,6 +28,9 @@ struct WrapReport {
     std::int64_t facets = 0;         ///< facets of the wrap
     double distance_to_input = 0;    ///< no point of the wrap is further from the surface; proven
     double distance_from_input = 0;  ///< no point of the facets seen is further from the wrap; proven
+    double volume = 0;               ///< volume of the wrap
+    /// Volume that the facets bound, where they are closed and turned alike, and about so where they nearly are.
+    double volume_of_input = 0;
 };
 
 /// Replaces facets of any kind by a closed, manifold surface without intersections around them, its normals pointing

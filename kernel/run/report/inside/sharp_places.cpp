@@ -23,11 +23,16 @@ std::string way_to_better_facets(const RunReport& report) {
     if (!input.remeshed || input.remeshed->only_divided) return "--surface remesh makes better facets.";
     if (input.remeshed->facets_kept > 0)
         return "These facets were kept where others were remeshed: --surface remesh makes all of them new.";
-    return "A larger --deviation leaves the new facets more room; what edges and borders of patches pin down stays.";
+    const std::string help = "A larger --deviation leaves the new facets more room; edges and borders of patches stay.";
+    return report.request.input_options.feature_angle_deg > 0
+               ? help + " A larger --feature-angle has fewer such borders."
+               : help;
 }
 
 std::string way_to_wider_walls(const RunReport& report) {
-    const std::string help = "Facets as small as the walls are near help: --cells-across 1, or a --size-on there.";
+    const std::string help =
+        "A fold goes with a --deviation larger than that; at walls, facets as small as they are near help: a --size-in "
+        "there, or --cells-across 1, everywhere.";
     if (report.input.components < 2) return help;
     return fmt::format("{} Bodies that are meant to touch: --{}.", help,
                        report.input.is_cad ? "unite" : "repair full,snap,bodies=regions");
@@ -36,7 +41,7 @@ std::string way_to_wider_walls(const RunReport& report) {
 std::string way_out_of(SharpnessCause cause, const RunReport& report) {
     switch (cause) {
         case SharpnessCause::edge:
-            return "Nothing helps: every mesh of this body has such cells there.";
+            return "Every mesh of this surface has such cells there; a fold goes with a --deviation larger than it is.";
         case SharpnessCause::walls:
             return way_to_wider_walls(report);
         case SharpnessCause::facet:

@@ -104,15 +104,30 @@ std::vector<RunFile> list_run_files(const RunContext& run, const RunFolder& fold
     return written;
 }
 
+// Hours of work are not lost to a command line that differs by mistake.
+void refuse_to_lose_parts(const RunRequest& request, const Input& input, const RunFolder& folder) {
+    const std::size_t finished = folder.finished_parts();
+    if (finished == 0) return;
+    const std::string others = differences_of_runs(folder.saved_run_file(), request, input.file_hash);
+    if (others.empty()) return;
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("{} holds {} finished part{} of an interrupted run, which differs in {}. kerf mesh --resume "
+                    "{} goes on with that one. To start anew, remove it, or choose another --output.",
+                    folder.partial_path(), finished, finished == 1 ? "" : "s", others, request.output));
+}
+
 }  // namespace
 
 RunFolder open_folder(const RunContext& run, const Input& input) {
     const RunRequest& request = run.plan.request();
     return open_together(run.ranks, [&] {
         if (request.transient) return RunFolder::create_transient(request.output);
-        return RunFolder::create(request.output, [&](const std::string& saved) {
+        RunFolder folder = RunFolder::create(request.output, [&](const std::string& saved) {
             return request.volume && is_same_run(saved, request, input.file_hash);
         });
+        refuse_to_lose_parts(request, input, folder);
+        return folder;
     });
 }
 
