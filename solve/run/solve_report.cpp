@@ -248,6 +248,19 @@ std::string place_of_material(const MaterialUse& use, const SolveReport& report)
     return is_of_region ? fmt::format(", in {}", use.material.name) : ", in all that has no other material";
 }
 
+// Tells an error that is large, or larger than was asked for, and what lowers it.
+std::string line_of_error(const SolveReport& report) {
+    constexpr double large = 0.1;
+    const double error = report.relative_error();
+    const char* help = report.wanted.solver.order < 2 ? "order = 2 in [solver], or a finer mesh, lowers it"
+                                                      : "a finer mesh lowers it, where it is needed by --adapt";
+    const std::optional<double>& target = report.request.target_error;
+    if (target && *target > 0 && error > *target)
+        return line_of("note", fmt::format("the error is {:.1f} %, not {:.1f} % as asked for: {}", 100 * error,
+                                           100 * *target, help));
+    return error > large ? line_of("note", fmt::format("the error is large: {}", help)) : "";
+}
+
 std::string material_text(const MaterialUse& use, const SolveReport& report) {
     const Material& material = use.material;
     return fmt::format("{}{}: young {:g}, poisson {:g}, density {:g}{}{}", material.name,
@@ -267,6 +280,7 @@ std::string to_text(const SolveReport& report) {
     for (const std::string& note : report.wanted.notes) text += line_of("note", note);
     for (const CaseReport& of_case : report.cases) text += case_text(of_case, report.reacting);
     text += to_text(report.modes);
+    if (!report.cases.empty()) text += line_of_error(report);
     if (report.wanted_of_next > 0)
         text +=
             line_of("next mesh", fmt::format("for an error of {:.1f} %: kerf mesh ... --surface remesh --size-field "

@@ -184,7 +184,7 @@ TEST_F(Quality, OfARunThatIsBadIsExplained) {
         std::string file, cause, words;
     };
     for (const auto& [file, cause, words] :
-         {Bad{write("wedge.obj", prism(0.03, 0.2)), "edge", "an edge of 1.7 degrees there. Nothing helps"},
+         {Bad{write("wedge.obj", prism(0.03, 0.2)), "edge", "an edge of 1.7 degrees there. Every mesh of this surface"},
           Bad{write("long.obj", prism(0.8, 150)), "facet", "--surface remesh makes better ones."}}) {
         const ChildResult run = test::run_kerf({"mesh", file, "-o", path("bad"), "-n", "1", "--surface", "keep"});
         ASSERT_EQ(run.exit_code, 0) << run.log;

@@ -1,5 +1,6 @@
 // kerf repair as a user sees it, and the same repairs as an option of other commands.
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "support/file_contents.h"
 #include "support/program.h"
 #include "support/shapes.h"
+#include "support/surface_files.h"
 #include "support/temporary_folder.h"
 #include "support/write_off.h"
 
@@ -120,6 +122,20 @@ TEST_F(RepairCommand, SeveralFilesAreBodiesThatMayBecomeRegions) {
         EXPECT_EQ(refused.exit_code, 2) << refused.log;
         expect_said(refused.log, {"2 regions", "Write an .obj"});
     }
+}
+
+// Bodies with names of their own are regions where one lies inside of the other, and nothing is wrong with them.
+TEST_F(RepairCommand, BodiesInsideOfOthersStay) {
+    const std::string nested = folder_.file("nested.stl");
+    Soup skin = test::box(Vec3(0, 0, 0), Vec3(4, 4, 4)), skull = test::box(Vec3(1, 1, 1), Vec3(3, 3, 3));
+    skin.patch_names = {"skin"};
+    skull.patch_names = {"skull"};
+    for (Soup* body : {&skin, &skull}) body->patch.assign(body->facets.size(), 0);
+    std::ofstream(nested) << test::to_ascii_stl(skin) << test::to_ascii_stl(skull);
+    out_ = folder_.file("out.stl");
+    const ChildResult result = repair(nested, {});
+    EXPECT_EQ(result.exit_code, 0) << result.log;
+    EXPECT_EQ(test::bytes_of_file(out_), test::bytes_of_file(nested));
 }
 
 // Two boxes whose sides are nearer than what 32-bit floats tell apart.

@@ -44,3 +44,4 @@ flow() {
 flow car tunnel 40 "$assets/flow/car.stl" --box 1,0.5,2 --ground 0 --box-size 1.2
 flow half tunnel 40 "$assets/flow/car.stl" --box=-4,0,-1,10,3,4 --box-size 1.2 --patch-type side_y_min=symmetry
 flow vessel artery 30 "$assets/flow/vessel.stl" --cap
+grep -q "type  *wall" "$folder"/vessel/export/openfoam/processor0/constant/polyMesh/boundary || fail "the vessel is no wall"

@@ -232,6 +232,26 @@ TEST_F(CaseFile, OfNewerKindsIsRefusedWithLineAndWayOut) {
     expect_refused(steel_ + "[solver]\ninertia_relief = 1", {"line 5", "only be true"});
 }
 
+// A load that nothing answers to would be a result of zeros.
+TEST_F(CaseFile, WithoutEffectIsRefused) {
+    const auto why = [&](const std::string& more) -> std::string {
+        try {
+            require_effect(read(more), "case.toml");
+            return "";
+        } catch (const Error& error) {
+            return error.what();
+        }
+    };
+    const std::string light = "[material.a]\nyoung = 1\npoisson = 0\n", heavy = light + "density = 1\n";
+    const std::string weight = "[gravity]\nacceleration = [0, 0, 1]\n", warmth = "[temperature]\ndifference = 1\n";
+    EXPECT_NE(why(light).find("loads nothing"), std::string::npos) << why(light);
+    EXPECT_NE(why(light + weight).find("'a' has no density"), std::string::npos) << why(light + weight);
+    EXPECT_NE(why(light + warmth).find("no material has an expansion"), std::string::npos) << why(light + warmth);
+    EXPECT_EQ(why(heavy + weight), "");
+    EXPECT_EQ(why(light + "expansion = 1\n" + warmth), "");
+    EXPECT_EQ(why(light + "[[support]]\npatch = \"a\"\nx = 1\n"), "");
+}
+
 TEST_F(CaseFile, WithoutNamesIsOneCase) { EXPECT_EQ(read(steel_).names(), std::vector<std::string>{""}); }
 
 TEST_F(CaseFile, IsRefusedWithLineAndWayOut) {

@@ -89,12 +89,18 @@ void check_budget_before_remeshing(const Input& input, const RunChoices& choices
     check_budget(choices, mesher, parts, facets, volume, Facets::follow_size);
 }
 
-// Bodies and the ground are walls of the air, unless a type is asked for: what is asked for comes last and counts.
-void put_walls_around_air(const Input& input, std::vector<std::string>& patch_types) {
-    if (!input.enclosure) return;
+// Bodies and the ground are walls of the air, and all but caps of what flows in a vessel, unless a type is asked for:
+// what is asked for comes last and counts.
+void put_walls_of_flow(const Input& input, std::vector<std::string>& patch_types) {
+    const bool is_capped = input.ladder.done_by(RepairKind::caps) > 0;
+    if (!input.enclosure && !is_capped) return;
+    const auto is_wall = [&](const std::string& patch) {
+        if (!input.enclosure) return !patch.starts_with(cap_name);
+        return !input.enclosure->has_face(patch) || patch == Enclosure::ground;
+    };
     std::vector<std::string> types;
     for (const std::string& patch : input.patch_names)
-        if (!input.enclosure->has_face(patch) || patch == Enclosure::ground) types.push_back(patch + "=wall");
+        if (is_wall(patch)) types.push_back(patch + "=wall");
     patch_types.insert(patch_types.begin(), types.begin(), types.end());
 }
 
@@ -172,7 +178,7 @@ PlannedRun plan_surface(RunPlan plan, std::optional<Input> surface, int ranks, S
     }
     plan.size = read_size_field(sizes_of_cells(request.sizes, input), input);
     plan.region_sizes = RegionSizes(max_volumes_of_regions(request.sizes, input));
-    put_walls_around_air(input, request.outputs.patch_types);
+    put_walls_of_flow(input, request.outputs.patch_types);
     plan.choices.patch_types = parse_patch_types(request.outputs.patch_types);
     require_patches(plan.choices.patch_types, input.patch_names);
     if (request.outputs.split_regions) require_regions(input.complex.region_names().size());

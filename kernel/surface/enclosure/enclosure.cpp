@@ -109,24 +109,35 @@ std::string extent_text(const Box& box) {
                                               extent_text(enclosure.bodies), extent_text(enclosure.box)));
 }
 
+// Names of the faces of the box that bodies reach beyond.
+std::vector<std::string> faces_crossed(const Enclosure& enclosure) {
+    std::vector<std::string> names;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (enclosure.bodies.min()[axis] < enclosure.box.min()[axis]) names.push_back(enclosure.face_names[axis][0]);
+        if (enclosure.bodies.max()[axis] > enclosure.box.max()[axis]) names.push_back(enclosure.face_names[axis][1]);
+    }
+    return names;
+}
+
 // The number of the cell of air that counts. Notes what is left out.
 std::int32_t choose_air(const std::vector<CellPlace>& places, const std::vector<double>& volumes,
                         const Enclosure& enclosure, std::vector<std::string>& notes) {
     std::int32_t air = -1;
     std::int64_t spaces = 0;
-    double all = 0;
-    bool is_body_in_box = false, is_body_cut = false;
+    double all = 0, body_in_box = 0, body_beyond = 0;
     for (std::int32_t c = 0; c < count_of(places); ++c) {
-        is_body_in_box |= places[c].is_of_body_in_box();
-        is_body_cut |= places[c].body.is_valid() && !places[c].is_in_box;
+        if (places[c].body.is_valid()) (places[c].is_in_box ? body_in_box : body_beyond) += volumes[c];
         if (!places[c].is_air()) continue;
         ++spaces;
         all += volumes[c];
         if (air < 0 || volumes[c] > volumes[air]) air = c;
     }
-    if (!is_body_in_box) refuse_box("There is no body in the box of air", enclosure);
+    if (body_in_box == 0) refuse_box("There is no body in the box of air", enclosure);
     if (air < 0) refuse_box("There is no air in the box", enclosure);
-    if (is_body_cut) notes.push_back("The body reaches beyond the box of air, and is cut off at its faces.");
+    if (body_beyond > 0)
+        notes.push_back(fmt::format("{:.2g} % of the body lie beyond the box of air, and are cut off at {}.",
+                                    100 * body_beyond / (body_in_box + body_beyond),
+                                    fmt::join(faces_crossed(enclosure), ", ")));
     if (spaces > 1)
         notes.push_back(
             fmt::format("{} of the air in the box {} closed off from the rest and left out, {:.2g} % of its "

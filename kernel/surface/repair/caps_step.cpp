@@ -84,7 +84,7 @@ void caps_step(Soup& soup, const StepRequest& request, StepReport& report) {
     int number = 0;
     for (const std::size_t i : by_area) {
         said.capped.add(place_of_rim(soup, *filled[i].opening.rims[0]));
-        appender.append(filled[i], add_patch(soup, fmt::format("cap_{}", ++number)));
+        appender.append(filled[i], add_patch(soup, fmt::format("{}{}", cap_name, ++number)));
     }
     said.add_to(report);
 }

@@ -29,6 +29,9 @@ enum class RepairKind {
     renew,          ///< remaining defects go, with facets around them, and are filled
 };
 
+/// The name of the patch of a cap, before its number.
+inline constexpr const char* cap_name = "cap_";
+
 /// Returns whether a step prepares the surface for the others: it has an option of its own in place of a word, it takes
 /// surfaces whose facets say what they bound, too, and percentages of the steps behind it are of what it leaves.
 constexpr bool is_preparation(RepairKind kind) { return kind < RepairKind::weld; }

@@ -535,7 +535,7 @@ TEST(StlReader, AcceptsEndSolidInTwoWordsAndFacetsWithoutTheirEnd) {
 TEST(StlReader, MakesPatchesOfSolids) {
     const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     const Soup soup = read_bytes("solid a\n" + facet + "endsolid\nsolid\nendsolid\nsolid\n" + facet +
-                                 "endsolid\nsolid a\n" + facet + "endsolid a\n");
+                                 "endsolid\nsolid \"a\"\n" + facet + "endsolid a\n");
     EXPECT_EQ(soup.patch, (std::vector<std::int32_t>{0, 1, 0}));
     EXPECT_EQ(soup.patch_names, (std::vector<std::string>{"a", "solid_3"}));
 }

@@ -279,6 +279,10 @@ TEST(RegionInput, LargestCellsOfAFileAreItsRegionsSizes) {
     ASSERT_EQ(both.size(), 2U);
     EXPECT_GT(both[0], 0.1);
     EXPECT_EQ(both[1], 0);
+    sizes.in_region = {"region_*=1", "region_7=0.5"};
+    const Array<RegionIndex, double> finer = max_volumes_of_regions(sizes, input);
+    EXPECT_EQ(finer[0], both[0]);
+    EXPECT_LT(finer[1], finer[0]);
 }
 
 }  // namespace
