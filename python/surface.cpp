@@ -124,6 +124,7 @@ void register_surface(py::module_& module) {
     type.def_property_readonly("_repairs",
                                [](const SurfaceObject& self) { return decoded(to_json(self.surface.input().ladder)); })
         .def_property_readonly("_wrapped", &wrapped)
+        .def_property_readonly("_notes", [](const SurfaceObject& self) { return decoded(self.surface.notes()); })
         .def("_remesh", &remesh, py::arg("progress"))
         .def("_save", &save, py::arg("path"));
     module.def("read", &read, py::arg("path"));

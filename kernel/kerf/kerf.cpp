@@ -29,6 +29,7 @@
 #include "kerf/mesh_on_ranks.h"
 #include "kerf/progress_listener.h"
 #include "run/prepare/remeshed_file.h"
+#include "run/report/report.h"
 #include "run/run/pipeline.h"
 
 namespace kerf {
@@ -105,10 +106,15 @@ ClosedSurface remeshed_as(const ClosedSurface& surface, const RunRequest& option
     options.sizes.check();
     ProgressListener listener(progress, is_cancelled);
     SizedInput sized = remesh_always(surface.input(), options, &listener);
+    std::vector<std::string> notes = notes_of(sized.input);
+    if (sized.found) notes.push_back("cells: " + found_size_text(*sized.found));
     const ClosedSurface result(std::make_shared<const Input>(std::move(sized.input)));
     const std::vector<std::string> regions = result.region_names();
-    return surface_of_regions(result.vertices(), result.facets(), regions.empty() ? Sides() : result.sides(), regions,
-                              result.patches(), result.patch_names(), {}, is_cancelled);
+    Input input = surface_of_regions(result.vertices(), result.facets(), regions.empty() ? Sides() : result.sides(),
+                                     regions, result.patches(), result.patch_names(), {}, is_cancelled)
+                      .input();
+    input.notes = std::move(notes);
+    return ClosedSurface(std::make_shared<const Input>(std::move(input)));
 }
 
 }  // namespace
@@ -147,6 +153,7 @@ std::int64_t ClosedSurface::vertex_count() const { return input_->vertices; }
 std::int64_t ClosedSurface::facet_count() const { return input_->facets; }
 double ClosedSurface::volume() const { return input_->volume; }
 double ClosedSurface::area() const { return input_->area; }
+std::vector<std::string> ClosedSurface::notes() const { return notes_of(*input_); }
 const std::vector<std::string>& ClosedSurface::patch_names() const { return input_->patch_names; }
 
 std::vector<std::string> ClosedSurface::region_names() const {

@@ -49,6 +49,7 @@ class ClosedSurface {
     const std::vector<std::string>& patch_names() const;
     std::vector<std::string> region_names() const;           ///< empty if there is one region
     std::vector<std::array<std::int32_t, 2>> sides() const;  ///< of each facet: see surface_of_regions()
+    std::vector<std::string> notes() const;                  ///< what was changed: the lines that `kerf mesh` prints
 
     explicit ClosedSurface(std::shared_ptr<const Input> input) : input_(std::move(input)) {}
     const Input& input() const { return *input_; }  ///< for Kerf itself

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _kerf, interchange
 from .notebook import html_of
+from .notes import notes_of, notes_text
 from .paths import Path
 from .quality import Quality
 
@@ -88,11 +89,18 @@ class Mesh(_kerf.Mesh):
         seconds of stages, verification. Empty if there is none."""
         return json.loads(self._report or "{}")
 
+    @property
+    def notes(self) -> list[str]:
+        """What was changed on the way, and what is not as it was asked for: the sentences that `kerf mesh` prints of
+        repairs, remeshing, lengths of edges, sharp cells and bounds that were missed. Empty: there is nothing to say.
+        """
+        return notes_of(self.report)
+
     def __repr__(self) -> str:
-        return f"<kerf.Mesh: {len(self.points)} points, {len(self.tetrahedra)} tetrahedra>"
+        return f"<kerf.Mesh: {len(self.points)} points, {len(self.tetrahedra)} tetrahedra{notes_text(self.notes)}>"
 
     def _repr_html_(self) -> str:
         rows = {"points": len(self.points), "tetrahedra": len(self.tetrahedra), "parts": len(np.unique(self.part)),
                 "regions": max(1, len(self.region_names)), "triangles": len(self.triangles),
-                "patches": len(self.patch_names)}
+                "patches": len(self.patch_names), "notes": len(self.notes)}
         return html_of(self, "kerf.Mesh", rows, len(self.tetrahedra))

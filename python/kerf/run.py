@@ -12,6 +12,7 @@ import numpy as np
 from . import _kerf, interchange
 from .mesh import Mesh
 from .notebook import html_of
+from .notes import notes_of, notes_text
 from .part import Parts
 from .paths import Path
 from .progress import Progress, caller
@@ -53,8 +54,12 @@ class Run(_kerf.Run):
     @property
     def report(self) -> dict[str, Any]:
         """report.json as it is in the folder now: options, tree of cuts, parts, totals, quality, verification."""
-        folder = self._solution or self.mesh_folder
-        return json.loads(FilePath(folder, "report.json").read_text(encoding="utf-8"))
+        return _report_in(self._solution or self.mesh_folder)
+
+    @property
+    def notes(self) -> list[str]:
+        """As those of kerf.Mesh; of a solution those of its mesh. Empty for a run of an older version."""
+        return notes_of(_report_in(self.mesh_folder))
 
     def __len__(self) -> int:
         """How many parts there are."""
@@ -154,17 +159,22 @@ class Run(_kerf.Run):
     def __repr__(self) -> str:
         kind = "solution" if self._solution else "run"
         return (f"<kerf.Run: {kind} in {self.folder}, {len(self)} parts, {self.points_count} points, "
-                f"{self.tetrahedra_count} tetrahedra>")
+                f"{self.tetrahedra_count} tetrahedra{notes_text(self.notes)}>")
 
     def _repr_html_(self) -> str:
         rows = {"points": self.points_count, "tetrahedra": self.tetrahedra_count, "parts": len(self),
-                "regions": max(1, len(self.region_names)), "patches": len(self.patch_names)}
+                "regions": max(1, len(self.region_names)), "patches": len(self.patch_names),
+                "notes": len(self.notes)}
         return html_of(self.folder, f"kerf.Run {self.folder}", rows, self.tetrahedra_count)
 
 
 def open(folder: Path) -> Run:
     """The run, or the solution of `kerf solve`, in a folder. Raises FileError for what is none, naming the way out."""
     return Run(folder)
+
+
+def _report_in(folder: str) -> dict[str, Any]:
+    return json.loads(FilePath(folder, "report.json").read_text(encoding="utf-8"))
 
 
 def _list(names: Union[str, Sequence[str]]) -> str:

@@ -12,6 +12,7 @@ from . import _kerf, interchange
 from .check import Check, check
 from .errors import UsageError
 from .notebook import html_of
+from .notes import in_words_of_python, notes_text
 from .options import split
 from .paths import Path, encoded, encoded_names, with_others
 from .progress import Progress, caller
@@ -42,7 +43,7 @@ class Surface(_kerf.Surface):
     itself or bounds no body: its `defects` has all of them, as check() does. Cost: O(m log m), 0.4 M triangles in 4 s.
     """
 
-    _made: Optional[tuple[str, Optional[dict[str, Any]]]] = None
+    _made: Optional[tuple[str, Optional[dict[str, Any]], list[str]]] = None
 
     def __init__(self, points: ArrayLike, triangles: ArrayLike, patches: Optional[ArrayLike] = None,
                  names: Optional[Sequence[str]] = None, sides: Optional[ArrayLike] = None,
@@ -55,9 +56,9 @@ class Surface(_kerf.Surface):
         return _unpickled, (self.points, self.triangles, self.patches, self.names, self.sides if of_regions else None,
                             of_regions, *self._told())
 
-    def _told(self) -> tuple[str, Optional[dict[str, Any]]]:
-        """What was repaired, and of a wrap its distances: no arrays tell that."""
-        return self._made if self._made is not None else (self._repairs, self._wrapped)
+    def _told(self) -> tuple[str, Optional[dict[str, Any]], list[str]]:
+        """What was repaired, of a wrap its distances, and the notes: no arrays tell that."""
+        return self._made if self._made is not None else (self._repairs, self._wrapped, self._notes)
 
     @classmethod
     def _of(cls, native: _kerf.Surface) -> Surface:
@@ -102,6 +103,12 @@ class Surface(_kerf.Surface):
         report = self._told()[1]
         return None if report is None else Wrapping(**report)
 
+    @property
+    def notes(self) -> list[str]:
+        """What was changed when this surface was read, repaired, wrapped or remeshed, in the sentences that Kerf's
+        programs print. Empty: nothing."""
+        return in_words_of_python(self._told()[2])
+
     def check(self, needle_angle: float = 1) -> Check:
         """What may give bad cells: needles, short edges. There are no errors, or there would be no Surface: for arrays
         and files that may be broken there is kerf.check()."""
@@ -139,18 +146,21 @@ class Surface(_kerf.Surface):
 
     def __repr__(self) -> str:
         regions = f", {len(self.regions)} regions" if self.regions else ""
-        return f"<kerf.Surface: {len(self.points)} points, {len(self.triangles)} triangles{regions}>"
+        return (f"<kerf.Surface: {len(self.points)} points, {len(self.triangles)} triangles{regions}"
+                f"{notes_text(self.notes)}>")
 
     def _repr_html_(self) -> str:
         rows = {"points": len(self.points), "triangles": len(self.triangles), "patches": len(self.names),
-                "regions": max(1, len(self.regions)), "volume": self.volume, "area": self.area}
+                "regions": max(1, len(self.regions)), "volume": self.volume, "area": self.area,
+                "notes": len(self.notes)}
         return html_of(self, "kerf.Surface", rows, len(self.triangles))
 
 
 def _unpickled(points: np.ndarray, triangles: np.ndarray, patches: np.ndarray, names: list[str],
                sides: Optional[np.ndarray], regions: Optional[list[str]], *told: Any) -> Surface:
     surface = Surface(points, triangles, patches, names, sides, regions)
-    surface._made = cast("tuple[str, Optional[dict[str, Any]]]", told)
+    # A pickle of an older version has no notes.
+    surface._made = cast("tuple[str, Optional[dict[str, Any]], list[str]]", told if len(told) == 3 else (*told, []))
     return surface
 
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -244,10 +245,18 @@ class ReportLines {
     void add(const char* label, const std::string& value) {
         if (!value.empty()) text_ += fmt::format("{:<11} {}\n", label, value);
     }
+    // Adds a line that users ought to see wherever the text itself is not shown.
+    void add_note(const char* label, const std::string& value) {
+        add(label, value);
+        if (!value.empty())
+            notes_.push_back(label == std::string_view("note") ? value : fmt::format("{}: {}", label, value));
+    }
     const std::string& text() const { return text_; }
+    const std::vector<std::string>& notes() const { return notes_; }
 
  private:
     std::string text_;
+    std::vector<std::string> notes_;
 };
 
 // Returns the regions, the largest first; of many, the others as a number.
@@ -277,6 +286,22 @@ std::string air_text(const Enclosure& enclosure) {
                        enclosure.body_volume);
 }
 
+// Adds what was done to the surface before it was cut.
+void add_changes(ReportLines& lines, const Input& input) {
+    lines.add_note("repaired", repairs_text(input.tidied, input.ladder, input.orientation));
+    for (const StepReport& step : input.ladder.steps)
+        for (const RepairAction& action : step.actions)
+            lines.add_note("repair", fmt::format("{}: {}", name(step.kind), to_text(action)));
+    if (input.wrapped) lines.add_note("wrapped", to_text(*input.wrapped));
+    if (input.enclosure) lines.add("air", air_text(*input.enclosure));
+    for (const std::string& note : input.notes) lines.add_note("note", note);
+    if (input.moved_vertices > 0)
+        lines.add_note("optimised", fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices),
+                                                input.largest_move));
+    if (input.remeshed && input.remeshed->only_divided) lines.add_note("divided", division_text(*input.remeshed));
+    if (input.remeshed && !input.remeshed->only_divided) lines.add_note("remeshed", remeshing_text(*input.remeshed));
+}
+
 void add_input(ReportLines& lines, const RunReport& report, bool all) {
     const Input& input = report.input;
     const std::string facets = grouped(input.facets), of_file = grouped(facets_of_file(input));
@@ -285,18 +310,7 @@ void add_input(ReportLines& lines, const RunReport& report, bool all) {
         lines.add("input", fmt::format("{}: {} facets, {} shell{}, genus {}, volume {:.6g}", input.path, of_file,
                                        input.components, input.components == 1 ? "" : "s", input.genus, input.volume));
     if (has_others) lines.add("facets", fmt::format("{} of the file, {} of the mesh's surface", of_file, facets));
-    lines.add("repaired", repairs_text(input.tidied, input.ladder, input.orientation));
-    for (const StepReport& step : input.ladder.steps)
-        for (const RepairAction& action : step.actions)
-            lines.add("repair", fmt::format("{}: {}", name(step.kind), to_text(action)));
-    if (input.wrapped) lines.add("wrapped", to_text(*input.wrapped));
-    if (input.enclosure) lines.add("air", air_text(*input.enclosure));
-    for (const std::string& note : input.notes) lines.add("note", note);
-    if (input.moved_vertices > 0)
-        lines.add("optimised", fmt::format("{} vertices moved by {:.3g} at most", grouped(input.moved_vertices),
-                                           input.largest_move));
-    if (input.remeshed && input.remeshed->only_divided) lines.add("divided", division_text(*input.remeshed));
-    if (input.remeshed && !input.remeshed->only_divided) lines.add("remeshed", remeshing_text(*input.remeshed));
+    add_changes(lines, input);
 }
 
 void add_cuts(ReportLines& lines, const RunReport& report) {
@@ -312,11 +326,11 @@ void add_cuts(ReportLines& lines, const RunReport& report) {
 }
 
 void add_way(ReportLines& lines, const RunReport& report) {
-    lines.add("TetGen", tetgen_text(report));
-    lines.add("retried", fallbacks_text(report));
-    lines.add("disturbed", disturbances_text(report));
+    lines.add_note("TetGen", tetgen_text(report));
+    lines.add_note("retried", fallbacks_text(report));
+    lines.add_note("disturbed", disturbances_text(report));
     const auto resumed = std::count_if(report.parts.begin(), report.parts.end(), std::mem_fn(&PartReport::resumed));
-    if (resumed > 0) lines.add("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
+    if (resumed > 0) lines.add_note("continued", fmt::format("{} parts were finished by an interrupted run", resumed));
 }
 
 std::string curve_text(const CurveReport& curve) {
@@ -340,9 +354,18 @@ std::string missed_text(const RunReport& report) {
                        short_number(std::clamp(static_cast<double>(found.cells) / ratio, 1.0, 1e12)));
 }
 
+// Returns whether edges are much shorter than asked for, or longer than their bounds.
+bool misses_sizes(const RunReport& report) {
+    constexpr double much_shorter = 0.9;
+    const SizeRatios& ratios = report.mesh.sizes;
+    const SizeOptions& sizes = report.request.sizes;
+    if (ratios.empty()) return false;
+    return sizes.meaning == SizeMeaning::bound ? ratios.share_from(1 / sizes.mean_over_size()) > 0
+                                               : ratios.mean() <= much_shorter;
+}
+
 // Returns how long edges are beside what was asked for, and why they are shorter if they are by much.
 std::string mean_size_text(const RunReport& report) {
-    constexpr double much_shorter = 0.9;
     const SizeRatios& ratios = report.mesh.sizes;
     const SizeOptions& sizes = report.request.sizes;
     const bool is_length_wanted = sizes.size.number() > 0 || sizes.depends_on_place();
@@ -351,7 +374,7 @@ std::string mean_size_text(const RunReport& report) {
     if (sizes.meaning == SizeMeaning::bound)
         return fmt::format("{:.2g} % of the edges are longer than the bounds", 100 * longer);
     std::string text = fmt::format("edges have {:.2f} of the wanted length on average", mean);
-    if (mean > much_shorter) return text;
+    if (!misses_sizes(report)) return text;
     const bool is_remeshed = report.input.remeshed && !report.input.remeshed->only_divided;
     return text + (is_remeshed ? "; the shape needs shorter ones (fewer with a larger --deviation)"
                                : "; facets of the file are finer (--surface remesh makes them as wanted)");
@@ -377,11 +400,14 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     lines.add("mesh", fmt::format("{} tetrahedra, {} vertices{}{}", grouped(report.mesh.tets),
                                   grouped(report.mesh.vertices), nodes, parts));
     lines.add("regions", regions_text(report));
-    if (report.found_size) lines.add("cells", found_size_text(*report.found_size) + missed_text(report));
+    if (report.found_size) lines.add_note("cells", found_size_text(*report.found_size) + missed_text(report));
     if (all) lines.add("filled", ways_text(report));
     if (all) lines.add("recovered", recovery_text(report.mesh.recovery));
     if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
-    lines.add("sizes", mean_size_text(report));
+    if (misses_sizes(report))
+        lines.add_note("sizes", mean_size_text(report));
+    else
+        lines.add("sizes", mean_size_text(report));
     if (all && !report.mesh.sizes.empty())
         lines.add("", size_text(report.mesh.sizes, report.input.patch_names, !report.size.is_constant()));
     if (all) lines.add("", cells_in_solids_text(report));
@@ -389,9 +415,9 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     const Distribution& ratio = report.mesh.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
                                      dihedral.min(), dihedral.percentile(0.01), dihedral.percentile(0.5), ratio.max()));
-    lines.add("forced", forced_text(report.mesh.quality.angles, all));
-    for (const SharpPlace& place : sharp_places(report)) lines.add("sharp", sharp_text(place));
-    lines.add("bounds", exceeded_text(told_bounds(report, all)));
+    lines.add_note("forced", forced_text(report.mesh.quality.angles, all));
+    for (const SharpPlace& place : sharp_places(report)) lines.add_note("sharp", sharp_text(place));
+    lines.add_note("bounds", exceeded_text(told_bounds(report, all)));
     if (report.curve) lines.add("curved", curve_text(*report.curve));
 }
 
@@ -421,10 +447,8 @@ std::string processes_text(const RunReport& report) {
                        report.peak_rss_bytes >> 20);
 }
 
-}  // namespace
-
-std::string to_text(const RunReport& report, ReportDetail detail) {
-    const bool all = detail == ReportDetail::all, meshed = report.request.volume;
+ReportLines lines_of(const RunReport& report, bool all) {
+    const bool meshed = report.request.volume;
     ReportLines lines;
     add_input(lines, report, all);
     if (all || !meshed) add_cuts(lines, report);
@@ -438,7 +462,21 @@ std::string to_text(const RunReport& report, ReportDetail detail) {
               fmt::format("{}; volume error {:.1e}", report.verification.passed ? "yes, every law holds" : "NO",
                           report.verification.volume_rel_error));
     if (all) lines.add("mesh hash", report.mesh.hash);
-    return lines.text();
+    return lines;
+}
+
+}  // namespace
+
+std::string to_text(const RunReport& report, ReportDetail detail) {
+    return lines_of(report, detail == ReportDetail::all).text();
+}
+
+std::vector<std::string> notes_of(const RunReport& report) { return lines_of(report, false).notes(); }
+
+std::vector<std::string> notes_of(const Input& input) {
+    ReportLines lines;
+    add_changes(lines, input);
+    return lines.notes();
 }
 
 }  // namespace kerf

@@ -205,4 +205,9 @@ enum class ReportDetail {
 /// Returns lines for people: a label, and its text from the twelfth column on.
 std::string to_text(const RunReport& report, ReportDetail detail = ReportDetail::all);
 
+/// Returns those of the brief lines that say what was changed, or is not as it was asked for, as "sharp: 12 cells ...".
+std::vector<std::string> notes_of(const RunReport& report);
+/// Returns likewise the lines on the changes of a surface.
+std::vector<std::string> notes_of(const Input& input);
+
 }  // namespace kerf

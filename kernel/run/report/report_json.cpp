@@ -336,6 +336,12 @@ Json sharp_json(const RunReport& report) {
     return {{"below_deg", WorstCells::bound_deg}, {"tets", cells}, {"places", places}};
 }
 
+Json notes_json(const RunReport& report) {
+    Json json = Json::array();
+    for (const std::string& note : notes_of(report)) json.push_back(path_text(note));
+    return json;
+}
+
 Json file_json(const RunFile& file) { return {{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash}}; }
 
 template <class T>
@@ -369,6 +375,7 @@ std::string to_json(const RunReport& report) {
         {"forced", forced_json(report.mesh.quality.angles)},
         {"sharp", sharp_json(report)},
         {"bounds", bounds_json(report)},
+        {"notes", notes_json(report)},
         {"improvement", improvement_json(report.mesh.improvement, {report.mesh.improvement, report.mesh.quality},
                                          report.mesh.improve_seconds)},
         {"cells", cells_json(report)},
