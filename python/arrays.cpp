@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "base/core/error.h"
+
 namespace kerf::python {
 
 namespace {
@@ -20,7 +22,8 @@ std::string shape_text(const py::array& array) { return py::str(array.attr("shap
 py::array as_array(const py::object& object, const char* name, const char* kinds, const char* wanted) {
     const py::module_ numpy = py::module_::import("numpy");
     if (numpy.attr("ma").attr("is_masked")(object).cast<bool>())
-        throw py::value_error(fmt::format("{} has values that are masked: fill them, or leave their rows out.", name));
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} has values that are masked: fill them, or leave their rows out.", name));
     py::array array;
     try {
         array = numpy.attr("asarray")(object);
@@ -28,26 +31,26 @@ py::array as_array(const py::object& object, const char* name, const char* kinds
         if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
         const std::string text =
             fmt::format("{} is no array: its rows have different lengths, or are no numbers.", name);
-        py::raise_from(error, PyExc_TypeError, text.c_str());
+        py::raise_from(error, py::module_::import("kerf.errors").attr("UsageError").ptr(), text.c_str());
         throw py::error_already_set();
     }
     const std::string kind = py::str(array.dtype().attr("kind"));
     if (array.size() > 0 && std::strchr(kinds, kind[0]) == nullptr)
-        throw py::type_error(
-            fmt::format("{} has the dtype {}, but {} are wanted.", name, std::string(py::str(array.dtype())), wanted));
+        throw Error(ErrorCode::usage, fmt::format("{} has the dtype {}, but {} are wanted.", name,
+                                                  std::string(py::str(array.dtype())), wanted));
     return array;
 }
 
 // Requires rows of `columns` numbers, or single numbers where that is 0.
 void check_shape(const py::array& array, py::ssize_t columns, const char* name) {
     if (array.ndim() > 0 && array.shape(0) > std::numeric_limits<std::int32_t>::max())
-        throw py::value_error(fmt::format("{} has {} rows, but at most {} are possible.", name, array.shape(0),
-                                          std::numeric_limits<std::int32_t>::max()));
+        throw Error(ErrorCode::usage, fmt::format("{} has {} rows, but at most {} are possible.", name, array.shape(0),
+                                                  std::numeric_limits<std::int32_t>::max()));
     const bool is_empty = array.size() == 0 && array.ndim() <= 2;
     if (columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns) return;
     if (is_empty && array.ndim() > 0) return;
-    throw py::value_error(fmt::format("{} has the shape {}, but {} is wanted.", name, shape_text(array),
-                                      columns == 0 ? std::string("(n,)") : fmt::format("(n, {})", columns)));
+    throw Error(ErrorCode::usage, fmt::format("{} has the shape {}, but {} is wanted.", name, shape_text(array),
+                                              columns == 0 ? std::string("(n,)") : fmt::format("(n, {})", columns)));
 }
 
 // Returns the numbers as T, in one piece of memory.
@@ -56,7 +59,7 @@ py::array_t<T> in_one_piece(const py::array& array) {
     return py::module_::import("numpy").attr("require")(array, py::dtype::of<T>(), "CA");
 }
 
-// Adds the numbers of an array to `rows`, N in each. Throws ValueError for the first that does not fit in 32 bits.
+// Adds the numbers of an array to `rows`, N in each. Throws UsageError for the first that does not fit in 32 bits.
 template <class Wide, std::size_t N>
 void append_rows(std::vector<std::array<std::int32_t, N>>& rows, const py::array& array, const char* name) {
     using Limits = std::numeric_limits<std::int32_t>;
@@ -66,8 +69,8 @@ void append_rows(std::vector<std::array<std::int32_t, N>>& rows, const py::array
     for (std::size_t i = 0; i < count; ++i) {
         const Wide number = numbers.data()[i];
         if (std::cmp_greater(number, Limits::max()) || std::cmp_less(number, Limits::min()))
-            throw py::value_error(
-                fmt::format("{} has {} in row {}, which is no number of 32 bits.", name, number, i / N));
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} has {} in row {}, which is no number of 32 bits.", name, number, i / N));
         rows[i / N][i % N] = number;
     }
 }

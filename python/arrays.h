@@ -58,8 +58,8 @@ auto array_of(Values Object::*member) {
     return [member](const py::object& self) { return view(self.cast<Object&>().*member, self); };
 }
 
-/// Each returns rows of N numbers, or for N = 1 numbers, of any object of which numpy makes an array. Throws ValueError
-/// or TypeError, naming the argument, its shape or type and, for whole numbers that do not fit in 32 bits, the row.
+/// Each returns rows of N numbers, or for N = 1 numbers, of any object of which numpy makes an array. Throws
+/// UsageError, naming the argument, its shape or type and, for whole numbers that do not fit in 32 bits, the row.
 std::vector<std::array<double, 3>> points_of(const py::object& array, const char* name);
 std::vector<std::array<std::int32_t, 3>> triangles_of(const py::object& array, const char* name);
 std::vector<std::array<std::int32_t, 2>> pairs_of(const py::object& array, const char* name);

@@ -14,7 +14,7 @@
 namespace kerf::python {
 
 /// Returns `max_volume=0.1` as {"max-volume", "0.1"}, see kerf/options.py. Throws UsageError for a name that is no
-/// option, and TypeError for a value that has no text.
+/// option, and for a value that has no text.
 NamedOptions named_options(const pybind11::kwargs& options);
 
 /// The questions of a long call to Python: it calls `progress` with (stage, done, total), and asks whether the user has

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "base/core/error.h"
 #include "python/arrays.h"
 
 namespace kerf::python {
@@ -16,8 +17,8 @@ std::vector<std::string> names_of(const py::object& names) {
 
 void check_length(const char* name, std::size_t rows, std::size_t triangles) {
     if (rows != triangles)
-        throw py::value_error(
-            fmt::format("{} has {} rows, but there are {} triangles: one is wanted for each.", name, rows, triangles));
+        throw Error(ErrorCode::usage, fmt::format("{} has {} rows, but there are {} triangles: one is wanted for each.",
+                                                  name, rows, triangles));
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ SurfaceArguments surface_arguments(const py::object& points, const py::object& t
         check_length("patches", all.patches.size(), all.triangles.size());
     }
     if (sides.is_none() != regions.is_none())
-        throw py::value_error("sides and regions belong together: give both, or none of them.");
+        throw Error(ErrorCode::usage, "sides and regions belong together: give both, or none of them.");
     if (!sides.is_none()) {
         all.sides = pairs_of(sides, "sides");
         check_length("sides", all.sides.size(), all.triangles.size());

@@ -19,7 +19,7 @@ struct SurfaceArguments {
     std::vector<std::string> regions;
 };
 
-/// Copies the arguments of kerf.Surface; all but the first two may be None. Throws TypeError or ValueError, naming the
+/// Copies the arguments of kerf.Surface; all but the first two may be None. Throws UsageError, naming the
 /// argument, for dtypes, shapes and lengths that do not fit.
 SurfaceArguments surface_arguments(const pybind11::object& points, const pybind11::object& triangles,
                                    const pybind11::object& patches, const pybind11::object& names,

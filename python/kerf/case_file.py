@@ -6,6 +6,8 @@ import json
 import math
 from typing import Mapping
 
+from .errors import UsageError
+
 
 def case_text(case: Mapping[str, object]) -> str:
     """A line for each key of the case; what is below is written inside of it."""
@@ -29,5 +31,5 @@ def _value(value: object, where: str) -> str:
         return repr(value)
     if isinstance(value, str):
         return json.dumps(value)
-    raise TypeError(f"{where} of the case is {value!r}, but must be a finite number, text, True or False, "
+    raise UsageError(f"{where} of the case is {value!r}, but must be a finite number, text, True or False, "
                     "or a list or dict of these.")

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from . import _kerf
 from ._kerf import Surface
 from .defect import Defect
+from .errors import UsageError
 from .option_table import in_python
 from .paths import Path, encoded, encoded_names
 
@@ -61,8 +62,8 @@ def check(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLik
     options        of the surface: weld, fill_holes, voids, ...: what is found is what is left after these repairs
 
     Rows that are wrong, as corners out of range, are one defect, "wrong row". Raises FileError for a file that cannot
-    be opened, UsageError for options, and TypeError or ValueError for arrays with wrong dtypes or shapes. Cost:
-    O(m log m), 0.4 M triangles in 4 s.
+    be opened, and UsageError for options and for arrays with wrong dtypes or shapes. Cost: O(m log m), 0.4 M triangles
+    in 4 s.
 
         check = kerf.check("part.stl")
         for defect in check.errors:
@@ -70,11 +71,11 @@ def check(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLik
     """
     if triangles is None:
         if any(each is not None for each in (patches, names, sides, regions)):
-            raise TypeError("patches, names, sides and regions belong to points and triangles: give triangles, too.")
+            raise UsageError("patches, names, sides and regions belong to points and triangles: give triangles, too.")
         if isinstance(surface, (str, os.PathLike)):
             return Check(_kerf.check_path(encoded(surface), float(needle_angle), **options))
         if not isinstance(surface, Surface):
-            raise TypeError("A path, a Surface, or points with triangles is wanted.")
+            raise UsageError("A path, a Surface, or points with triangles is wanted.")
         of_regions = surface.regions or None
         arrays: tuple[Any, ...] = (surface.points, surface.triangles, surface.patches,
                                    encoded_names("names", surface.names), surface.sides if of_regions else None,

@@ -132,7 +132,7 @@ class DistributedMesh(_kerf.DistributedMesh):
     def _checked(self, values: np.ndarray) -> np.ndarray:
         values = np.array(values, order="C")
         if values.dtype.kind not in "biufc":
-            raise TypeError(f"values has the dtype {values.dtype}, but numbers are wanted.")
+            raise UsageError(f"values has the dtype {values.dtype}, but numbers are wanted.")
         if values.ndim == 0 or len(values) != len(self.local.points):
             raise UsageError(f"values has the shape {values.shape}, but a row for each of the "
                              f"{len(self.local.points)} local points is wanted.")

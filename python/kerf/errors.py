@@ -41,8 +41,8 @@ class Error(Exception):
         self.elements = list(elements)
 
 
-class UsageError(Error, ValueError):
-    """An option or an argument is wrong."""
+class UsageError(Error, ValueError, TypeError):
+    """An option or an argument is wrong: its name, its type, its shape or its value."""
 
     code = 2
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 import numpy as np
 
 from . import _kerf
+from .errors import UsageError
 
 if TYPE_CHECKING:
     import meshio
@@ -200,13 +201,13 @@ def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str]) -> SurfaceArray
     rows = [i for i, block in enumerate(mesh.cells) if block.type == "triangle"]
     others = sorted({block.type for block in mesh.cells if block.type.startswith(("quad", "polygon", "triangle"))})
     if others not in ([], ["triangle"]):
-        raise ValueError(f"The mesh has cells of the types {', '.join(others)}, but a surface is made of plain "
+        raise UsageError(f"The mesh has cells of the types {', '.join(others)}, but a surface is made of plain "
                          "triangles.")
     if not rows:
-        raise ValueError("The mesh has no triangles.")
+        raise UsageError("The mesh has no triangles.")
     triangles = np.concatenate([mesh.cells[i].data for i in rows])
     if patches is not None and patches not in mesh.cell_data:
-        raise ValueError(f"The mesh has no cell data {patches!r}; there are {', '.join(mesh.cell_data) or 'none'}.")
+        raise UsageError(f"The mesh has no cell data {patches!r}; there are {', '.join(mesh.cell_data) or 'none'}.")
     key = patches or ("gmsh:physical" if "gmsh:physical" in mesh.cell_data else None)
     if key is not None:
         names = {int(value[0]): name for name, value in mesh.field_data.items()
@@ -235,16 +236,16 @@ def surface_of_polydata(polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patc
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if polydata.GetNumberOfPolys() == 0:
-        raise ValueError("The data set has no polygons.")
+        raise UsageError("The data set has no polygons.")
     polygons = polydata.GetPolys()
     if polygons.GetMaxCellSize() != 3 or polydata.GetNumberOfStrips() > 0:
-        raise ValueError("The data set has polygons that are no triangles. triangulate() of PyVista, or "
+        raise UsageError("The data set has polygons that are no triangles. triangulate() of PyVista, or "
                          "vtkTriangleFilter, makes triangles of them.")
     triangles = vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)
     points = vtk_to_numpy(polydata.GetPoints().GetData())
     found = polydata.GetCellData().GetArray(patches or "Patch")
     if found is None and patches is not None:
-        raise ValueError(f"The data set has no cell data {patches!r}.")
+        raise UsageError(f"The data set has no cell data {patches!r}.")
     if found is None:
         return _surface(points, triangles, None, None)
     first = polydata.GetNumberOfVerts() + polydata.GetNumberOfLines()

@@ -57,7 +57,7 @@ def texts(given: Mapping[str, Any]) -> list[tuple[str, bytes]]:
         text = _text(option, value)
         if text is not None:
             if "\0" in text:
-                raise ValueError(f"{option.name} has a character NUL in it.")
+                raise UsageError(f"{option.name} has a character NUL in it.")
             result.append((option.flag[2:], os.fsencode(text)))
     return result
 
@@ -69,7 +69,7 @@ def _text(option: Option, value: Any) -> Optional[str]:
         return None
     if isinstance(value, Mapping):
         if option.kind != "list" or "=" not in option.form:
-            raise TypeError(f"{option.name} takes no dict.")
+            raise UsageError(f"{option.name} takes no dict.")
         value = [f"{_word(option, key)}={_joined(option, each)}" for key, each in value.items()]
     is_several = isinstance(value, (list, tuple))
     if option.kind == "list":
@@ -78,7 +78,7 @@ def _text(option: Option, value: Any) -> Optional[str]:
     if not is_several:
         return _word(option, value)
     if option.form != "LIST":
-        raise TypeError(f"{option.name} takes one value, but {_short(value)} has several.")
+        raise UsageError(f"{option.name} takes one value, but {_short(value)} has several.")
     return ",".join(_word(option, each) for each in value)
 
 
@@ -106,7 +106,7 @@ def _word(option: Option, value: Any) -> str:
         number = float(value)
         return str(int(number)) if number.is_integer() and abs(number) < 2**53 else repr(number)
     wanted = f"a {option.kind}" if option.kind != "list" else "a list of " + option.form
-    raise TypeError(f"{option.name} is {_short(value)}, but it must be {wanted}.")
+    raise UsageError(f"{option.name} is {_short(value)}, but it must be {wanted}.")
 
 
 def _short(value: Any) -> str:

@@ -6,14 +6,19 @@ import os
 from collections.abc import Iterable
 from typing import Any, Optional, Sequence, Union, cast
 
+from .errors import UsageError
+
 Path = Union[str, "os.PathLike[str]"]
 
 
 def encoded(path: Path) -> bytes:
-    """As the file system has it. Raises TypeError for what is no path, ValueError for a NUL in it."""
-    name = os.fsencode(path)
+    """As the file system has it. Raises UsageError for what is no path, and for a NUL in it."""
+    try:
+        name = os.fsencode(path)
+    except TypeError:
+        raise UsageError(f"{path!r:.60} is no path.") from None
     if b"\0" in name:
-        raise ValueError("The path has a character NUL in it.")
+        raise UsageError("The path has a character NUL in it.")
     return name
 
 
@@ -22,20 +27,20 @@ def with_others(path: Union[Path, Sequence[Path]], options: dict[str, Any]) -> t
     if not isinstance(path, (list, tuple)):
         return cast(Path, path), options
     if not path:
-        raise ValueError("The list of files is empty.")
+        raise UsageError("The list of files is empty.")
     others = [os.fspath(other) for other in path[1:]]
     given = options.get("with_", [])
     return path[0], {**options, "with_": others + ([given] if isinstance(given, (str, os.PathLike)) else list(given))}
 
 
 def encoded_names(what: str, names: Optional[Sequence[str]]) -> Optional[list[bytes]]:
-    """Names of patches or regions for the module. Raises TypeError for what is no sequence of str."""
+    """Names of patches or regions for the module. Raises UsageError for what is no sequence of str."""
     if names is None:
         return None
     if isinstance(names, (str, bytes)) or not isinstance(names, Iterable):
-        raise TypeError(f"{what} is {names!r:.60}, but a list of str is wanted.")
+        raise UsageError(f"{what} is {names!r:.60}, but a list of str is wanted.")
     names = list(names)
     for name in names:
         if not isinstance(name, str):
-            raise TypeError(f"{what} has {name!r:.60}, but a list of str is wanted.")
+            raise UsageError(f"{what} has {name!r:.60}, but a list of str is wanted.")
     return [name.encode("utf-8", "surrogateescape") for name in names]

@@ -54,7 +54,7 @@ def _drawable(what: object) -> Union[Surface, Mesh, str]:
         return what
     path = getattr(what, "folder", what)
     if not isinstance(path, (str, os.PathLike)):
-        raise TypeError(f"plot() draws surfaces, meshes, runs, solutions, parts of trees and files, but no "
+        raise UsageError(f"plot() draws surfaces, meshes, runs, solutions, parts of trees and files, but no "
                         f"{type(what).__name__}.")
     return os.fspath(path)
 

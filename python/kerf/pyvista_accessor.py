@@ -13,7 +13,7 @@ from typing import Any, Optional
 
 import pyvista
 
-from .errors import InputError
+from .errors import InputError, UsageError
 from .meshing import mesh
 from .surface import Surface
 
@@ -38,7 +38,7 @@ class KerfAccessor:
         Raises InputError for a surface that is not closed or intersects itself, and as kerf.mesh() does.
         """
         if options.get("output") is not None:
-            raise TypeError("polydata.kerf.mesh() gives a grid in memory; kerf.mesh(polydata.kerf.surface(), "
+            raise UsageError("polydata.kerf.mesh() gives a grid in memory; kerf.mesh(polydata.kerf.surface(), "
                             "output=...) writes a folder.")
         return mesh(self.surface(patches), **options).to_pyvista()
 

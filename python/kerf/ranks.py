@@ -16,11 +16,11 @@ Value = TypeVar("Value")
 
 
 def check_communicator(comm: Comm) -> None:
-    """Raises TypeError or UsageError for what is no group of ranks of which this is one."""
+    """Raises UsageError for what is no group of ranks of which this is one."""
     from mpi4py import MPI
 
     if not isinstance(comm, MPI.Comm):
-        raise TypeError(f"comm is {comm!r}, but a communicator of mpi4py is wanted: MPI.COMM_WORLD.")
+        raise UsageError(f"comm is {comm!r}, but a communicator of mpi4py is wanted: MPI.COMM_WORLD.")
     if comm == MPI.COMM_NULL:
         raise UsageError("comm is MPI.COMM_NULL: this rank is none of the communicator, and must not call.")
     if comm.Is_inter():

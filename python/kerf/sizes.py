@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _kerf
 from ._kerf import Surface
+from .errors import UsageError
 
 #: Called with points (n, 3); returns the edge lengths (n,) that are wanted there.
 SizeFunction = Callable[[np.ndarray], ArrayLike]
@@ -54,7 +55,7 @@ def sample_sizes(function: SizeFunction, surface: Surface, tolerance: float = 0.
     """The field of a function over the bounding box of a surface: what kerf.mesh(size=function) makes of it.
 
     function     called with points (n, 3) float64 of the box; returns (n,) edge lengths: finite and positive, else
-                 ValueError names the point. It must depend on the point alone
+                 UsageError names the point. It must depend on the point alone
     tolerance    relative difference between function and field that is sought
     lattice      intervals along the longest side of the box, on whose points the function is asked first: a power of 2
     most_points  at which the function is asked at most, but for the lattice
@@ -67,9 +68,9 @@ def sample_sizes(function: SizeFunction, surface: Surface, tolerance: float = 0.
     alone.
     """
     if lattice < 1 or lattice & (lattice - 1):
-        raise ValueError(f"lattice is {lattice}, but a power of 2 is wanted.")
+        raise UsageError(f"lattice is {lattice}, but a power of 2 is wanted.")
     if not tolerance > 0:
-        raise ValueError(f"tolerance is {tolerance}, but a positive share is wanted.")
+        raise UsageError(f"tolerance is {tolerance}, but a positive share is wanted.")
     sampler = _Sampler(function, surface.points.min(axis=0), surface.points.max(axis=0), lattice, most_points)
     return sampler.field(tolerance)
 
@@ -229,14 +230,14 @@ def _checked(function: SizeFunction, points: np.ndarray) -> np.ndarray:
     count = len(points)
     sizes = np.asarray(function(points.copy()))
     if sizes.shape != (count,):
-        raise ValueError(f"The function of sizes returned the shape {sizes.shape} for {count} points, but ({count},) is"
+        raise UsageError(f"The function of sizes returned the shape {sizes.shape} for {count} points, but ({count},) is"
                          " wanted.")
     if sizes.dtype.kind not in "fiu":
-        raise TypeError(f"The function of sizes returned the dtype {sizes.dtype}, but numbers are wanted.")
+        raise UsageError(f"The function of sizes returned the dtype {sizes.dtype}, but numbers are wanted.")
     sizes = sizes.astype(float)
     wrong = np.flatnonzero(~((sizes > 0) & np.isfinite(sizes)))
     if len(wrong):
         point = ", ".join(f"{x:.6g}" for x in points[wrong[0]])
-        raise ValueError(f"The function of sizes returned {sizes[wrong[0]]} at ({point}), but edge lengths are positive"
+        raise UsageError(f"The function of sizes returned {sizes[wrong[0]]} at ({point}), but edge lengths are positive"
                          " and finite.")
     return sizes

@@ -10,7 +10,7 @@ from typing import Any, Callable, Iterator, NamedTuple, Optional
 import numpy as np
 
 from . import _kerf
-from .errors import FileError
+from .errors import FileError, UsageError
 from .notebook import html_of
 from .paths import Path
 
@@ -207,7 +207,7 @@ class Solution:
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self._owner is not None:
-            raise TypeError("This solution is in a temporary folder, which goes when it does. Give solve() an output, "
+            raise UsageError("This solution is in a temporary folder, which goes when it does. Give solve() an output, "
                             "or pickle its arrays.")
         return Solution, (os.path.abspath(self.folder),)
 

@@ -8,7 +8,7 @@ from typing import Mapping, Optional, Union
 
 from . import programs
 from .case_file import case_text
-from .errors import Error
+from .errors import Error, UsageError
 from .paths import Path
 from .progress import Progress, caller
 from .solution import Solution
@@ -36,7 +36,7 @@ def solve(run: Union[Path, object], case: Union[Mapping[str, object], Path], out
     """
     folder = getattr(run, "folder", run)
     if not isinstance(folder, (str, os.PathLike)):
-        raise TypeError(f"run is a {type(run).__name__}, but a Run, its folder or the file of a surface is wanted: "
+        raise UsageError(f"run is a {type(run).__name__}, but a Run, its folder or the file of a surface is wanted: "
                         "kerf.mesh(..., output=FOLDER) makes one.")
     owner = None
     if output is None:

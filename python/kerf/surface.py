@@ -37,10 +37,12 @@ class Surface(_kerf.Surface):
     options    those of the surface: scale, weld, fill_holes, keep_largest, voids, ... (kerf.options() lists them)
 
     Everything is copied and checked; points of equal coordinates become one. Its own arrays are read-only views: they
-    may have fewer rows than what was given. It can be pickled and copied; that checks the arrays again. Raises TypeError or ValueError, naming the argument, for arrays with wrong
-    dtypes, shapes or lengths; UsageError for options; InputError, naming the row, for corners out of range, points that
-    are not finite, and triangles that have a corner twice; and InputError for a surface that is not closed, intersects
-    itself or bounds no body: its `defects` has all of them, as check() does. Cost: O(m log m), 0.4 M triangles in 4 s.
+    may have fewer rows than what was given. It can be pickled and copied; that checks the arrays again.
+
+    Raises UsageError, naming the argument, for arrays with wrong dtypes, shapes or lengths, and for options; InputError,
+    naming the row, for corners out of range, points that are not finite, and triangles that have a corner twice; and
+    InputError for a surface that is not closed, intersects itself or bounds no body: its `defects` has all of them, as
+    check() does. Cost: O(m log m), 0.4 M triangles in 4 s.
     """
 
     _made: Optional[tuple[str, Optional[dict[str, Any]], list[str]]] = None
@@ -225,11 +227,11 @@ def _surface_of(surface: Union[Surface, Path, ArrayLike], triangles: Optional[Ar
     if triangles is not None:
         return Surface(surface, triangles, patches, names, **options)  # type: ignore[arg-type]
     if patches is not None or names is not None:
-        raise TypeError("patches and names belong to points and triangles: give triangles, too.")
+        raise UsageError("patches and names belong to points and triangles: give triangles, too.")
     if isinstance(surface, Surface):
         return surface.repair(**options)
     if not isinstance(surface, (str, os.PathLike)):
-        raise TypeError("A path, a Surface, or points with triangles is wanted.")
+        raise UsageError("A path, a Surface, or points with triangles is wanted.")
     return read(surface, **options)
 
 

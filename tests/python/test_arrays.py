@@ -210,3 +210,30 @@ def test_arrays_are_read_only_views():
     views = surface.points, surface.triangles
     del surface
     assert np.array_equal(views[0], P) and np.array_equal(views[1], T)
+
+
+def test_all_that_is_refused_is_an_error_of_kerf(cube):
+    """`except kerf.Error` is enough, and so are the exceptions that Python's own functions raise."""
+    points, triangles = cube
+    wrong = [lambda: kerf.Surface(points.astype(complex), triangles),
+             lambda: kerf.Surface(points[:, :2], triangles),
+             lambda: kerf.Surface([[0, 0, 0], [1, 0]], triangles),
+             lambda: kerf.Surface(points, triangles.astype(float)),
+             lambda: kerf.Surface(points, triangles, [0]),
+             lambda: kerf.Surface(points, triangles, sides=np.zeros((12, 2), int)),
+             lambda: kerf.Surface(points, triangles, names="lid"),
+             lambda: kerf.Surface(np.ma.masked_less(points, 0.5), triangles),
+             lambda: kerf.check(points),
+             lambda: kerf.check(points, triangles + 0.5),
+             lambda: kerf.repair(points, names=["lid"]),
+             lambda: kerf.read(7),
+             lambda: kerf.read([]),
+             lambda: kerf.read("a\0b"),
+             lambda: kerf.SizeField(points, triangles, np.ones(8)),
+             lambda: kerf.mesh(kerf.Surface(points, triangles), max_volume=object()),
+             lambda: kerf.mesh(kerf.Surface(points, triangles), size=lambda p: p),
+             lambda: kerf.plot(3)]
+    for call in wrong:
+        with pytest.raises(kerf.UsageError) as raised:
+            call()
+        assert isinstance(raised.value, ValueError) and isinstance(raised.value, TypeError) and raised.value.code == 2
