@@ -15,8 +15,14 @@ if TYPE_CHECKING:
     import pyvista
     import vtkmodules.vtkCommonDataModel as vtk
 
-#: The arguments of Surface() up to the names.
+#: The arguments of Surface() up to the names, and those of regions.
 SurfaceArrays = tuple[np.ndarray, np.ndarray, Optional[np.ndarray], Optional[list[str]]]
+RegionArrays = tuple[Optional[np.ndarray], Optional[list[str]]]
+
+#: Meshio's name for the numbers of Gmsh's physical groups.
+_GMSH = "gmsh:physical"
+#: Arrays in Kerf's own files, and those with their names.
+_NAMES_IN_FILES = {"Patch": "PatchNames", "Region": "RegionNames"}
 
 
 @dataclass
@@ -54,7 +60,8 @@ def _blocks_of(mesh: _kerf.Mesh) -> list[_Block]:
     for region in range(max(1, len(mesh.region_names))):
         rows = np.flatnonzero(mesh.region == region)
         name = mesh.region_names[region] if mesh.region_names else None
-        blocks.append(_Block(3, region, name, rows, tets if len(rows) == len(tets) else tets[rows]))
+        cells = tets if len(rows) == len(tets) else tets[rows]
+        blocks.append(_Block(3, region, name, rows, cells))
     for patch, name in enumerate(mesh.patch_names):
         if name in mesh.region_names:  # a set has one name for both
             name += "_patch"
@@ -101,7 +108,7 @@ def to_meshio(mesh: _kerf.Mesh, values: Optional[Values] = None) -> meshio.Mesh:
 
     tags = [np.full(len(block.rows), block.number + 1, np.int32) for block in blocks]
     cell_data = {"part": of_cells(mesh.part, 3), "region": of_cells(mesh.region, 3), "patch": of_cells(mesh.patch, 2),
-                 "gmsh:physical": tags, "gmsh:geometrical": list(tags)}
+                 _GMSH: tags, "gmsh:geometrical": list(tags)}
     cell_data.update((name, of_cells(array, 3)) for name, array in values.cells.items())
     named = [block for block in blocks if block.name is not None]
     sets = {each.name: [np.arange(len(block.rows) if block is each else 0) for block in blocks] for each in named}
@@ -196,7 +203,7 @@ def _surface(points: np.ndarray, triangles: np.ndarray, patches: Optional[np.nda
     return points, triangles, patches, [of_number.get(int(n), f"patch_{n}") for n in numbers]
 
 
-def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str]) -> SurfaceArrays:
+def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str]) -> tuple[Any, ...]:
     """For Surface.from_meshio()."""
     rows = [i for i, block in enumerate(mesh.cells) if block.type == "triangle"]
     others = sorted({block.type for block in mesh.cells if block.type.startswith(("quad", "polygon", "triangle"))})
@@ -208,12 +215,63 @@ def surface_of_meshio(mesh: meshio.Mesh, patches: Optional[str]) -> SurfaceArray
     triangles = np.concatenate([mesh.cells[i].data for i in rows])
     if patches is not None and patches not in mesh.cell_data:
         raise UsageError(f"The mesh has no cell data {patches!r}; there are {', '.join(mesh.cell_data) or 'none'}.")
-    key = patches or ("gmsh:physical" if "gmsh:physical" in mesh.cell_data else None)
-    if key is not None:
-        names = {int(value[0]): name for name, value in mesh.field_data.items()
-                 if key == "gmsh:physical" and np.size(value) == 2 and value[1] == 2}
-        return _surface(mesh.points, triangles, np.concatenate([mesh.cell_data[key][i] for i in rows]), names)
-    return _surface(mesh.points, triangles, *_patches_of_sets(mesh, rows, len(triangles)))
+    regions = _regions_of_meshio(mesh, triangles)
+    key = patches or next((name for name in (_GMSH, "Patch") if name in mesh.cell_data), None)
+    if key is None:
+        return (*_surface(mesh.points, triangles, *_patches_of_sets(mesh, rows, len(triangles))), *regions)
+    return (*_surface(mesh.points, triangles, _cell_data(mesh, key, rows), _names_of_meshio(mesh, key, 2)), *regions)
+
+
+def _cell_data(mesh: meshio.Mesh, key: str, rows: list[int]) -> np.ndarray:
+    return np.concatenate([mesh.cell_data[key][i] for i in rows]).astype(np.int64)
+
+
+def _names_of_meshio(mesh: meshio.Mesh, key: str, dimension: int) -> dict[int, str]:
+    """Names by the numbers of a cell data."""
+    if key == _GMSH:
+        return {int(value[0]): name for name, value in mesh.field_data.items()
+                if np.size(value) == 2 and value[1] == dimension}
+    names = mesh.field_data.get(_NAMES_IN_FILES.get(key, ""))
+    return {} if names is None else dict(enumerate(_names_of_bytes(np.asarray(names, np.uint8))))
+
+
+def _regions_of_meshio(mesh: meshio.Mesh, triangles: np.ndarray) -> RegionArrays:
+    """The regions beside the triangles, and their names: those of the tetrahedra there. None where these are of one
+    region, or the triangles are not all that bounds regions."""
+    key = next((name for name in (_GMSH, "Region") if name in mesh.cell_data), None)
+    rows = [i for i, block in enumerate(mesh.cells) if block.dim == 3]
+    if key is None or not rows or any(mesh.cells[i].type != "tetra" for i in rows):
+        return None, None
+    numbers, regions = np.unique(_cell_data(mesh, key, rows), return_inverse=True)
+    if len(numbers) < 2:
+        return None, None
+    sides = _sides_of(mesh.points, triangles, np.concatenate([mesh.cells[i].data for i in rows]), regions.ravel())
+    names = _names_of_meshio(mesh, key, 3)
+    return (None, None) if sides is None else (sides, [names.get(int(n), f"region_{n}") for n in numbers])
+
+
+def _sides_of(points: np.ndarray, triangles: np.ndarray, tets: np.ndarray,
+              regions: np.ndarray) -> Optional[np.ndarray]:
+    """(m, 2): the regions behind and in front of the triangles, -1: none. None if another face bounds a region."""
+    faces = np.sort(tets[:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]].reshape(-1, 3), axis=1)
+    _, numbers = np.unique(np.concatenate([np.sort(triangles, axis=1), faces]), axis=0, return_inverse=True)
+    of_triangles, of_faces = np.split(numbers.ravel(), [len(triangles)])
+    row = np.full(numbers.max() + 1, -1)
+    row[of_triangles] = np.arange(len(triangles))
+    corner, region, row = tets.ravel(), np.repeat(regions, 4), row[of_faces]
+
+    a, b, c = (points[triangles[row, i]] for i in range(3))
+    is_behind = np.einsum("ij,ij->i", np.cross(b - a, c - a), points[corner] - a) < 0
+    sides = np.full((len(triangles), 2), -1)
+    sides[row[(row >= 0) & is_behind], 0] = region[(row >= 0) & is_behind]
+    sides[row[(row >= 0) & ~is_behind], 1] = region[(row >= 0) & ~is_behind]
+
+    least, largest = (np.full(numbers.max() + 1, value) for value in (len(regions), -1))
+    np.minimum.at(least, of_faces, region)
+    np.maximum.at(largest, of_faces, region)
+    is_bounding = (least < largest) | (np.bincount(of_faces, minlength=len(least)) == 1)
+    is_complete = np.count_nonzero(is_bounding) == len(triangles) and (sides[:, 0] != sides[:, 1]).all()
+    return sides if is_complete else None
 
 
 def _patches_of_sets(mesh: meshio.Mesh, rows: list[int],

@@ -70,10 +70,11 @@ class Surface(_kerf.Surface):
 
     @classmethod
     def from_meshio(cls, mesh: meshio.Mesh, patches: Optional[str] = None, **options: Any) -> Surface:
-        """The triangles of a mesh of meshio.
+        """The triangles of a mesh of meshio, and the regions of the tetrahedra beside them, if these are of several.
 
-        patches    name of the cell data with the patch of each triangle; None: that of Gmsh's physical groups, with
-                   their names, or of Mesh.to_meshio(); else the cell sets, if each triangle is in one; else one patch
+        patches    name of the cell data with the patch of each triangle; None: that of Gmsh's physical groups, or of
+                   Mesh.to_meshio(), or "Patch" of a .vtu of Kerf, with the names there; else the cell sets, if each
+                   triangle is in one; else one patch
         options    as above
         """
         return Surface(*interchange.surface_of_meshio(mesh, patches), **options)

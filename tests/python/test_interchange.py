@@ -116,6 +116,38 @@ def test_a_surface_of_meshio(cube_mesh, tmp_path):
     assert kerf.Surface.from_meshio(bare).names == ["floor and lid", "walls"]
 
 
+@pytest.mark.parametrize("source", ["meshio", "gmsh", "msh", "vtu"])
+def test_regions_and_patches_of_meshio_keep_their_names(mesh, tmp_path, source):
+    other = mesh.to_meshio()
+    if source == "gmsh":
+        other.write(tmp_path / "a.msh", "gmsh")
+        other = meshio.read(tmp_path / "a.msh")
+    elif source != "meshio":
+        mesh.save(tmp_path / f"a.{source}")
+        other = meshio.read(tmp_path / f"a.{source}")
+    surface = kerf.Surface.from_meshio(other)
+    assert sorted(surface.names) == sorted(mesh.patch_names) and surface.regions == mesh.region_names
+    assert len(surface.triangles) == len(mesh.triangles)
+    for name in mesh.patch_names:
+        assert np.count_nonzero(surface.patches == surface.names.index(name)) == np.count_nonzero(
+            mesh.patch == mesh.patch_names.index(name))
+    again = kerf.mesh(surface, parts=2)
+    assert again.region_names == mesh.region_names
+    assert all(np.isclose(again.volumes[again.region == region].sum(), 1) for region in (0, 1))
+
+
+def test_triangles_that_do_not_bound_all_regions_make_one_body(cube_mesh, mesh):
+    """As those of a file without walls."""
+    other = mesh.to_meshio()
+    rows = [i for i, block in enumerate(other.cells) if block.type == "tetra" or other.cell_data["patch"][i][0] != 1]
+    cells = [(other.cells[i].type, other.cells[i].data) for i in rows]
+    outer = meshio.Mesh(other.points, cells, field_data=other.field_data,
+                        cell_data={"gmsh:physical": [other.cell_data["gmsh:physical"][i] for i in rows]})
+    surface = kerf.Surface.from_meshio(outer)
+    assert surface.regions == [] and np.isclose(surface.volume, 2)
+    assert kerf.Surface.from_meshio(cube_mesh.to_meshio()).regions == []
+
+
 def test_what_is_no_surface_of_meshio_is_refused(mesh):
     with pytest.raises(ValueError, match="no triangles"):
         kerf.Surface.from_meshio(meshio.Mesh(mesh.points, [("tetra", mesh.tetrahedra)]))
