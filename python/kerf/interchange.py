@@ -39,6 +39,7 @@ class _Block:
 
     dimension: int
     number: int
+    physical: int  #: Gmsh's number, as `kerf merge` gives it: of patches from 1, of regions behind these
     name: Optional[str]
     rows: np.ndarray
     cells: np.ndarray
@@ -61,12 +62,12 @@ def _blocks_of(mesh: _kerf.Mesh) -> list[_Block]:
         rows = np.flatnonzero(mesh.region == region)
         name = mesh.region_names[region] if mesh.region_names else None
         cells = tets if len(rows) == len(tets) else tets[rows]
-        blocks.append(_Block(3, region, name, rows, cells))
+        blocks.append(_Block(3, region, len(mesh.patch_names) + region + 1, name, rows, cells))
     for patch, name in enumerate(mesh.patch_names):
         if name in mesh.region_names:  # a set has one name for both
             name += "_patch"
         rows = np.flatnonzero(mesh.patch == patch)
-        blocks.append(_Block(2, patch, name, rows, triangles[rows]))
+        blocks.append(_Block(2, patch, patch + 1, name, rows, triangles[rows]))
     return [block for block in blocks if len(block.rows) > 0]
 
 
@@ -106,15 +107,16 @@ def to_meshio(mesh: _kerf.Mesh, values: Optional[Values] = None) -> meshio.Mesh:
         return [array[block.rows] if block.dimension == dimension else
                 np.full((len(block.rows), *array.shape[1:]), none, array.dtype) for block in blocks]
 
-    tags = [np.full(len(block.rows), block.number + 1, np.int32) for block in blocks]
+    groups = [np.full(len(block.rows), block.physical, np.int32) for block in blocks]
+    entities = [np.full(len(block.rows), block.number + 1, np.int32) for block in blocks]
     cell_data = {"part": of_cells(mesh.part, 3), "region": of_cells(mesh.region, 3), "patch": of_cells(mesh.patch, 2),
-                 _GMSH: tags, "gmsh:geometrical": list(tags)}
+                 _GMSH: groups, "gmsh:geometrical": entities}
     cell_data.update((name, of_cells(array, 3)) for name, array in values.cells.items())
     named = [block for block in blocks if block.name is not None]
     sets = {each.name: [np.arange(len(block.rows) if block is each else 0) for block in blocks] for each in named}
     return meshio.Mesh(mesh.points, [(block.kind, block.cells) for block in blocks], cell_data=cell_data,
                        point_data={"gmsh:dim_tags": _entities_of_points(len(mesh.points), blocks), **values.points},
-                       field_data={each.name: np.array([each.number + 1, each.dimension]) for each in named},
+                       field_data={each.name: np.array([each.physical, each.dimension]) for each in named},
                        cell_sets=sets)
 
 

@@ -79,12 +79,14 @@ def test_names_survive_a_file_of_gmsh(which, request, tmp_path):
     mesh = request.getfixturevalue(which)
     mesh.to_meshio().write(tmp_path / "a.msh", "gmsh")
     back = meshio.read(tmp_path / "a.msh")
-    for dimension, names, numbers in ((3, mesh.region_names, mesh.region), (2, mesh.patch_names, mesh.patch)):
+    regions_from = len(mesh.patch_names) + 1  # as kerf merge numbers them
+    for dimension, first, names, numbers in ((3, regions_from, mesh.region_names, mesh.region),
+                                             (2, 1, mesh.patch_names, mesh.patch)):
         kind = "tetra" if dimension == 3 else "triangle"
         tags = back.get_cell_data("gmsh:physical", kind)
         for number, name in enumerate(names):
-            assert list(back.field_data[name]) == [number + 1, dimension]
-            assert np.count_nonzero(tags == number + 1) == np.count_nonzero(numbers == number)
+            assert list(back.field_data[name]) == [first + number, dimension]
+            assert np.count_nonzero(tags == first + number) == np.count_nonzero(numbers == number)
     own = volumes(mesh.points, mesh.tetrahedra).sum()
     assert np.isclose(volumes(back.points, back.get_cells_type("tetra")).sum(), own)
 
@@ -146,6 +148,16 @@ def test_triangles_that_do_not_bound_all_regions_make_one_body(cube_mesh, mesh):
     surface = kerf.Surface.from_meshio(outer)
     assert surface.regions == [] and np.isclose(surface.volume, 2)
     assert kerf.Surface.from_meshio(cube_mesh.to_meshio()).regions == []
+
+
+def test_groups_have_the_numbers_of_kerf_merge(run, mesh, tmp_path):
+    run.merge(tmp_path / "a.msh")
+    merged, own = meshio.read(tmp_path / "a.msh"), mesh.to_meshio()
+    assert {name: list(value) for name, value in own.field_data.items()} == {
+        name: list(value) for name, value in merged.field_data.items()}
+    for kind in ("tetra", "triangle"):
+        counts = (np.unique(each.get_cell_data("gmsh:physical", kind), return_counts=True) for each in (own, merged))
+        assert all(np.array_equal(a, b) for a, b in zip(*counts))
 
 
 def test_what_is_no_surface_of_meshio_is_refused(mesh):
