@@ -98,7 +98,7 @@ class ConvergenceError(Error):
 
 
 class Cancelled(Error):
-    """Stopped by `progress`."""
+    """Stopped by `progress`, which returned False."""
 
     code = 130
 
@@ -122,6 +122,8 @@ def error_of(code: int, message: str, elements: Iterable[dict[str, Any]],
     """The exception of an exit code; its message has the names of Python for options and arrays."""
     kind = _classes.get(code, Error)
     message = in_python(message)
+    if kind is Cancelled:  # KeyboardInterrupt, and what `progress` raises, come in its place
+        message = message.replace("was cancelled.", "was cancelled by progress, which returned False.")
     error = InputError(message, elements, defects) if kind is InputError else kind(message, elements)
     if failed_parts and isinstance(error, (MeshingError, OutOfMemory)):
         error.failed_parts = [FailedPart._of(*each) for each in failed_parts]

@@ -47,7 +47,9 @@ def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size:
     parts      into which the surface is cut; 0: as many as are of use here
     size       wanted edge length, in units of the surface; a text with a share of the diagonal, as "2%"; a function
                of points (n, 3) that returns lengths (n,), see sample_sizes(); a SizeField; 0: none
-    progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work
+    progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work, and
+               nothing else does. total is at least 1, or None if nobody knows it. Stages, where there is something to
+               do: "read", "repair", "remesh", "decompose", "prepare", "volume", "reference", "write", "hash"
     workers    processes that mesh parts; 0: one for each processor
     output     None: a Mesh in memory; else a folder, for what is larger than memory: a Run, whose parts are the same
                files that `kerf mesh -o` writes. An older run there is replaced; one that was interrupted, or has failed

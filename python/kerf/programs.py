@@ -81,7 +81,7 @@ def _communicate(process: subprocess.Popen, name: str, progress: Optional[Callab
             return process.communicate(timeout=_SECONDS_BETWEEN_LOOKS)
         except subprocess.TimeoutExpired:
             if progress is not None and progress(stage, 0, 0) is False:
-                raise Cancelled(f"{name} was cancelled.") from None
+                raise Cancelled(f"{name} was cancelled by progress, which returned False.") from None
             if timeout is not None and time.monotonic() - start > timeout:
                 raise Cancelled(f"{name} took longer than {timeout:g} s and was ended.") from None
 

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import sys
-from typing import Callable, Optional, Union
+from typing import Any, Callable, Optional, Union
 
-#: None: nothing is told; True: a line on standard error; else called with (stage, done, total), where total is 0 if
-#: nobody knows how many: returning False ends the work with Cancelled.
-Progress = Union[bool, Callable[[str, int, int], Optional[bool]], None]
+import numpy as np
 
-
-def caller(progress: Progress) -> Optional[Callable[[str, int, int], Optional[bool]]]:
-    """What the module calls."""
-    if progress is True:
-        return _line
-    return progress or None
+#: None: nothing is told; True: a line on standard error; else called with (stage, done, total), where total is None if
+#: nobody knows how many: returning False, and nothing else, ends the work with Cancelled.
+Progress = Union[bool, Callable[[str, int, Optional[int]], Any], None]
 
 
-def _line(stage: str, done: int, total: int) -> None:
+def caller(progress: Progress) -> Optional[Callable[[str, int, int], bool]]:
+    """What the module calls: total is 0 there if nobody knows how many, and False ends the work."""
+    if not progress:
+        return None
+    told = _line if progress is True else progress
+
+    def goes_on(stage: str, done: int, total: int) -> bool:
+        answer = told(stage, done, total or None)
+        return not (isinstance(answer, (bool, np.bool_)) and not answer)
+
+    return goes_on
+
+
+def _line(stage: str, done: int, total: Optional[int]) -> None:
     count = f" {done} of {total}" if total else ""
-    is_last = total and done == total
+    is_last = done == total
     print(f"\r\033[Kkerf: {stage}{count}", end="\n" if is_last else "", file=sys.stderr, flush=True)

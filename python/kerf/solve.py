@@ -21,7 +21,7 @@ def solve(run: Union[Path, object], case: Union[Mapping[str, object], Path], out
     run        a Run, or its folder; or the file of a surface, which is meshed first: into OUTPUT/mesh
     case       materials, supports and loads: a dict with the keys of the file (docs/solvers.md), or the path of one
     output     folder for the solution, which replaces an older one there; None: one that goes with the Solution
-    progress   True: a line on standard error; or called with ("solve", 0, 0): returning False ends the work
+    progress   True: a line on standard error; or called with ("solve", 0, None): returning False ends the work
     options    those of `kerf solve`, with underscores: ranks, target_error; of a surface those of `kerf mesh`, too
 
         case = {"material": {"steel": {"young": 210e3, "poisson": 0.3}},

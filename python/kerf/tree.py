@@ -170,7 +170,7 @@ def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: Size = 0, 
     surface    a Surface, or the path of a file
     parts      into which the surface is cut; 0: as many as are of use here
     size       wanted edge length, as of mesh(): cuts share the work that it makes, interfaces get triangles of it
-    progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work
+    progress   as of kerf.mesh()
     options    those of `kerf decompose`, with underscores: surface, cut, axis, contour, balance, trace, ...
 
         tree = kerf.decompose("pump.stl", parts=8)

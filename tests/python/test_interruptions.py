@@ -89,6 +89,26 @@ def test_progress_ends_a_call(cube, temporary):
         kerf.mesh(kerf.Surface(*cube), size=0.1, progress=lambda stage, done, total: False)
 
 
+@pytest.mark.parametrize("answer", [False, np.bool_(False)])
+def test_who_has_cancelled_is_told(cube, temporary, answer):
+    with pytest.raises(kerf.Cancelled, match="by progress"):
+        kerf.mesh(kerf.Surface(*cube), size=0.1, progress=lambda stage, done, total: answer)
+
+
+@pytest.mark.parametrize("answer", [None, True, 0, 0.0, "", np.float64(0), np.int64(0)])
+def test_only_false_ends_a_call(cube, temporary, answer):
+    events = []
+
+    def progress(*event):
+        events.append(event)
+        return answer
+
+    mesh = kerf.mesh(kerf.Surface(*cube), size=0.3, parts=2, progress=progress)
+    assert len(mesh.tetrahedra) > 0 and all(stage in kerf.mesh.__doc__ for stage, _, _ in events)
+    assert all(total is None or total >= 1 for _, _, total in events)
+    assert {"decompose", "volume"} <= {stage for stage, _, _ in events}
+
+
 def test_what_progress_raises_ends_a_call(cube, temporary):
     def fail(stage, done, total):
         raise ZeroDivisionError(stage)
