@@ -10,6 +10,7 @@ import pytest
 from conftest import CUBE_POINTS, CUBE_TRIANGLES
 
 import kerf
+from region_boxes import two_boxes
 
 P = np.array(CUBE_POINTS, float)
 T = np.array(CUBE_TRIANGLES)
@@ -330,3 +331,19 @@ def test_remeshing_can_be_ended():
         surface.remesh(size=0.01, progress=lambda *step: False)
     with pytest.raises(kerf.UsageError, match="^deviation is"):
         surface.remesh(deviation=-1)
+
+
+def test_a_region_that_is_inside_out_is_refused(cube):
+    """All columns the wrong way close every region, but around nothing."""
+    points, triangles = cube
+    sides = np.tile([-1, 0], (12, 1))
+    boxes = two_boxes()
+    for given, name in (((points, triangles, None, None, sides, ["body"]), "body"),
+                        ((boxes.points, boxes.triangles, boxes.patches, boxes.names, boxes.sides[:, ::-1],
+                          boxes.regions), "steel")):
+        with pytest.raises(kerf.InputError, match=f"'{name}' is inside out.*columns of sides") as raised:
+            kerf.Surface(*given)
+        assert [defect.kind for defect in raised.value.defects] == ["inverted region"]
+        check = kerf.check(*given)
+        assert not check.ok and [defect.kind for defect in check.errors] == ["inverted region"]
+    assert np.isclose(kerf.Surface(points, triangles, sides=sides[:, ::-1], regions=["body"]).volume, 1)

@@ -26,6 +26,7 @@
 #include "run/prepare/slivers.h"
 #include "run/report/repair_json.h"
 #include "run/report/repair_text.h"
+#include "surface/complex/inverted_region.h"
 #include "surface/complex/mass_properties.h"
 #include "surface/complex/point_inside.h"
 #include "surface/regions/regions.h"
@@ -329,7 +330,7 @@ FileDiagnosis diagnosed(const std::string& path, const Check& check) {
     try {
         found.regions = regions_of(found.checked);
     } catch (const Error& error) {
-        found.refused = {"open region", error};
+        found.refused = {dynamic_cast<const InvertedRegion*>(&error) ? InvertedRegion::kind : "open region", error};
     }
     return found;
 }

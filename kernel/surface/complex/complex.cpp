@@ -8,6 +8,7 @@
 #include "surface/complex/complex.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -18,6 +19,7 @@
 #include "base/core/ids.h"
 #include "base/core/number_text.h"
 #include "base/geometry/union_find.h"
+#include "surface/complex/inverted_region.h"
 #include "surface/complex/touching.h"
 #include "surface/soup/edge_corners.h"
 
@@ -84,6 +86,40 @@ void check_closed(const SurfaceArrays& facets, const std::vector<FacetSides>& si
     });
 }
 
+// Of each region six times its volume, from a vertex of its own, and the sum of the magnitudes of all terms.
+struct SignedVolume {
+    std::int32_t origin = -1;
+    double sum = 0, magnitude = 0;
+};
+
+// Refuses regions that close the wrong way. Volumes that may be negative by rounding alone are none of them.
+void check_turned_outwards(const SurfaceArrays& facets, const std::vector<FacetSides>& sides,
+                           const std::vector<std::string>& names) {
+    constexpr double rounding = 1e-9;  // as a share of the magnitudes
+    std::vector<SignedVolume> volumes(names.size());
+    const auto add = [&](RegionIndex region, const Triangle& t, double sign) {
+        if (!region.is_valid()) return;
+        SignedVolume& own = volumes[region.value()];
+        if (own.origin < 0) own.origin = t[0];
+        const Vec3& origin = facets.vertices[own.origin];
+        const Vec3 a = facets.vertices[t[0]] - origin, b = facets.vertices[t[1]] - origin,
+                   c = facets.vertices[t[2]] - origin;
+        const double term = sign * a.dot(b.cross(c));
+        own.sum += term;
+        own.magnitude += std::abs(term);
+    };
+    for (std::size_t f = 0; f < sides.size(); ++f) {
+        add(sides[f].back, facets.facets[f], 1);
+        add(sides[f].front, facets.facets[f], -1);
+    }
+    for (std::size_t r = 0; r < names.size(); ++r)
+        if (volumes[r].sum < -rounding * volumes[r].magnitude)
+            throw InvertedRegion(
+                fmt::format("The region '{}' is inside out, with a volume of {:.6g}: turn its facets, or exchange the "
+                            "regions behind them and in front of them, which are the columns of sides.",
+                            names[r], volumes[r].sum / 6));
+}
+
 std::array<Key, 2> edge_of(Key a, Key b) { return {std::min(a, b), std::max(a, b)}; }
 
 template <class T>
@@ -137,6 +173,7 @@ Complex::Complex(SurfaceArrays facets, std::vector<FacetSides> sides, std::vecto
         if (first_[r] == first_[r + 1])
             throw Error(ErrorCode::input, fmt::format("The region '{}' has no facets. Leave it out.", names_[r]));
     check_closed(facets_, sides_, names_);
+    check_turned_outwards(facets_, sides_, names_);
     if (names_.size() == 1) become_only_region();
 }
 

@@ -38,8 +38,9 @@ class Complex {
     explicit Complex(Surface surface);
     /// A complex of several regions. `sides` has the regions beside each facet, as indices into `region_names`. Throws
     /// Error(input), naming region and place, for a facet with the same region on both sides, a region without facets,
-    /// and a region whose facets do not close. A single region loses its name: the complex is that of its surface, and
-    /// Error(input) is thrown where the surface touches itself. O(#F log #F).
+    /// and a region whose facets do not close; InvertedRegion for one with a negative volume. A single region loses its
+    /// name: the complex is that of its surface, and Error(input) is thrown where the surface touches itself.
+    /// O(#F log #F).
     Complex(SurfaceArrays facets, std::vector<FacetSides> sides, std::vector<std::string> region_names);
 
     std::int32_t region_count() const { return names_.empty() ? 1 : count_of(names_); }
