@@ -18,11 +18,15 @@ namespace py = pybind11;
 
 namespace {
 
+// `body`: the name of the only region, which the kernel does not keep; empty: there are several, or it has none.
 std::shared_ptr<MeshArrays> mesh(const SurfaceObject& surface, const py::object& sizes, const py::object& progress,
-                                 const std::string& programs, const py::kwargs& options) {
+                                 const std::string& programs, const std::string& body, const py::kwargs& options) {
     Watch watch(progress);
     const MeshOptions wanted = mesh_options(sizes, programs, options, watch);
-    return without_lock(watch, [&] { return std::make_shared<MeshArrays>(mesh_to_arrays(surface.surface, wanted)); });
+    auto made =
+        without_lock(watch, [&] { return std::make_shared<MeshArrays>(mesh_to_arrays(surface.surface, wanted)); });
+    if (made->region_names.empty() && !body.empty()) made->region_names = {body};
+    return made;
 }
 
 // Meshes into a folder. `surface`: a Surface, or the path of a file.
@@ -102,7 +106,8 @@ void add_cells_of_mesh(MeshClass& type) {
         .def_property_readonly("region", array_of(&MeshArrays::region),
                                "(m,) int32: rows of `region_names`, 0 if there is one region.")
         .def_property_readonly(
-            "region_names", [](const MeshArrays& self) { return self.region_names; }, "Empty if there is one region.");
+            "region_names", [](const MeshArrays& self) { return self.region_names; },
+            "Empty if there is one region without a name.");
 }
 
 void add_triangles_of_mesh(MeshClass& type) {
@@ -155,7 +160,8 @@ void register_mesh(py::module_& module) {
     add_cells_of_mesh(type);
     add_triangles_of_mesh(type);
     add_hidden_of_mesh(type);
-    module.def("mesh", &mesh, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"));
+    module.def("mesh", &mesh, py::arg("of"), py::arg("sizes"), py::arg("progress"), py::arg("programs"),
+               py::arg("body"));
     module.def("mesh_into", &mesh_into, py::arg("of"), py::arg("folder"), py::arg("sizes"), py::arg("progress"),
                py::arg("programs"));
     module.def("mesh_of_run", [](const std::string& folder) {

@@ -70,7 +70,8 @@ def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size:
     refuse_in_memory(options)
     surface, options = surface_and_options(surface, options)
     sizes, length = split_size(size, surface)
-    return Mesh(_kerf.mesh(surface, sizes, caller(progress), programs.folder(), parts=parts, size=length,
+    body = (surface._body or "").encode("utf-8", "surrogateescape")
+    return Mesh(_kerf.mesh(surface, sizes, caller(progress), programs.folder(), body, parts=parts, size=length,
                            workers=workers, **options))
 
 

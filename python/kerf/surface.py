@@ -33,7 +33,8 @@ class Surface(_kerf.Surface):
     patches    (m,) whole numbers from 0, or None: one patch
     names      of the patches, or None: patch_0, patch_1, ...
     sides      (m, 2) whole numbers: the regions behind and in front of each triangle, as rows of `regions`, -1: outside
-    regions    names of the regions; given together with `sides`
+    regions    names of the regions; given together with `sides`. That of a single one stays with meshes in memory; files
+               of runs do not have it
     options    those of the surface: scale, weld, fill_holes, keep_largest, voids, ... (kerf.options() lists them)
 
     Everything is copied and checked; points of equal coordinates become one. Its own arrays are read-only views: they
@@ -45,6 +46,7 @@ class Surface(_kerf.Surface):
     check() does. Cost: O(m log m), 0.4 M triangles in 4 s.
     """
 
+    _body: Optional[str] = None
     _made: Optional[tuple[str, Optional[dict[str, Any]], list[str]]] = None
 
     def __init__(self, points: ArrayLike, triangles: ArrayLike, patches: Optional[ArrayLike] = None,
@@ -52,6 +54,13 @@ class Surface(_kerf.Surface):
                  regions: Optional[Sequence[str]] = None, **options: object) -> None:
         super().__init__(_kerf.surface_of_arrays(points, triangles, patches, encoded_names("names", names), sides,
                                                  encoded_names("regions", regions), **options))
+        if regions is not None and len(regions) == 1:
+            self._body = regions[0]
+
+    @property
+    def regions(self) -> list[str]:
+        """Names; empty if there is one region without a name."""
+        return super().regions or ([] if self._body is None else [self._body])
 
     def __reduce__(self) -> tuple[Any, ...]:
         of_regions = self.regions or None
@@ -139,7 +148,9 @@ class Surface(_kerf.Surface):
         Lengths may be texts such as "2%", of the diagonal of the bounds. Raises UsageError for options, InputError
         where the bound cannot be kept, OutOfMemory, Cancelled.
         """
-        return Surface._of(self._remesh(caller(progress), size=size, deviation=deviation, **options))
+        remeshed = Surface._of(self._remesh(caller(progress), size=size, deviation=deviation, **options))
+        remeshed._body = self._body
+        return remeshed
 
     def save(self, path: Path) -> None:
         """Writes an .obj: all digits and the patches, or of several regions a closed group for each; a .vtp or .vtk:
@@ -148,7 +159,7 @@ class Surface(_kerf.Surface):
         self._save(encoded(path))
 
     def __repr__(self) -> str:
-        regions = f", {len(self.regions)} regions" if self.regions else ""
+        regions = f", {len(self.regions)} regions" if len(self.regions) > 1 else ""
         return (f"<kerf.Surface: {len(self.points)} points, {len(self.triangles)} triangles{regions}"
                 f"{notes_text(self.notes)}>")
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import subprocess
 
 import numpy as np
@@ -186,3 +187,19 @@ def test_files_are_not_for_meshes_in_memory(cube, option):
 def test_one_line(cube):
     nodes, tets = kerf.tetrahedralize(*cube, size=0.5)
     assert nodes.shape[1] == 3 and tets.shape[1] == 4 and tets.max() < len(nodes)
+
+
+def test_a_single_body_keeps_its_name(cube, tmp_path):
+    points, triangles = cube
+    surface = kerf.Surface(points, triangles, sides=np.tile([0, -1], (12, 1)), regions=["bone"])
+    mesh = kerf.mesh(surface, parts=2, size=0.5)
+    assert surface.regions == mesh.region_names == ["bone"] and set(mesh.region) == {0}
+    for copied in (pickle.loads(pickle.dumps(mesh)), kerf.mesh(pickle.loads(pickle.dumps(surface)), parts=1),
+                   kerf.mesh(surface.remesh(size=0.5), parts=1), kerf.mesh(surface.repair(scale=2), parts=1)):
+        assert copied.region_names == ["bone"]
+    plain = kerf.mesh(kerf.Surface(points, triangles), parts=2, size=0.5)
+    assert plain.region_names == [] and np.array_equal(plain.tetrahedra, mesh.tetrahedra)
+    assert np.array_equal(plain.cell_quality("volume"), mesh.cell_quality("volume"))
+    mesh.save(tmp_path / "a.msh", msh_ascii=True)
+    assert '"bone"' in (tmp_path / "a.msh").read_text()
+    assert kerf.check(surface).ok and mesh.quality().text
