@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, TypeVar
 
 import numpy as np
 
-from .errors import Cancelled, UsageError
+from .errors import Cancelled, Error, UsageError
 
 if TYPE_CHECKING:
     from mpi4py.MPI import Comm
@@ -51,6 +51,8 @@ def together(comm: Comm, work: Callable[[], Value]) -> Value:
 def _weight(error: BaseException) -> int:
     """Where a rank has failed the others are told without elements, and where one is interrupted they are cancelled."""
     if isinstance(error, Cancelled):
+        return 3
+    if type(error) is Error:  # of another rank, where Python has raised
         return 2
     return 0 if getattr(error, "elements", None) or not hasattr(error, "elements") else 1
 
