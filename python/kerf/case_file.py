@@ -32,4 +32,4 @@ def _value(value: object, where: str) -> str:
     if isinstance(value, str):
         return json.dumps(value)
     raise UsageError(f"{where} of the case is {value!r}, but must be a finite number, text, True or False, "
-                    "or a list or dict of these.")
+                     "or a list or dict of these.")

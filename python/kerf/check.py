@@ -13,6 +13,7 @@ from ._kerf import Surface
 from .defect import Defect
 from .errors import UsageError
 from .option_table import in_python
+from .options import require_of_surface
 from .paths import Path, encoded, encoded_names
 
 
@@ -20,6 +21,10 @@ class Check(_kerf.Check):
     """What check() has found. str() of it is what `kerf check` prints."""
 
     _found: Optional[list[Defect]] = None
+
+    def __init__(self, native: _kerf.Check) -> None:
+        """Of one that check() has made."""
+        super().__init__(native)
 
     @property
     def text(self) -> str:
@@ -69,6 +74,7 @@ def check(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLik
         for defect in check.errors:
             print(defect, defect.facets, defect.points)
     """
+    require_of_surface(options)
     if triangles is None:
         if any(each is not None for each in (patches, names, sides, regions)):
             raise UsageError("patches, names, sides and regions belong to points and triangles: give triangles, too.")

@@ -64,6 +64,7 @@ class DistributedMesh(_kerf.DistributedMesh):
     """
 
     def __init__(self, comm: Comm, native: _kerf.DistributedMesh) -> None:
+        """Of what kerf.mesh() or distributed() has made on this rank."""
         super().__init__(native)
         self._comm = comm
         self._neighbours = [Neighbour(*each) for each in self._neighbour_rows]
@@ -160,7 +161,7 @@ def distributed(folder: Path, comm: Comm) -> DistributedMesh:
     return DistributedMesh(comm, together(comm, lambda: _kerf.mesh_of_rank(path, comm.rank, comm.size)))
 
 
-def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, size: Size = 0,
+def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, size: Size = None,
                   progress: Progress = None, workers: int = 0, output: Optional[Path] = None,
                   **options: object) -> DistributedMesh:
     """kerf.mesh() with a communicator; DistributedMesh tells of it."""

@@ -295,6 +295,9 @@ def surface_of_polydata(polydata: Union[pyvista.PolyData, vtk.vtkPolyData], patc
     """For Surface.from_pyvista()."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
+    if not hasattr(polydata, "GetPolys"):
+        raise UsageError(f"A data set of polygons is wanted, but this is of type {type(polydata).__name__}: "
+                         "extract_surface() of PyVista, or vtkGeometryFilter, makes one of a grid.")
     if polydata.GetNumberOfPolys() == 0:
         raise UsageError("The data set has no polygons.")
     polygons = polydata.GetPolys()

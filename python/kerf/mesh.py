@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 class Mesh(_kerf.Mesh):
     """A mesh in memory. Its arrays are read-only views; nothing changes them. It can be pickled and copied."""
 
+    def __init__(self, native: _kerf.Mesh) -> None:
+        """Of one that kerf.mesh(), Run.mesh() or another mesh has."""
+        super().__init__(native)
+
     def __copy__(self) -> Mesh:
         return Mesh(self)  # what is found when it is first asked for is found again
 
@@ -48,10 +52,11 @@ class Mesh(_kerf.Mesh):
         return interchange.to_meshio(self)
 
     def to_vtk(self) -> vtk.vtkUnstructuredGrid:
-        """A grid of VTK: the tetrahedra, then the triangles, with the arrays that the files of Kerf have
-        (docs/output.md): Part, Region, Patch of cells; RegionNames, PatchNames of the field.
+        """A grid of VTK: the tetrahedra, then the triangles of the boundary and of walls; of order 2 quadratic ones.
 
-        The points are not copied: the grid shares them.
+        Cell data "Part", "Patch" (-1 of tetrahedra) and, of several regions, "Region" (of triangles the one behind);
+        field data "PatchNames" and "RegionNames": bytes, a zero behind each name. These are the arrays of Kerf's files.
+        The points are not copied: the grid shares them. Raises ImportError without VTK.
         """
         return interchange.to_vtk(self)
 

@@ -24,21 +24,21 @@ if TYPE_CHECKING:
 
 
 @overload
-def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = None, progress: Progress = None,
          workers: int = 0, output: None = None, comm: None = None, **options: object) -> Mesh: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = None, progress: Progress = None,
          workers: int = 0, *, output: Path, comm: None = None, **options: object) -> Run: ...
 
 
 @overload
-def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = None, progress: Progress = None,
          workers: int = 0, output: Optional[Path] = None, *, comm: Comm, **options: object) -> DistributedMesh: ...
 
 
-def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = 0, progress: Progress = None,
+def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size: Size = None, progress: Progress = None,
          workers: int = 0, output: Optional[Path] = None, comm: Optional[Comm] = None,
          **options: object) -> Union[Mesh, Run, DistributedMesh]:
     """The mesh of a surface, or of a file.
@@ -46,7 +46,7 @@ def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size:
     surface    a Surface, or the path of a file, or a list of several, a region each, as on the command line
     parts      into which the surface is cut; 0: as many as are of use here
     size       wanted edge length, in units of the surface; a text with a share of the diagonal, as "2%"; a function
-               of points (n, 3) that returns lengths (n,), see sample_sizes(); a SizeField; 0: none
+               of points (n, 3) that returns lengths (n,), see sample_sizes(); a SizeField; None: as the surface
     progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work, and
                nothing else does. total is at least 1, or None if nobody knows it. Stages, where there is something to
                do: "read", "repair", "remesh", "decompose", "prepare", "volume", "reference", "write", "hash"
@@ -96,7 +96,7 @@ class Tetrahedralization(NamedTuple):
     tets: np.ndarray
 
 
-def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: Size = 0, progress: Progress = None,
+def tetrahedralize(vertices: ArrayLike, faces: ArrayLike, size: Size = None, progress: Progress = None,
                    **options: Any) -> Tetrahedralization:
     """nodes (n, 3) float64 and tets (m, 4) int64, with order=2 (m, 10), of a closed surface of triangles.
 

@@ -30,9 +30,31 @@ def find(name: str) -> Option:
     """The option with this keyword. Raises UsageError, with what it may have been meant to be, if there is none."""
     option = table().get(name.rstrip("_").replace("_", "-"))
     if option is None:
-        meant = _kerf.did_you_mean(name, [each.name for each in table().values()])
-        raise UsageError(f"{name} is no option.{meant} kerf.options() lists them all.")
+        raise UsageError(f"{name} is no option.{_meant(name)} kerf.options() lists them all.")
     return option
+
+
+#: What other meshers call options of Kerf.
+_SYNONYMS = {"n": "parts", "n_parts": "parts", "num_parts": "parts", "nparts": "parts", "h": "size", "maxh": "size",
+             "max_size": "size", "mesh_size": "size", "edge_length": "size", "target_size": "size",
+             "n_workers": "workers", "threads": "workers", "n_threads": "workers", "jobs": "workers",
+             "n_jobs": "workers"}
+
+
+def _meant(name: str) -> str:
+    if name in ("seed", "random_seed", "random_state"):
+        return " Nothing is random: the same call makes the same mesh."
+    if name in _SYNONYMS:
+        return f" Did you mean {_SYNONYMS[name]}?"
+    return _kerf.did_you_mean(name, [each.name for each in table().values()])
+
+
+def require_of_surface(given: Mapping[str, Any]) -> None:
+    """Raises UsageError for options that a surface has no use for."""
+    for name, value in given.items():
+        is_wrap = find(name).name == "surface" and value == "wrap"
+        if not find(name).is_of_surface and not is_wrap:
+            raise UsageError(f"{name} is no option of a surface: give it to kerf.mesh().")
 
 
 def split(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -73,13 +95,20 @@ def _text(option: Option, value: Any) -> Optional[str]:
         value = [f"{_word(option, key)}={_joined(option, each)}" for key, each in value.items()]
     is_several = isinstance(value, (list, tuple))
     if option.kind == "list":
-        items = [_word(option, each) for each in (value if is_several else [value])]
+        items = [_item(option, each) for each in (value if is_several else [value])]
         return ";".join(re.sub(r"([;\\])", r"\\\1", item) for item in items)
     if not is_several:
         return _word(option, value)
     if option.form != "LIST":
-        raise UsageError(f"{option.name} takes one value, but {_short(value)} has several.")
+        raise UsageError(f"{option.name} takes one value, but {short(value)} has several.")
     return ",".join(_word(option, each) for each in value)
+
+
+def _item(option: Option, value: Any) -> str:
+    """A value of a list, which may be a pair of what stands before the = and behind it."""
+    if isinstance(value, tuple) and len(value) == 2 and "=" in option.form:
+        return f"{_word(option, value[0])}={_joined(option, value[1])}"
+    return _word(option, value)
 
 
 def _joined(option: Option, value: Any) -> str:
@@ -106,9 +135,12 @@ def _word(option: Option, value: Any) -> str:
         number = float(value)
         return str(int(number)) if number.is_integer() and abs(number) < 2**53 else repr(number)
     wanted = f"a {option.kind}" if option.kind != "list" else "a list of " + option.form
-    raise UsageError(f"{option.name} is {_short(value)}, but it must be {wanted}.")
+    if "=" in option.form:
+        before, _, behind = option.form.partition("=")
+        wanted += f", or a dict {{{before}: {behind}}}"
+    raise UsageError(f"{option.name} is {short(value)}, but it must be {wanted}.")
 
 
-def _short(value: Any) -> str:
+def short(value: Any) -> str:
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."

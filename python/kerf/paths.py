@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, Optional, Sequence, Union, cast
+from typing import Any, Optional, Sequence, Union
 
 from .errors import UsageError
 
@@ -24,8 +24,11 @@ def encoded(path: Path) -> bytes:
 
 def with_others(path: Union[Path, Sequence[Path]], options: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
     """The first of several files, and the options with the others in `with_`, as the command line has them."""
-    if not isinstance(path, (list, tuple)):
-        return cast(Path, path), options
+    if isinstance(path, (str, os.PathLike)):
+        return path, options
+    if not isinstance(path, (list, tuple)) or not all(isinstance(each, (str, os.PathLike)) for each in path):
+        raise UsageError(f"A Surface, a path or a list of paths is wanted, but this is of type {type(path).__name__}. "
+                         "Points and triangles make a surface: kerf.mesh(kerf.Surface(points, triangles), ...).")
     if not path:
         raise UsageError("The list of files is empty.")
     others = [os.fspath(other) for other in path[1:]]

@@ -55,7 +55,7 @@ def _drawable(what: object) -> Union[Surface, Mesh, str]:
     path = getattr(what, "folder", what)
     if not isinstance(path, (str, os.PathLike)):
         raise UsageError(f"plot() draws surfaces, meshes, runs, solutions, parts of trees and files, but no "
-                        f"{type(what).__name__}.")
+                         f"{type(what).__name__}.")
     return os.fspath(path)
 
 

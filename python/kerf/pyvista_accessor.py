@@ -39,7 +39,7 @@ class KerfAccessor:
         """
         if options.get("output") is not None:
             raise UsageError("polydata.kerf.mesh() gives a grid in memory; kerf.mesh(polydata.kerf.surface(), "
-                            "output=...) writes a folder.")
+                             "output=...) writes a folder.")
         return mesh(self.surface(patches), **options).to_pyvista()
 
     def check(self, **options: Any) -> list[dict[str, Any]]:

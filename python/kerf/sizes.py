@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import numbers
 from itertools import permutations
 from typing import Any, Callable, Optional, Union
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
 from . import _kerf
 from ._kerf import Surface
 from .errors import UsageError
+from .options import short
 
 #: Called with points (n, 3); returns the edge lengths (n,) that are wanted there.
 SizeFunction = Callable[[np.ndarray], ArrayLike]
@@ -34,7 +37,27 @@ class SizeField(_kerf.SizeField):
     samples: int = 0
 
     def __init__(self, points: ArrayLike, tetrahedra: ArrayLike, sizes: ArrayLike) -> None:
+        """Copies and checks the arrays."""
         super().__init__(points, tetrahedra, sizes)
+
+    @classmethod
+    def from_points(cls, points: ArrayLike, lengths: ArrayLike, lattice: int = 32) -> SizeField:
+        """The field of edge lengths that are wanted at points without cells, as those of a cloud.
+
+        points   (n, 3) floats
+        lengths  (n,) floats, positive
+        lattice  intervals along the longest side of the box around the points, on whose points the field stands
+
+        At a point of the lattice it is the smallest length in the cells around it, or where these have no points that
+        of the nearest cells that have some. Raises UsageError for shapes, InputError for lengths that are not positive.
+        """
+        places, values = (_floats(name, each) for name, each in (("points", points), ("lengths", lengths)))
+        if places.ndim != 2 or places.shape[1] != 3 or values.shape != places.shape[:1] or not len(places):
+            raise UsageError(f"points has the shape {places.shape}, and lengths {values.shape}, but (n, 3) and (n,) "
+                             "are wanted.")
+        if lattice < 1:
+            raise UsageError(f"lattice is {lattice}, but a positive number is wanted.")
+        return cls(*_field_on_lattice(places, values, lattice))
 
     def __reduce__(self) -> tuple[Any, ...]:
         told = {"error": self.error, "samples": self.samples}
@@ -46,16 +69,16 @@ class SizeField(_kerf.SizeField):
 
 
 #: What the argument `size` of meshes may be: an edge length; a text with a share of the diagonal, as "2%"; a function
-#: of points; or a field. 0: none is wanted.
-Size = Union[float, str, SizeFunction, SizeField]
+#: of points; or a field. None: none is wanted.
+Size = Union[float, str, SizeFunction, SizeField, None]
 
 
 def sample_sizes(function: SizeFunction, surface: Surface, tolerance: float = 0.05, lattice: int = 32,
                  most_points: int = 250_000) -> SizeField:
     """The field of a function over the bounding box of a surface: what kerf.mesh(size=function) makes of it.
 
-    function     called with points (n, 3) float64 of the box; returns (n,) edge lengths: finite and positive, else
-                 UsageError names the point. It must depend on the point alone
+    function     called with points (n, 3) float64 of the box; returns edge lengths (n,) or (n, 1), or one for all:
+                 finite and positive, else UsageError names the point. It must depend on the point alone
     tolerance    relative difference between function and field that is sought
     lattice      intervals along the longest side of the box, on whose points the function is asked first: a power of 2
     most_points  at which the function is asked at most, but for the lattice
@@ -82,6 +105,12 @@ def split_size(size: Size, surface: Any) -> tuple[Optional[_kerf.SizeField], Uni
         size = sample_sizes(size, surface)
     if isinstance(size, SizeField):
         return size, None
+    if isinstance(size, (tuple, list)) or getattr(size, "ndim", 0) > 0:
+        raise UsageError(f"size takes one value, but {short(size)} has several. For lengths at points there is "
+                         "kerf.SizeField.from_points(points, lengths).")
+    if isinstance(size, numbers.Number) and size == 0:
+        raise UsageError("size is 0, but edge lengths are positive: leave it out, or give None, for those of the "
+                         "surface.")
     return None, size
 
 
@@ -226,9 +255,47 @@ def _lattice_points(counts: np.ndarray) -> np.ndarray:
     return np.stack(np.meshgrid(*(np.arange(count) for count in counts), indexing="ij"), -1).reshape(-1, 3)
 
 
+def _floats(name: str, array: ArrayLike) -> np.ndarray:
+    try:
+        numbers_ = np.asarray(array, float)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"{name} is no array of numbers.") from error
+    if not np.isfinite(numbers_).all():
+        raise UsageError(f"{name} has values that are not finite.")
+    return numbers_
+
+
+def _field_on_lattice(points: np.ndarray, lengths: np.ndarray,
+                      intervals: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """For SizeField.from_points()."""
+    low, extent = points.min(axis=0), np.ptp(points, axis=0)
+    edge = extent.max() / intervals or 1.0
+    counts = np.maximum(np.ceil(extent / edge), 1).astype(int)
+    places = low + (_lattice_points(counts + 1) - 0.5 * (counts - extent / edge)) * edge  # around the middle of the box
+
+    def rows(lattice_points: np.ndarray) -> np.ndarray:
+        return np.ravel_multi_index(tuple(np.moveaxis(lattice_points, -1, 0)), tuple(counts + 1))
+
+    cells = np.clip(((points - places[0]) / edge).astype(int), 0, counts - 1)
+    sizes = np.full(len(places), np.inf)
+    np.minimum.at(sizes, rows(cells[:, None] + _corners), lengths[:, None])
+    sizes = sizes.reshape(counts + 1)
+    while np.isinf(sizes).any():
+        around = sliding_window_view(np.pad(sizes, 1, constant_values=np.inf), (3, 3, 3)).min(axis=(3, 4, 5))
+        sizes = np.where(np.isinf(sizes), around, sizes)
+    corners = rows(_lattice_points(counts)[:, None] + _corners)
+    return places, corners[:, _tetrahedra_of_cube].reshape(-1, 4), sizes.ravel()
+
+
 def _checked(function: SizeFunction, points: np.ndarray) -> np.ndarray:
     count = len(points)
-    sizes = np.asarray(function(points.copy()))
+    try:
+        sizes = np.asarray(function(points.copy()))
+    except ValueError as error:
+        raise UsageError(f"The function of sizes has failed: {error} It is called once for all points, with an array "
+                         f"of the shape ({count}, 3), and returns a length for each.") from error
+    if sizes.shape in ((), (1,), (count, 1)):
+        sizes = np.broadcast_to(sizes.ravel(), (count,))
     if sizes.shape != (count,):
         raise UsageError(f"The function of sizes returned the shape {sizes.shape} for {count} points, but ({count},) is"
                          " wanted.")

@@ -208,7 +208,7 @@ class Solution:
     def __reduce__(self) -> tuple[Any, ...]:
         if self._owner is not None:
             raise UsageError("This solution is in a temporary folder, which goes when it does. Give solve() an output, "
-                            "or pickle its arrays.")
+                             "or pickle its arrays.")
         return Solution, (os.path.abspath(self.folder),)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Solution:

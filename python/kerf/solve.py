@@ -37,7 +37,7 @@ def solve(run: Union[Path, object], case: Union[Mapping[str, object], Path], out
     folder = getattr(run, "folder", run)
     if not isinstance(folder, (str, os.PathLike)):
         raise UsageError(f"run is a {type(run).__name__}, but a Run, its folder or the file of a surface is wanted: "
-                        "kerf.mesh(..., output=FOLDER) makes one.")
+                         "kerf.mesh(..., output=FOLDER) makes one.")
     owner = None
     if output is None:
         owner = TemporaryDirectory(prefix="kerf-solution-")

@@ -13,7 +13,7 @@ from .check import Check, check
 from .errors import UsageError
 from .notebook import html_of
 from .notes import in_words_of_python, notes_text
-from .options import split
+from .options import require_of_surface, split
 from .paths import Path, encoded, encoded_names, with_others
 from .progress import Progress, caller
 from .repairs import Repair, Wrapping, repairs_of
@@ -33,15 +33,15 @@ class Surface(_kerf.Surface):
     patches    (m,) whole numbers from 0, or None: one patch
     names      of the patches, or None: patch_0, patch_1, ...
     sides      (m, 2) whole numbers: the regions behind and in front of each triangle, as rows of `regions`, -1: outside
-    regions    names of the regions; given together with `sides`. That of a single one stays with meshes in memory; files
-               of runs do not have it
+    regions    names of the regions; given together with `sides`. That of a single one stays with meshes in memory, but
+               is not in the files of runs
     options    those of the surface: scale, weld, fill_holes, keep_largest, voids, ... (kerf.options() lists them)
 
     Everything is copied and checked; points of equal coordinates become one. Its own arrays are read-only views: they
     may have fewer rows than what was given. It can be pickled and copied; that checks the arrays again.
 
-    Raises UsageError, naming the argument, for arrays with wrong dtypes, shapes or lengths, and for options; InputError,
-    naming the row, for corners out of range, points that are not finite, and triangles that have a corner twice; and
+    Raises UsageError, naming the argument, for arrays with wrong dtypes, shapes or lengths, and for options;
+    InputError, naming the row, for corners out of range, points that are not finite, and triangles that have a corner twice; and
     InputError for a surface that is not closed, intersects itself or bounds no body: its `defects` has all of them, as
     check() does. Cost: O(m log m), 0.4 M triangles in 4 s.
     """
@@ -52,6 +52,8 @@ class Surface(_kerf.Surface):
     def __init__(self, points: ArrayLike, triangles: ArrayLike, patches: Optional[ArrayLike] = None,
                  names: Optional[Sequence[str]] = None, sides: Optional[ArrayLike] = None,
                  regions: Optional[Sequence[str]] = None, **options: object) -> None:
+        """Copies and checks the arrays."""
+        require_of_surface(options)
         super().__init__(_kerf.surface_of_arrays(points, triangles, patches, encoded_names("names", names), sides,
                                                  encoded_names("regions", regions), **options))
         if regions is not None and len(regions) == 1:
@@ -187,6 +189,7 @@ def read(path: Union[Path, Sequence[Path]], **options: object) -> Surface:
 
     Raises FileError if it cannot be opened, UsageError for options, and InputError as Surface() does.
     """
+    require_of_surface(options)
     first, options = with_others(path, options)
     return Surface._of(_kerf.read(encoded(first), **options))
 

@@ -26,6 +26,7 @@ class TreeNode(_kerf.TreeNode):
     None, and `contour` is empty."""
 
     def __init__(self, tree: Tree, native: _kerf.TreeNode) -> None:
+        """Of one that decompose() has made."""
         super().__init__(native)
         self._tree = tree
 
@@ -111,6 +112,7 @@ class Tree(_kerf.Tree):
     """What decompose() returns. `tree[id]` is the node with a number, and `for node in tree` goes through `nodes`."""
 
     def __init__(self, native: _kerf.Tree) -> None:
+        """Of one that decompose() has made."""
         super().__init__(native)
         self._by_id = {each.id: TreeNode(self, each) for each in self._all_nodes}
         self._nodes = sorted(self._by_id.values(), key=lambda node: format(node.id, "b"))
@@ -163,7 +165,7 @@ class Tree(_kerf.Tree):
         return f"<kerf.Tree: {len(self._parts)} parts, {len(self._nodes)} nodes>"
 
 
-def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: Size = 0, progress: Progress = None,
+def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: Size = None, progress: Progress = None,
               **options: object) -> Tree:
     """The tree of cuts of a surface, or of a file: the parts that mesh() fills, and how each cut was found.
 

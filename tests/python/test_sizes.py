@@ -119,7 +119,7 @@ def test_a_field_of_arrays(cube):
 
 
 @pytest.mark.parametrize("answer, said", [
-    (lambda points: points, r"shape \(\d+, 3\)"), (lambda points: 0.1, r"shape \(\)"),
+    (lambda points: points, r"shape \(\d+, 3\)"), (lambda points: [0.1, 0.2], r"shape \(2,\)"),
     (lambda points: np.where(points[:, 0] > 0.5, np.nan, 1), r"nan at \("),
     (lambda points: points[:, 0], r"0.0 at \(0, 0, 0\)"), (lambda points: np.full(len(points), np.inf), "inf at"),
     (lambda points: -np.ones(len(points), int), r"-1.0 at \(0, 0, 0\)")])

@@ -212,8 +212,11 @@ void check_rows(const Soup& soup) {
         nowhere("sides", ElementKind::facet);
     for (std::size_t v = 0; v < soup.vertices.size(); ++v)
         if (!soup.vertices[v].allFinite()) infinite.add(v);
+    std::int32_t smallest = vertex_count, largest = -1;
     for (std::size_t f = 0; f < soup.facets.size(); ++f) {
         const auto& [a, b, c] = soup.facets[f];
+        smallest = std::min({smallest, a, b, c});
+        largest = std::max({largest, a, b, c});
         if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= vertex_count) beyond.add(f);
         if (a == b || b == c || c == a) repeated.add(f);
         if (soup.patch[f] < 0 || soup.patch[f] >= patch_count) unnamed.add(f);
@@ -229,9 +232,10 @@ void check_rows(const Soup& soup) {
     });
     infinite.throw_if_any(
         [&](std::size_t v) { return fmt::format("is ({}), which is not finite", fmt::join(soup.vertices[v], ", ")); });
+    const bool is_from_1 = smallest == 1 && largest == vertex_count;
     beyond.throw_if_any([&](std::size_t f) {
-        return fmt::format("is ({}), but the {} vertices are numbered from 0", fmt::join(soup.facets[f], ", "),
-                           vertex_count);
+        return fmt::format("is ({}), but the {} vertices are numbered from 0{}", fmt::join(soup.facets[f], ", "),
+                           vertex_count, is_from_1 ? ", not from 1: take 1 from all corners" : "");
     });
     repeated.throw_if_any([&](std::size_t f) {
         return fmt::format("is ({}), but the corners of a facet differ", fmt::join(soup.facets[f], ", "));
