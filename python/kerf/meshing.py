@@ -44,7 +44,7 @@ def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size:
     """The mesh of a surface, or of a file.
 
     surface    a Surface, or the path of a file, or a list of several, a region each, as on the command line
-    parts      into which the surface is cut; 0: as many as are of use here
+    parts      into which the surface is cut; 0: 4 for each worker, or fewer where the surface is small
     size       wanted edge length, in units of the surface; a text with a share of the diagonal, as "2%"; a function
                of points (n, 3) that returns lengths (n,), see sample_sizes(); a SizeField; None: as the surface
     progress   True: a line on standard error; or called with (stage, done, total): returning False ends the work, and
@@ -58,7 +58,8 @@ def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size:
     options    all others of `kerf mesh`, with underscores: kerf.options() lists them. Those of the surface, as
                fill_holes, belong to where that is made, so here only to a file
 
-    The result depends on the surface and the options alone. Raises UsageError, InputError, MeshingError, OutOfMemory,
+    The result depends on the surface and the options alone. The number of parts is one of them, and by default that of
+    this computer: give parts=N for the same mesh elsewhere. Raises UsageError, InputError, MeshingError, OutOfMemory,
     FileError, Cancelled; KeyboardInterrupt ends the workers.
     """
     if not isinstance(surface, Surface):

@@ -182,7 +182,7 @@ def decompose(surface: Union[Surface, Path], /, parts: int = 8, size: Size = Non
                 print(node.id, node.strategy, node.plane.normal, [len(loop) for loop in node.contour])
         tree.parts[0].surface.points, tree.parts[0].surface.triangles
 
-    The result depends on the surface and the options alone, and is what `kerf decompose` writes with the same. Raises
+    The result depends on the surface and the options alone, with parts=0 on the processors, too, and is what `kerf decompose` writes with the same. Raises
     UsageError, InputError, FileError, Cancelled. Cost: n log(parts) for n triangles; memory: the surfaces of the parts.
     """
     surface, options = surface_and_options(surface, options)

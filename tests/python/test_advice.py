@@ -105,3 +105,7 @@ def test_help_has_signatures_of_python(kind):
     text = pydoc.plain(pydoc.render_doc(kind))
     assert "__init__(self: kerf._kerf" not in text
     assert "self" in inspect.signature(kind.__init__).parameters
+
+
+def test_help_says_what_a_mesh_depends_on():
+    assert "give parts=N for the same mesh elsewhere" in inspect.getdoc(kerf.mesh)
