@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +11,7 @@ import numpy as np
 from . import _kerf, interchange
 from .notebook import html_of
 from .notes import notes_of, notes_text
-from .paths import Path
+from .paths import Path, mesh_file
 from .quality import Quality
 
 if TYPE_CHECKING:
@@ -39,7 +38,7 @@ class Mesh(_kerf.Mesh):
 
         Patches and regions have their names there. Raises UsageError for another ending, naming those that there are.
         """
-        self._save(os.fspath(path), msh_version, msh_ascii)
+        self._save(mesh_file(path), msh_version, msh_ascii)
 
     def to_meshio(self) -> meshio.Mesh:
         """A mesh of meshio: a block of tetrahedra for each region, one of triangles for each patch; of order 2

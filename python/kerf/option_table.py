@@ -64,7 +64,11 @@ _ARRAYS = {"facets": "triangles", "vertices": "points", "patch": "patches"}
 
 
 def in_python(text: str) -> str:
-    """A text of the command line as Python has it: --max-volume is max_volume, --voids parity is voids="parity"."""
+    """A text of the command line as Python has it: --max-volume is max_volume, --voids parity is voids="parity",
+    -n 3 is parts=3. Of what is written, Python has the path."""
+    text = re.sub(r"(?<!\S)-n\b(?: (\d+))?", lambda found: f"parts={found[1]}" if found[1] else "parts", text)
+    text = text.replace("--output is ", "The path is ").replace("--output", "path")
+    text = re.sub(r"--repair ([a-z]+(?:,[a-z]+)*)", r'repair="\1"', text)
     text = re.sub(r"--([a-z]+(?:-[a-z]+)*)(?: ([a-z]+(?:-[a-z]+)*|\d+))?", _name_in_python, text)
     return re.sub(r"\b(facets|vertices|patch)\[", lambda found: _ARRAYS[found[1]] + "[", text)
 

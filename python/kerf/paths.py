@@ -22,6 +22,14 @@ def encoded(path: Path) -> bytes:
     return name
 
 
+def mesh_file(path: Path) -> str:
+    """The path of a file of one mesh. Raises UsageError for one that is written beside another."""
+    name = os.fspath(path)
+    if name.endswith(".xdmf"):
+        raise UsageError(f"The path is {name}, but an .xdmf is written beside its .h5: give {name[:-5]}.h5.")
+    return name
+
+
 def with_others(path: Union[Path, Sequence[Path]], options: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
     """The first of several files, and the options with the others in `with_`, as the command line has them."""
     if isinstance(path, (str, os.PathLike)):

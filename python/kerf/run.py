@@ -14,7 +14,7 @@ from .mesh import Mesh
 from .notebook import html_of
 from .notes import notes_of, notes_text
 from .part import Parts
-from .paths import Path
+from .paths import Path, mesh_file
 from .progress import Progress, caller
 from .quality import Quality
 from .surface import Surface
@@ -123,7 +123,7 @@ class Run(_kerf.Run):
 
         Raises UsageError for another ending, naming those that there are.
         """
-        _kerf.merge(self.folder, os.fspath(path), msh_version, msh_ascii, order)
+        _kerf.merge(self.folder, mesh_file(path), msh_version, msh_ascii, order)
 
     def to_meshio(self) -> meshio.Mesh:
         """Mesh.to_meshio() of all parts, with the values of a solution."""

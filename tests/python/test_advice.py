@@ -107,5 +107,23 @@ def test_help_has_signatures_of_python(kind):
     assert "self" in inspect.signature(kind.__init__).parameters
 
 
+def test_words_of_the_command_line_are_those_of_python(cube, tmp_path):
+    points, triangles = cube
+    surface = kerf.Surface(points, triangles)
+    assert "Use parts=" in refusal(lambda: kerf.mesh(surface, parts=1000))
+    run = kerf.mesh(surface, parts=1, output=tmp_path / "run")
+    mesh = run.mesh()
+    for save in (mesh.save, run.merge):
+        said = refusal(lambda: save(tmp_path / "a.foo"))
+        assert said.startswith("The path is ") and "ending is that of no format" in said and "--" not in said
+        assert f"give {tmp_path / 'a'}.h5" in refusal(lambda: save(tmp_path / "a.xdmf"))
+        save(tmp_path / "a.h5")
+        assert (tmp_path / "a.xdmf").exists()
+    said = refusal(lambda: kerf.Surface(points, triangles[1:]), kerf.InputError)
+    assert 'repair="stitch,holes"' in said and "--" not in said
+    # Commands for a shell stay commands.
+    assert "kerf mesh -o" in refusal(lambda: kerf.open(tmp_path), kerf.FileError)
+
+
 def test_help_says_what_a_mesh_depends_on():
     assert "give parts=N for the same mesh elsewhere" in inspect.getdoc(kerf.mesh)
