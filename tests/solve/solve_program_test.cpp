@@ -70,6 +70,7 @@ class KerfSolve : public testing::Test {
 };
 
 constexpr const char* steel = "[material.steel]\nyoung = 1000\npoisson = 0.25\ndensity = 2\n";
+constexpr const char* weight = "[gravity]\nacceleration = [0, 0, -1]\n";
 constexpr const char* three_planes =
     "[[support]]\nname = \"left\"\nplane = [1, 0, 0, 0]\nx = 0\n"
     "[[support]]\nname = \"front\"\nplane = [0, 1, 0, 0]\ny = 0\n"
@@ -232,15 +233,17 @@ TEST_F(KerfSolve, ListsPatches) {
 
 TEST_F(KerfSolve, RefusesWhatCannotBe) {
     const std::string held = "[[support]]\npatch = \"face_1\"\nfixed = true\n";
-    const std::string material = steel;
+    const std::string material = std::string(weight) + steel;
     expect_refused(2, material, {"not held at all", "[[support]]"});
     expect_refused(2, material + "[[support]]\npatch = \"face_10\"\nfixed = true", {"'face_10'", "It has 'face_1'"});
     expect_refused(2, material + "[[support]]\nbox = [5, 5, 5, 6, 6, 6]\nfixed = true", {"selects no triangle"});
     expect_refused(2, material + "[[support]]\nplane = [0, 0, 1, 0]\nz = 0", {"free to"});
     expect_refused(2, material + held + "[[load]]\nplane = [1, 0, 0, 0.4321]\npressure = 1",
                    {"selects no triangle of the surface", "between parts"});
-    expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0\nparts = [4]\n" + held, {"have no material"});
-    expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0\nparts = [77]\n" + held, {"part 77"});
+    expect_refused(2, weight + std::string("[material.a]\nyoung = 1\npoisson = 0\ndensity = 1\nparts = [4]\n") + held,
+                   {"have no material"});
+    expect_refused(2, weight + std::string("[material.a]\nyoung = 1\npoisson = 0\ndensity = 1\nparts = [77]\n") + held,
+                   {"part 77"});
     expect_refused(2, "[material.a]\nyoung = 1\npoisson = 0.6\n" + held, {"between -1 and 0.5"});
     expect_refused(9, material + held + "[[load]]\npatch = \"face_2\"\npressure = 1\n[solver]\nmax_iterations = 2",
                    {"not reached", "2 iterations", "Try"});
@@ -295,7 +298,7 @@ TEST_F(KerfSolve, WhatPetscCallsConvergedIsMeasured) {
 
 // Wherever the memory ends, also inside of PETSc.
 TEST_F(KerfSolve, OutOfMemoryIsSaid) {
-    const std::string text = std::string(steel) + three_planes + "[solver]\norder = 2";
+    const std::string text = std::string(weight) + steel + three_planes + "[solver]\norder = 2";
     const std::string command =
         fmt::format("'{}' solve '{}' --case '{}' -o '{}' -q", test::kerf_program(), mesh(), write_case(text), out());
     std::int64_t refused = 0;
@@ -357,13 +360,13 @@ TEST_F(KerfSolve, CancelledRanksOfItsOwnAreGone) {
 }
 
 TEST_F(KerfSolve, RefusesMoreRanksThanParts) {
-    const ChildResult result = solve(std::string(steel) + three_planes, 6);
+    const ChildResult result = solve(std::string(weight) + steel + three_planes, 6);
     EXPECT_EQ(result.exit_code, 2) << result.log;
     EXPECT_EQ(test::count(result.log, "6 ranks are more than the 5 parts"), 1) << result.log;
 }
 
 TEST_F(KerfSolve, RefusesFoldersThatAreNone) {
-    const std::string text = std::string(steel) + three_planes;
+    const std::string text = std::string(weight) + steel + three_planes;
     const auto code = [&](const std::vector<std::string>& arguments) { return test::run_kerf(arguments).exit_code; };
     EXPECT_EQ(code({"solve", own_.file("none"), "--case", write_case(text), "-o", out()}), 7);
     EXPECT_EQ(code({"solve", mesh(), "--case", own_.file("none"), "-o", out()}), 7);
