@@ -255,11 +255,11 @@ TEST(Runs, ATemporaryRunIsSaved) {
         EXPECT_NE(session.failures()[0].find("kept.trace"), std::string::npos) << session.failures()[0];
         EXPECT_FALSE(fs::exists(place));
         fs::remove(place + ".trace");
-        driver.click("Save to");
+        driver.click("Save run...");
+        driver.click("Folder");
         driver.key(key_of('A'), true);
         driver.type(place);
-        driver.key(key_enter);
-        driver.click("Save run");
+        driver.click("Save");
         driver.await("the copy", [&] { return !session.busy(); });
         EXPECT_TRUE(session.failures().empty());
         EXPECT_EQ(driver.document().saved_as, place);

@@ -118,6 +118,24 @@ TEST(Saving, APictureReplacesPicturesAndViewsOfKerfAlone) {
     EXPECT_TRUE(save_picture().starts_with("saved as")) << "its own are replaced";
 }
 
+// A run that was saved before keeps its name and its files.
+TEST(Saving, OffersANameThatNoRunHas) {
+    const TemporaryFolder folder;
+    const StartedIn here(folder.file(""));
+    Driver driver(of_two_parts(false));
+    driver.state().panels.parameters = true;
+    const auto save = [&] {
+        driver.open(asset_path("cube"));
+        driver.state().panels.parameters = true;
+        driver.click("Save run...");
+        driver.click("Save");
+        driver.await("the copy", [&] { return !driver.document().saved_as.empty(); });
+        return fs::path(driver.document().saved_as).filename();
+    };
+    EXPECT_EQ(save(), "cube_run");
+    EXPECT_EQ(save(), "cube_run_2");
+}
+
 // Nobody loses a mesh by opening another file or closing the window.
 TEST(Saving, AsksBeforeAMeshIsLost) {
     const TemporaryFolder folder;

@@ -13,6 +13,8 @@
 
 namespace kerf::view {
 
+namespace fs = std::filesystem;
+
 bool has_mesh(const Document& document) {
     return document.kind != Document::Kind::none && !document.progress.running && !document.folder.empty() &&
            has_cells(document, root_node);
@@ -23,8 +25,18 @@ std::string folder_of(const Document& document) {
     return document.solution ? absolute_path(document.path) : document.folder;
 }
 
+std::string unused_run_folder(const Document& document) {
+    std::error_code ignored;
+    const std::string& input = document.options.input.empty() ? document.path : document.options.input;
+    const std::string name = (fs::current_path(ignored) / fs::path(input).stem()).string() + "_run";
+    for (int number = 1;; ++number) {
+        const std::string path = number == 1 ? name : fmt::format("{}_{}", name, number);
+        if (!fs::exists(path, ignored) && !fs::exists(path + ".trace", ignored)) return path;
+    }
+}
+
 std::string with_ending(const std::string& path, const Format& format) {
-    return std::filesystem::path(path).replace_extension(format.ending ? format.ending : "").string();
+    return fs::path(path).replace_extension(format.ending ? format.ending : "").string();
 }
 
 std::vector<std::string> arguments_of_mesh(const std::string& folder, const MeshFile& file) {

@@ -22,6 +22,10 @@ bool has_mesh(const Document& document);
 /// where that is a temporary one that was saved, the place where it was saved to.
 std::string folder_of(const Document& document);
 
+/// Returns a path for a folder of the run that nothing has yet, NAME_run, NAME_run_2 and so on, in the folder where the
+/// program was started. Its trace, beside it, would replace nothing either.
+std::string unused_run_folder(const Document& document);
+
 /// Returns the path with the ending of the format, or with none where the format has folders alone.
 std::string with_ending(const std::string& path, const Format& format);
 

@@ -3,7 +3,6 @@
 // not known is negative and shown as "-". Whichever of the two is shown, A is the earlier one; the switch is drawn
 // first, because it may exchange the two documents that the tables refer to.
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -149,24 +148,17 @@ void draw_switch(UiContext& context) {
     if ((wants_a && !shows_before) || (wants_b && shows_before)) context.actions.runs.swap_runs();
 }
 
-void draw_saving(UiContext& context, ComparisonMemory& memory) {
-    Session& session = context.session;
-    const Document& document = session.document();
-    const Palette& colors = palette(context.state.theme);
-    if (!document.saved_as.empty()) show_wrapped("Saved as " + document.saved_as, colors.dim);
-    if (!session.pair().can_save()) return;
-    if (memory.save_of != document.path) {
-        memory.save_of = document.path;
-        memory.save_to = std::filesystem::path(document.options.input).stem().string() + "_run";
-    }
-    context.widgets.input_text("Save to", &memory.save_to);
-    if (context.widgets.button("Save run", "Keeps this run, which is removed else when the viewer ends"))
-        session.pair().save(memory.save_to);
+void draw_saving(UiContext& context, SaveDialog& dialog) {
+    const std::string& saved_as = context.session.document().saved_as;
+    if (!saved_as.empty()) show_wrapped("Saved as " + saved_as, palette(context.state.theme).dim);
+    if (!context.session.pair().can_save()) return;
+    if (context.widgets.button("Save run...", "Keeps this run, which is removed else when the viewer ends (Ctrl+S)"))
+        dialog.request(SaveDialog::Kind::run);
 }
 
 }  // namespace
 
-void draw_comparison(UiContext& context, ComparisonMemory& memory) {
+void draw_comparison(UiContext& context, SaveDialog& dialog) {
     const Session& session = context.session;
     const Palette& colors = palette(context.state.theme);
     const Document *other = session.other_document(), *shown = &session.document();
@@ -180,7 +172,7 @@ void draw_comparison(UiContext& context, ComparisonMemory& memory) {
             compare_cuts(node, *old_row->cut, *new_row->cut, colors);
         compare_runs(before, now, colors);
     }
-    draw_saving(context, memory);
+    draw_saving(context, dialog);
 }
 
 }  // namespace kerf::view

@@ -168,13 +168,13 @@ void draw_remark(const std::string& wrong, const Palette& colors) {
 
 }  // namespace
 
-void draw_parameters(UiContext& context, ParametersMemory& memory) {
+void draw_parameters(UiContext& context, ParametersMemory& memory, SaveDialog& dialog) {
     draw_head(context.widgets, "Parameters", context.state.panels.parameters, memory.section);
     if (!context.state.panels.parameters) return;
     take_options(context.session.document(), memory);
     draw_buttons(context, memory);
     draw_remark(memory.wrong, palette(context.state.theme));
-    draw_comparison(context, memory.comparison);
+    draw_comparison(context, dialog);
     draw_fields(context, memory);
 }
 

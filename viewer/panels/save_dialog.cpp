@@ -52,7 +52,7 @@ std::string first_path(const Document& document, const SaveDialog& dialog) {
     const std::string path = (fs::current_path(ignored) / stem).string();
     switch (dialog.kind) {
         case SaveKind::run:
-            return path + "_run";
+            return unused_run_folder(document);
         case SaveKind::mesh:
             return with_ending(path + ".x", *offered_formats()[dialog.format]);
         case SaveKind::picture:

@@ -88,7 +88,7 @@ void Ui::Impl::draw_right(UiContext& context, const Layout& layout) {
         draw_clip(context, clip);
     }
     if (panels.display || panels.quality) draw_color(context, color, dialogs.list);
-    draw_parameters(context, parameters);
+    draw_parameters(context, parameters, dialogs.save);
     ImGui::EndChild();
     ImGui::End();
 }

@@ -191,19 +191,16 @@ struct ColorMemory {
 void draw_color(UiContext& context, ColorMemory& memory, ListKeys& keys);
 void draw_solution(UiContext& context);
 
-struct ComparisonMemory {
-    std::string save_to, save_of;  ///< folder to save a run to, as typed; path of the document it was typed for
-};
-void draw_comparison(UiContext& context, ComparisonMemory& memory);
+/// Draws the comparison of two runs, and a button that asks where the shown one is to be saved.
+void draw_comparison(UiContext& context, SaveDialog& dialog);
 
 struct ParametersMemory {
     Section section;
     RunRequest options;      ///< the options as edited
     std::string options_of;  ///< key_of() the document that they were taken from
     std::string wrong;       ///< the error in these options; empty: none
-    ComparisonMemory comparison;
 };
-void draw_parameters(UiContext& context, ParametersMemory& memory);
+void draw_parameters(UiContext& context, ParametersMemory& memory, SaveDialog& dialog);
 
 struct TimelineMemory {
     int chosen = -1;        ///< index of the place of a refused try that was flown to last; -1: none
