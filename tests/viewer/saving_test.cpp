@@ -165,6 +165,65 @@ TEST(Saving, AsksBeforeAMeshIsLost) {
     EXPECT_EQ(run_kerf({"verify", folder.file("box_run"), "-q"}).exit_code, 0);
 }
 
+// Both runs of two that are compared, and a third one takes no place of an unsaved one in silence.
+TEST(Saving, AsksForTheRunThatIsNotShown) {
+    const TemporaryFolder folder;
+    const StartedIn here(folder.file(""));
+    Driver driver(of_two_parts(true));
+    driver.open(asset_path("cube"));
+    driver.state().panels.parameters = true;
+    driver.settle();
+    const std::string first = driver.document().folder;
+    const auto has_ended = [&] { return driver.document().folder != first && driver.document().verified.has_value(); };
+    driver.click("Run all");
+    driver.await("the second run", has_ended);
+    driver.settle();
+    driver.click("Run all");
+    driver.frame();
+    ASSERT_EQ(driver.app().facts().at_stake, std::vector{UnsavedWork::other_run});
+    driver.click("Stay here");
+    EXPECT_FALSE(driver.app().session().busy());
+    driver.app().desk().quit();
+    driver.settle();
+    EXPECT_EQ(driver.app().facts().at_stake, (std::vector{UnsavedWork::run, UnsavedWork::other_run}));
+    driver.click("Save them...");
+    driver.settle();
+    driver.click("Save");
+    driver.await("the other question", [&] { return driver.app().facts().asks_to_save; });
+    EXPECT_EQ(driver.app().facts().at_stake, std::vector{UnsavedWork::other_run});
+    driver.click("Save it...");
+    driver.settle();
+    driver.click("Save");
+    driver.await("the end", [&] { return driver.app().desk().wants_to_quit(); });
+    for (const char* saved : {"cube_run", "cube_run_2"})
+        EXPECT_EQ(run_kerf({"verify", folder.file(saved), "-q"}).exit_code, 0) << saved;
+}
+
+TEST(Saving, AsksBeforeARepairedSurfaceIsLost) {
+    const TemporaryFolder folder;
+    const StartedIn here(folder.file(""));
+    Soup box_with_hole = box({0, 0, 0}, {3, 2, 1}, {3, 2, 1});
+    box_with_hole.facets.pop_back();
+    std::ofstream(folder.file("box.stl")) << to_ascii_stl(box_with_hole);
+    Driver::Options of_surface = of_two_parts(true);
+    of_surface.auto_run = false;
+    Driver driver(of_surface);
+    driver.open(folder.file("box.stl"));
+    driver.app().desk().quit();
+    EXPECT_TRUE(driver.app().desk().wants_to_quit()) << "nothing is lost yet";
+    InputOptions options = driver.document().options.input_options;
+    options.repairs.plan = "holes";
+    driver.app().session().repairs().repair(options);
+    driver.await("the repair", [&] { return driver.document().unrepaired && !driver.app().session().busy(); });
+    driver.drop(asset_path("cube"));
+    ASSERT_EQ(driver.app().facts().at_stake, std::vector{UnsavedWork::surface});
+    driver.click("Save it...");
+    driver.settle();
+    driver.click("Save");
+    driver.await("the cube", [&] { return driver.document().path == asset_path("cube"); });
+    EXPECT_TRUE(fs::exists(folder.file("box_repaired.obj")));
+}
+
 // Two runs of other times are compared like two of this window, under one camera.
 TEST(Saving, TwoRunsAreOpenedToBeCompared) {
     const TemporaryFolder folder;

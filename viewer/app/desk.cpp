@@ -55,9 +55,9 @@ void Desk::follow() {
         else
             complain(result->error);
     }
-    const std::string& saved_as = view_.session.document().saved_as;
-    if (saved_as != saved_as_ && !saved_as.empty()) view_.notify("saved as " + saved_as);
-    saved_as_ = saved_as;
+    for (const Document* document : {&view_.session.document(), view_.session.other_document()})
+        if (document && !document->saved_as.empty() && told_.insert({document->folder, document->saved_as}).second)
+            view_.notify("saved as " + document->saved_as);
     unsaved_.follow();
 }
 

@@ -1,7 +1,9 @@
 // The desk beside the scene: pictures that are saved, notices, the clipboard, and the wish to quit.
 #pragma once
 
+#include <set>
 #include <string>
+#include <utility>
 
 #include "viewer/app/unsaved.h"
 
@@ -14,7 +16,7 @@ class Desk : public WindowActions {
     void quit() override;
     void take_screenshot() override;
     void save_picture(const std::string& path) override { picture_ = path; }
-    void answer(UnsavedMesh answer) override { unsaved_.answer(answer); }
+    void answer(UnsavedFate answer) override { unsaved_.answer(answer); }
     void copy(const std::string& text) override;
     std::string clipboard() override;
     void complain(const std::string& text) override;
@@ -35,8 +37,8 @@ class Desk : public WindowActions {
     View& view_;
     Unsaved& unsaved_;
     bool quit_ = false;
-    std::string picture_;   // file of a picture that is wanted; empty: none
-    std::string saved_as_;  // Document::saved_as when it was last looked at
+    std::string picture_;                                 // file of a picture that is wanted; empty: none
+    std::set<std::pair<std::string, std::string>> told_;  // folders of runs, and the places of which it was told
 };
 
 }  // namespace kerf::view

@@ -59,17 +59,20 @@ void Opening::reload() {
 }
 
 void Opening::open_again(const RunRequest& options) {
+    if (unsaved_.asks_before([this, options] { open_again(options); })) return;
     view_.session.open(std::string(view_.session.document().path), options);
     await_document();
 }
 
 void Opening::start_run(const RunRequest& options, bool volume) {
+    if (unsaved_.asks_before_change([this, options, volume] { start_run(options, volume); })) return;
     opened_ =
         view_.session.document().path;  // a run by the user is not repeated when repairs have made the surface clean
     view_.session.start_run(options, volume);
 }
 
 void Opening::redo_cut(NodeId node, const RunRequest& options, const std::optional<Plane>& plane) {
+    if (unsaved_.asks_before_change([this, node, options, plane] { redo_cut(node, options, plane); })) return;
     view_.session.pair().redo_cut(node, options, plane);
 }
 
@@ -86,18 +89,21 @@ void Opening::swap_runs() {
 }
 
 void Opening::repair(const InputOptions& options) {
+    if (unsaved_.asks_before_change([this, options] { repair(options); })) return;
     opened_ = view_.session.document().path;  // whether it is meshed then is the user's to say
     show_before_repair(false);
     view_.session.repairs().repair(options);
 }
 
 void Opening::undo_repair() {
+    if (unsaved_.asks_before_change([this] { undo_repair(); })) return;
     show_before_repair(false);
     view_.session.repairs().undo();
     view_.session_changed = true;
 }
 
 void Opening::redo_repair() {
+    if (unsaved_.asks_before_change([this] { redo_repair(); })) return;
     show_before_repair(false);
     view_.session.repairs().redo();
     view_.session_changed = true;

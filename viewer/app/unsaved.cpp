@@ -1,34 +1,64 @@
+// Work is saved one after the other: when the first is, what waits is tried again, and asks for the rest. While a
+// question waits, a run may end, and another be shown: work is looked at anew each time.
 #include "viewer/app/unsaved.h"
 
 #include <utility>
 
 namespace kerf::view {
 
-bool Unsaved::asks_before(std::function<void()> then) {
-    if (is_answered_ || !view_.options.asks_to_save || !view_.session.pair().can_save()) return false;
+bool Unsaved::is_unsaved(UnsavedWork work) const {
+    const RunPair& runs = view_.session.pair();
+    switch (work) {
+        case UnsavedWork::run:
+            return runs.is_unsaved();
+        case UnsavedWork::other_run:
+            return runs.is_other_unsaved();
+        case UnsavedWork::surface:
+            return view_.session.repairs().is_unsaved();
+    }
+    return false;
+}
+
+std::vector<UnsavedWork> Unsaved::of_all() const {
+    std::vector<UnsavedWork> work;
+    for (const UnsavedWork one : {UnsavedWork::run, UnsavedWork::other_run, UnsavedWork::surface})
+        if (is_unsaved(one)) work.push_back(one);
+    return work;
+}
+
+// A surface that has no run yet, or whose run is under way, takes no place.
+std::vector<UnsavedWork> Unsaved::of_change() const {
+    const Document& document = view_.session.document();
+    const bool takes_place = !document.progress.running && (document.trace || !document.folder.empty());
+    if (!takes_place || !is_unsaved(UnsavedWork::other_run)) return {};
+    return {UnsavedWork::other_run};
+}
+
+bool Unsaved::asks_for(std::vector<UnsavedWork> work, std::function<void()> then) {
+    if (is_answered_ || !view_.options.asks_to_save || work.empty()) return false;
     then_ = std::move(then);
+    awaited_.reset();
     view_.facts.asks_to_save = true;
+    view_.facts.at_stake = std::move(work);
     view_.wake();
     return true;
 }
 
-void Unsaved::answer(UnsavedMesh answer) {
+void Unsaved::answer(UnsavedFate answer) {
     view_.facts.asks_to_save = false;
-    if (answer == UnsavedMesh::stay) then_ = nullptr;
-    if (answer == UnsavedMesh::lose) go_on();
+    if (answer == UnsavedFate::save) awaited_ = view_.facts.at_stake.front();
+    if (answer == UnsavedFate::stay) then_ = nullptr;
+    if (answer != UnsavedFate::lose) return;
+    is_answered_ = true;
+    if (const auto then = std::exchange(then_, nullptr)) then();
+    is_answered_ = false;
 }
 
 void Unsaved::follow() {
-    if (!then_ || view_.facts.asks_to_save) return;
+    if (!then_ || !awaited_ || view_.facts.asks_to_save) return;
     if (!view_.session.failures().empty()) then_ = nullptr;  // it could not be saved
-    if (!view_.session.document().saved_as.empty()) go_on();
-}
-
-void Unsaved::go_on() {
-    const auto then = std::exchange(then_, nullptr);
-    is_answered_ = true;
-    if (then) then();
-    is_answered_ = false;
+    if (!then_ || is_unsaved(*awaited_)) return;
+    std::exchange(then_, nullptr)();
 }
 
 }  // namespace kerf::view

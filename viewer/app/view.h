@@ -28,7 +28,7 @@ struct AppOptions {
     /// `auto_run`: a surface that is opened is cut, and meshed if `volume`, with the options `run`; else it is only
     /// shown.
     bool auto_run = true, volume = true;
-    bool asks_to_save = false;  ///< before a mesh is lost that nobody has saved
+    bool asks_to_save = false;  ///< before work is lost that nobody has saved
     RunRequest run;
     /// A scene that takes longer to paint has a stand-in while the camera is moved.
     double frame_seconds = 1. / 30;

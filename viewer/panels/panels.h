@@ -77,8 +77,10 @@ class RepairActions {
     virtual void show_before_repair(bool before) = 0;  ///< shows the surface before repairs, or after them
 };
 
-/// The fate of a mesh that nobody has saved.
-enum class UnsavedMesh { save, lose, stay };
+/// Work that nobody has saved: the shown run, the other one, or a repaired surface.
+enum class UnsavedWork { run, other_run, surface };
+/// What is to become of it; only the first is saved at once.
+enum class UnsavedFate { save, lose, stay };
 
 class WindowActions {
  public:
@@ -87,7 +89,7 @@ class WindowActions {
     virtual void take_screenshot() = 0;
     virtual void save_picture(const std::string& path) = 0;  ///< without panels, and its view as JSON beside it
     /// Answers the question of SceneFacts::asks_to_save; `stay` forgets what it stood before.
-    virtual void answer(UnsavedMesh answer) = 0;
+    virtual void answer(UnsavedFate answer) = 0;
     virtual void copy(const std::string& text) = 0;  ///< copies it to the clipboard
     virtual std::string clipboard() = 0;
     /// Shows an error until the next notice or click.
@@ -145,9 +147,10 @@ struct SceneFacts {
     int up = 2;                                   ///< axis that points up
     bool has_earlier = false, has_later = false;  ///< there are views to go back to, or on to
     bool playing = false;
-    bool moving = false;        ///< the deformation is in motion
-    bool pending = false;       ///< data to be shown is still being read
-    bool asks_to_save = false;  ///< something waits for the answer what is to become of an unsaved mesh
+    bool moving = false;                ///< the deformation is in motion
+    bool pending = false;               ///< data to be shown is still being read
+    bool asks_to_save = false;          ///< something waits for the answer what is to become of unsaved work
+    std::vector<UnsavedWork> at_stake;  ///< that work, at least one while asks_to_save
 };
 
 /// Sizes that the user has given to panels, in heights of the font; 0: as the window suggests.

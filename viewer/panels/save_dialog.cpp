@@ -1,7 +1,7 @@
 // The dialogs that save what is open: a run, its mesh in a format of others, a picture, a page, a repaired surface.
 // Each shows the command line that does the same, and what it does is that command, except for a run, which is copied,
 // and a picture. A mesh that lies in a temporary folder has no command of its own: its run is made first there. Before
-// a mesh that nobody has saved is lost, a question comes (app/unsaved.h); its answer is asked for here.
+// work that nobody has saved is lost, a question comes (app/unsaved.h); its answer is asked for here.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -21,12 +21,14 @@ namespace {
 using SaveKind = SaveDialog::Kind;
 
 constexpr const char* save_title = "Save###save dialog";
-constexpr const char* question_title = "This mesh is not saved###unsaved";
+constexpr const char* question_title = "Not saved###unsaved";
 
 const char* title_of(SaveKind kind) {
     switch (kind) {
         case SaveKind::run:
             return "Save the run as a folder";
+        case SaveKind::other_run:
+            return "Save the other run as a folder";
         case SaveKind::mesh:
             return "Export the mesh";
         case SaveKind::picture:
@@ -44,6 +46,14 @@ std::vector<const Format*> offered_formats() {
     return {all.begin(), all.end()};
 }
 
+bool is_of_run(SaveKind kind) { return kind == SaveKind::run || kind == SaveKind::other_run; }
+
+// The document that is saved.
+const Document& document_of(const Session& session, SaveKind kind) {
+    const Document* other = session.other_document();
+    return kind == SaveKind::other_run && other ? *other : session.document();
+}
+
 // The name of a new file, in the folder where the viewer was started.
 std::string first_path(const Document& document, const SaveDialog& dialog) {
     const std::string& input = document.options.input.empty() ? document.path : document.options.input;
@@ -52,6 +62,7 @@ std::string first_path(const Document& document, const SaveDialog& dialog) {
     const std::string path = (fs::current_path(ignored) / stem).string();
     switch (dialog.kind) {
         case SaveKind::run:
+        case SaveKind::other_run:
             return unused_run_folder(document);
         case SaveKind::mesh:
             return with_ending(path + ".x", *offered_formats()[dialog.format]);
@@ -81,14 +92,14 @@ class Saving {
     Saving(UiContext& context, SaveDialog& dialog)
         : context_(context),
           dialog_(dialog),
-          document_(context.session.document()),
+          document_(document_of(context.session, dialog.kind)),
           colors_(palette(context.state.theme)) {}
 
     void draw() {
         show(title_of(dialog_.kind), colors_.accent);
         ImGui::Spacing();
         if (dialog_.kind == SaveKind::mesh) draw_format();
-        const char* label = dialog_.kind == SaveKind::run ? "Folder" : "Name";
+        const char* label = is_of_run(dialog_.kind) ? "Folder" : "Name";
         context_.widgets.input_text(label, &dialog_.path);
         draw_remark();
         ImGui::Spacing();
@@ -123,16 +134,24 @@ class Saving {
              colors_.warning);
     }
 
+    // Runs are not saved while anything is read, or another one is under way.
+    bool can_save() const {
+        const RunPair& runs = context_.session.pair();
+        if (dialog_.kind == SaveKind::run) return runs.can_save();
+        if (dialog_.kind == SaveKind::other_run) return runs.can_save_other();
+        return !context_.session.writer().is_writing();
+    }
+
     bool has_ending() const { return dialog_.kind != SaveKind::picture || dialog_.path.ends_with(".png"); }
 
     void draw_buttons() {
-        ImGui::BeginDisabled(dialog_.path.empty() || !has_ending() || context_.session.writer().is_writing());
+        ImGui::BeginDisabled(dialog_.path.empty() || !has_ending() || !can_save());
         const bool saves = context_.widgets.button("Save");
         ImGui::EndDisabled();
         ImGui::SameLine();
         const bool cancels = context_.widgets.button("Cancel saving") || is_imgui_key_pressed(ImGuiKey_Escape);
         if (saves) save();
-        if (cancels && !saves) context_.actions.window.answer(UnsavedMesh::stay);
+        if (cancels && !saves) context_.actions.window.answer(UnsavedFate::stay);
         if (saves || cancels) ImGui::CloseCurrentPopup();
     }
 
@@ -142,6 +161,7 @@ class Saving {
     std::vector<std::string> arguments(const std::string& folder) const {
         switch (dialog_.kind) {
             case SaveKind::run:
+            case SaveKind::other_run:
                 return arguments_of_run(document_, dialog_.path);
             case SaveKind::mesh:
                 return arguments_of_mesh(folder, mesh_file());
@@ -168,6 +188,8 @@ class Saving {
         switch (dialog_.kind) {
             case SaveKind::run:
                 return context_.session.pair().save(dialog_.path);
+            case SaveKind::other_run:
+                return context_.session.pair().save_other(dialog_.path);
             case SaveKind::mesh:
             case SaveKind::page:
                 return context_.session.write(arguments(folder_of(document_)), dialog_.path);
@@ -184,11 +206,42 @@ class Saving {
     const Palette& colors_;
 };
 
+// Its facts are not known of a run without cells.
+std::string with_facts(const std::string& words, const std::string& facts) {
+    return facts.empty() ? words : words + ": " + facts;
+}
+
+// One piece of work in words.
+std::string words_of(const Session& session, UnsavedWork work) {
+    const Document &document = session.document(), *other = session.other_document();
+    switch (work) {
+        case UnsavedWork::run:
+            return with_facts("The run that is shown", outcome_of(document, true));
+        case UnsavedWork::other_run:
+            return with_facts("The other run, which is not shown", other ? outcome_of(*other, true) : "");
+        case UnsavedWork::surface:
+            return "The repaired surface: " + number_of(document.input_facets, "facet");
+    }
+    return "";
+}
+
+SaveKind kind_of(UnsavedWork work) {
+    switch (work) {
+        case UnsavedWork::run:
+            return SaveKind::run;
+        case UnsavedWork::other_run:
+            return SaveKind::other_run;
+        case UnsavedWork::surface:
+            return SaveKind::surface;
+    }
+    return SaveKind::run;
+}
+
 }  // namespace
 
 void draw_save_dialog(UiContext& context, SaveDialog& dialog) {
     if (std::exchange(dialog.is_requested, false)) {
-        dialog.path = first_path(context.session.document(), dialog);
+        dialog.path = first_path(document_of(context.session, dialog.kind), dialog);
         ImGui::OpenPopup(save_title);
     }
     if (!begin_dialog(save_title, 40 * em())) return;
@@ -200,22 +253,23 @@ void draw_unsaved(UiContext& context, SaveDialog& dialog) {
     if (context.facts.asks_to_save && !ImGui::IsPopupOpen(question_title)) ImGui::OpenPopup(question_title);
     if (!begin_dialog(question_title, 30 * em())) return;
     const Palette& colors = palette(context.state.theme);
-    show("This mesh is not saved", colors.accent);
-    show_wrapped("It lies in a temporary folder, which goes when it is closed: " +
-                     outcome_of(context.session.document(), true) + ".",
-                 colors.text);
+    const std::vector<UnsavedWork>& at_stake = context.facts.at_stake;
+    const bool is_one = at_stake.size() == 1;
+    show(is_one ? "This is not saved, and would be lost" : "These are not saved, and would be lost", colors.accent);
+    for (const UnsavedWork work : at_stake) show_wrapped(words_of(context.session, work) + ".", colors.text);
     ImGui::Spacing();
-    std::optional<UnsavedMesh> answer;
-    if (context.widgets.button("Save it...")) answer = UnsavedMesh::save;
+    std::optional<UnsavedFate> answer;
+    if (context.widgets.button(is_one ? "Save it..." : "Save them...")) answer = UnsavedFate::save;
     ImGui::SameLine();
-    if (context.widgets.button("Let it go")) answer = UnsavedMesh::lose;
+    if (context.widgets.button(is_one ? "Let it go" : "Let them go")) answer = UnsavedFate::lose;
     ImGui::SameLine();
-    if (context.widgets.button("Stay here") || is_imgui_key_pressed(ImGuiKey_Escape)) answer = UnsavedMesh::stay;
+    if (context.widgets.button("Stay here") || is_imgui_key_pressed(ImGuiKey_Escape)) answer = UnsavedFate::stay;
     if (answer || !context.facts.asks_to_save) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     if (!answer) return;
+    const SaveKind kind = kind_of(at_stake.front());
     context.actions.window.answer(*answer);
-    if (*answer == UnsavedMesh::save) dialog.request(SaveKind::run);
+    if (*answer == UnsavedFate::save) dialog.request(kind);
 }
 
 }  // namespace kerf::view

@@ -44,6 +44,7 @@ void Repairs::check() {
 
 void Repairs::begin(std::shared_ptr<const InputFiles> files) {
     files_ = std::move(files);
+    opened_with_ = document_.options.input_options;
     check();
 }
 
@@ -193,6 +194,11 @@ void Repairs::show_surface_again() {
     surface.soup = {files_, &files_->soup};
     surface.tree.at(root_node).facets = surface.input_facets;
     document_ = std::move(surface);
+}
+
+bool Repairs::is_unsaved() const {
+    return document_.unrepaired && document_.surface_saved_as.empty() && document_.saved_as.empty() &&
+           !same_input(document_.options.input_options, opened_with_);
 }
 
 void Repairs::save(const std::string& path) {

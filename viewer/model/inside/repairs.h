@@ -34,6 +34,9 @@ class Repairs {
     bool can_redo() const { return can_repair() && history_.can_redo(); }
     void undo();
     void redo();
+    /// Returns whether the surface was repaired otherwise since it was opened, and neither it nor a run of it was
+    /// saved.
+    bool is_unsaved() const;
     /// Writes the surface, repaired as it is shown, in the background, as kerf repair does
     /// (run/prepare/repaired_file.h). At the end Document::surface_saved_as is the file, or Session::failures() has the
     /// error.
@@ -63,6 +66,7 @@ class Repairs {
     Document& document_;
     Fetched& fetched_;
     std::shared_ptr<const InputFiles> files_;  // Document::soup is in them, or in a state
+    InputOptions opened_with_;                 // options by which they were first checked
     RepairHistory history_;                    // the states of the surface of these files
     std::string shown_note_;                   // note of the shown state that the document has; empty: none
     std::chrono::steady_clock::time_point since_ = {};

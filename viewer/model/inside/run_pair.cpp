@@ -80,18 +80,25 @@ void RunPair::swap() {
 }
 
 // A cut that was made again is in no folder.
-bool RunPair::can_save() const {
-    const Document& document = now_.document;
-    if (!now_.scratch || follower_.is_following() || background_.open.jobs > 0) return false;
-    if (document.folder != now_.scratch->file("run") || !document.saved_as.empty()) return false;
+bool RunPair::is_unsaved(const Shown& run) {
+    const Document& document = run.document;
+    if (!run.scratch || document.folder != run.scratch->file("run") || !document.saved_as.empty()) return false;
     const std::vector<NodeId> parts = document.tree.parts_below(root_node);
-    return std::all_of(parts.begin(), parts.end(), [&](NodeId part) { return now_.folder_parts.contains(part); });
+    return std::all_of(parts.begin(), parts.end(), [&](NodeId part) { return run.folder_parts.contains(part); });
 }
 
 void RunPair::save(const std::string& path) {
-    if (!can_save()) return;
+    if (can_save()) save(now_, path);
+}
+
+void RunPair::save_other(const std::string& path) {
+    if (can_save_other()) save(*pair_.other, path);
+}
+
+// The two may change places meanwhile.
+void RunPair::save(const Shown& run, const std::string& path) {
     background_.forget_failures();
-    const auto copy = [this, folder = now_.document.folder, path, kept = now_.scratch]() -> Loader::Completion {
+    const auto copy = [this, folder = run.document.folder, path, kept = run.scratch]() -> Loader::Completion {
         const std::string place = copy_run(folder, kept->file("run.trace"), path);
         return [this, folder, place] {
             if (now_.document.folder == folder) now_.document.saved_as = place;

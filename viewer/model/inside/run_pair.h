@@ -24,14 +24,23 @@ class RunPair {
     /// run. The cut is made at `plane` if there is one, else where it was (view::redo_cut()).
     void redo_cut(NodeId node, const RunRequest& options, const std::optional<Plane>& plane = {});
 
-    /// Returns whether a finished run is open that is removed with this session and was not saved yet.
-    bool can_save() const;
+    /// Return whether the shown run, or Session::other_document(), is a finished one that is removed with this session
+    /// and was not saved yet.
+    bool is_unsaved() const { return is_unsaved(now_); }
+    bool is_other_unsaved() const { return pair_.other && is_unsaved(*pair_.other); }
+    /// Return whether it can be saved now: nothing is being read or saved.
+    bool can_save() const { return is_unsaved() && is_idle(); }
+    bool can_save_other() const { return is_other_unsaved() && is_idle(); }
     /// Copies that run, in the background, to a place where it stays, as kerf mesh would have written it there: only a
     /// run of Kerf is ever replaced. Its trace goes beside it, to its name and ".trace". At the end Document::saved_as
     /// is the folder, or Session::failures() has the error.
     void save(const std::string& path);
+    void save_other(const std::string& path);
 
  private:
+    static bool is_unsaved(const Shown& run);
+    bool is_idle() const { return !follower_.is_following() && background_.open.jobs == 0; }
+    void save(const Shown& run, const std::string& path);
     void start_redo();
     void take_redone(NodeId node, const RedoneCut& redone);
 

@@ -49,7 +49,7 @@ struct SearchBox {
 
 /// A dialog that saves what is open.
 struct SaveDialog {
-    enum class Kind { run, mesh, picture, page, surface };
+    enum class Kind { run, other_run, mesh, picture, page, surface };
     Kind kind = Kind::run;
     bool is_requested = false;  ///< it opens in the next frame
     std::string path;           ///< as typed
