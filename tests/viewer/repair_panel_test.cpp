@@ -161,9 +161,16 @@ TEST_F(RepairPanel, LeavesToTheUserWhetherTheResultIsMeshedOrSaved) {
     EXPECT_TRUE(std::filesystem::exists(folder_.file("saved.stl")));
     driver_->settle();
     ASSERT_FALSE(driver_->document().has_problems());
+    driver_->state().panels.parameters = true;
+    driver_->click("parts");
+    driver_->key(key_of('A'), true);
+    driver_->type("3");
+    driver_->key(key_enter);
     driver_->click("Mesh it");
     driver_->await("the run", [&] { return driver_->document().trace && !driver_->app().session().busy(); });
     driver_->settle();
+    EXPECT_EQ(driver_->document().options.parts, 3) << "as was typed";
+    EXPECT_EQ(driver_->document().tree.parts_below(root_node).size(), 3u);
     EXPECT_EQ(driver_->app().steps().front().stage, Stage::before_repair);
     driver_->click("Problems");
     driver_->click("Undo");

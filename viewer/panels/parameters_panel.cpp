@@ -135,10 +135,9 @@ void draw_buttons(UiContext& context, ParametersMemory& memory) {
     const bool has_cut = document.trace && document.trace->find(node) && !document.progress.running;
     ImGui::BeginDisabled(!can_run);
     if (w.button("Run all", "Cuts the surface and fills the parts with tetrahedra, in another process"))
-        context.actions.runs.start_run(memory.options, true);
+        start_edited_run(context, memory, true);
     ImGui::SameLine();
-    if (w.button("Only cut", "Stops at the closed surfaces of the parts"))
-        context.actions.runs.start_run(memory.options, false);
+    if (w.button("Only cut", "Stops at the closed surfaces of the parts")) start_edited_run(context, memory, false);
     ImGui::SameLine();
     ImGui::EndDisabled();
     if (w.button("Reset", "The options as they were")) put_options(memory, document.options);
@@ -151,12 +150,32 @@ void draw_buttons(UiContext& context, ParametersMemory& memory) {
     ImGui::EndDisabled();
 }
 
-// Takes the document's options, which arrive after it was opened and change with a run.
+// Sets the options that were edited in others, too.
+void carry_edits(const RunRequest& given, const RunRequest& edited, RunRequest& options) {
+    RunRequest before = given, after = edited;
+    const std::vector<OptionField> old_fields = option_fields(before), new_fields = option_fields(after);
+    for (const OptionField& field : option_fields(options)) {
+        const std::string text = text_in(new_fields, field.name);
+        if (text == text_in(old_fields, field.name)) continue;
+        try {
+            field.set_text(text);
+        } catch (const Error&) {
+            continue;  // it is out of range
+        }
+    }
+}
+
+// Takes the document's options, which arrive after it was opened and change with a run or a repair. What was typed for
+// the same document stays.
 void take_options(const Document& document, ParametersMemory& memory) {
     std::string key = key_of(document);
-    if (memory.options_of == key) return;
-    memory.options_of = std::move(key);
-    put_options(memory, document.options);
+    if (memory.given_of == key) return;
+    RunRequest options = document.options;
+    if (memory.path == document.path) carry_edits(memory.given, memory.options, options);
+    memory.given_of = std::move(key);
+    memory.path = document.path;
+    memory.given = document.options;
+    put_options(memory, options);
 }
 
 // Draws the error in the options, or a hint: one line in any case, so that nothing moves while one types.
@@ -168,14 +187,23 @@ void draw_remark(const std::string& wrong, const Palette& colors) {
 
 }  // namespace
 
-void draw_parameters(UiContext& context, ParametersMemory& memory, SaveDialog& dialog) {
+void draw_parameters(UiContext& context, Dialogs& dialogs) {
+    ParametersMemory& memory = dialogs.parameters;
     draw_head(context.widgets, "Parameters", context.state.panels.parameters, memory.section);
     if (!context.state.panels.parameters) return;
     take_options(context.session.document(), memory);
     draw_buttons(context, memory);
     draw_remark(memory.wrong, palette(context.state.theme));
-    draw_comparison(context, dialog);
+    draw_comparison(context, dialogs.save);
     draw_fields(context, memory);
+}
+
+void start_edited_run(UiContext& context, ParametersMemory& memory, bool volume) {
+    take_options(context.session.document(), memory);
+    if (memory.wrong.empty())
+        context.actions.runs.start_run(memory.options, volume);
+    else
+        context.actions.window.complain(memory.wrong);
 }
 
 }  // namespace kerf::view

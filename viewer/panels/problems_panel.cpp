@@ -274,7 +274,7 @@ void draw_remarks(UiContext& context, ProblemsMemory& memory) {
 
 }  // namespace
 
-void draw_problems(UiContext& context, ProblemsMemory& memory, ListKeys& keys) {
+void draw_problems(UiContext& context, ProblemsMemory& memory, Dialogs& dialogs) {
     const Document& document = context.session.document();
     const Palette& colors = palette(context.state.theme);
     if (std::string key = key_of(document); memory.advised_for != key) {
@@ -293,9 +293,9 @@ void draw_problems(UiContext& context, ProblemsMemory& memory, ListKeys& keys) {
         ImGui::Spacing();
     }
     draw_remarks(context, memory);
-    draw_repairs(context, memory.repairs);
+    draw_repairs(context, memory.repairs, dialogs.parameters);
     const auto checked = document.checked;  // a button may exchange it
-    if (checked && !checked->diagnosis.defects.empty()) ProblemList(context, memory, keys, *checked).draw();
+    if (checked && !checked->diagnosis.defects.empty()) ProblemList(context, memory, dialogs.list, *checked).draw();
 }
 
 }  // namespace kerf::view

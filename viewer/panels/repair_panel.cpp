@@ -211,7 +211,7 @@ class ActionList {
     const Palette& colors_;
 };
 
-void draw_ending(UiContext& context, RepairMemory& memory) {
+void draw_ending(UiContext& context, RepairMemory& memory, ParametersMemory& parameters) {
     Session& session = context.session;
     const Document& document = session.document();
     if (!document.surface_saved_as.empty())
@@ -229,9 +229,8 @@ void draw_ending(UiContext& context, RepairMemory& memory) {
     const bool has_run = document.trace || !document.folder.empty();
     if (has_run || document.has_problems() || document.progress.running) return;
     ImGui::SameLine();
-    const RunRequest options = document.options;
-    if (context.widgets.small_button("Mesh it", "Cuts and meshes the repaired surface"))
-        context.actions.runs.start_run(options, options.volume);
+    if (context.widgets.small_button("Mesh it", "Cuts and meshes the repaired surface, with the options of Parameters"))
+        start_edited_run(context, parameters, document.options.volume);
 }
 
 }  // namespace
@@ -250,7 +249,7 @@ void draw_repairs_of(UiContext& context, DefectKind kind) {
     ImGui::PopID();
 }
 
-void draw_repairs(UiContext& context, RepairMemory& memory) {
+void draw_repairs(UiContext& context, RepairMemory& memory, ParametersMemory& parameters) {
     const Document& document = context.session.document();
     const bool is_there = context.session.repairs().can_repair() || context.session.repairs().is_repairing();
     if (!is_there || !document.checked || !document.error.empty()) return;
@@ -264,7 +263,7 @@ void draw_repairs(UiContext& context, RepairMemory& memory) {
     if (is_repaired) draw_before_and_after(context);
     if (checked->wrapped) show_wrapped("wrap: " + to_text(*checked->wrapped), palette(context.state.theme).text);
     if (!checked->ladder.steps.empty()) ActionList(context, memory, checked->ladder).draw();
-    if (is_repaired) draw_ending(context, memory);
+    if (is_repaired) draw_ending(context, memory, parameters);
     ImGui::Spacing();
 }
 

@@ -23,7 +23,6 @@ struct Ui::Impl {
     ProblemsMemory problems;
     ClipMemory clip;
     ColorMemory color;
-    ParametersMemory parameters;
     TimelineMemory timeline;
     CutHandleMemory cut_handle;
     int patch_clicks = 0;  // right clicks on patches that were answered
@@ -40,7 +39,7 @@ void Ui::Impl::draw_problems_or_tree(UiContext& context) {
     const bool remarks = context.state.panels.problems && has_remarks(document);
     const bool is_repaired = document.unrepaired && !has_tree(document);
     if (remarks && (document.has_problems() || is_repaired || !context.state.panels.tree))
-        return draw_problems(context, problems, dialogs.list);
+        return draw_problems(context, problems, dialogs);
     if (!remarks) return draw_tree(context, tree);
     if (!ImGui::BeginTabBar("##left")) return;
     const auto tab = [&](const char* label, const auto& draw) {
@@ -51,7 +50,7 @@ void Ui::Impl::draw_problems_or_tree(UiContext& context) {
         ImGui::EndTabItem();
     };
     tab("Tree", [&] { draw_tree(context, tree); });
-    tab("Problems", [&] { draw_problems(context, problems, dialogs.list); });
+    tab("Problems", [&] { draw_problems(context, problems, dialogs); });
     ImGui::EndTabBar();
 }
 
@@ -88,7 +87,7 @@ void Ui::Impl::draw_right(UiContext& context, const Layout& layout) {
         draw_clip(context, clip);
     }
     if (panels.display || panels.quality) draw_color(context, color, dialogs.list);
-    draw_parameters(context, parameters, dialogs.save);
+    draw_parameters(context, dialogs);
     ImGui::EndChild();
     ImGui::End();
 }

@@ -167,10 +167,7 @@ bool can_save_surface(const UiContext& context) {
 }
 bool has_picture(const UiContext& context) { return has_body(context.session.document()); }
 
-void mesh_it(UiContext& context, Dialogs& /*dialogs*/) {
-    const RunRequest options = context.session.document().options;
-    context.actions.runs.start_run(options, true);
-}
+void mesh_it(UiContext& context, Dialogs& dialogs) { start_edited_run(context, dialogs.parameters, true); }
 void ask_for_search(UiContext& /*context*/, Dialogs& dialogs) { dialogs.search.requested = true; }
 
 bool can_be_cut(const UiContext& context) {

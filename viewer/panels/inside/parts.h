@@ -87,13 +87,23 @@ struct ListKeys {
     int take(List of) { return list == of ? std::exchange(steps, 0) : 0; }
 };
 
-/// The dialogs that commands open, and the list in which they go on.
+/// The options of the next run, while they are edited.
+struct ParametersMemory {
+    Section section;
+    RunRequest options;          ///< the options as edited
+    RunRequest given;            ///< the options of the document that they were taken from
+    std::string path, given_of;  ///< path of that document, and key_of() it
+    std::string wrong;           ///< the error in these options; empty: none
+};
+
+/// The dialogs that commands open, the options of the runs that they start, and the list in which they go on.
 struct Dialogs {
     FileBrowser browser;
     SearchBox search;
     SaveDialog save;
     Tour tour;
     ListKeys list;
+    ParametersMemory parameters;
 };
 
 void draw_menu(UiContext& context, Dialogs& dialogs);
@@ -122,7 +132,7 @@ struct RepairMemory {
     std::string save_to, save_of;  ///< file to save the surface to, as typed; path of the document it was typed for
 };
 /// Draws the repairs that the open surface can have, and those that it has had.
-void draw_repairs(UiContext& context, RepairMemory& memory);
+void draw_repairs(UiContext& context, RepairMemory& memory, ParametersMemory& parameters);
 /// Draws a button for the steps that mend a kind of defects; nothing where there are none.
 void draw_repairs_of(UiContext& context, DefectKind kind);
 
@@ -141,7 +151,7 @@ struct ProblemsMemory {
     int chosen = -1;                            ///< index of the chosen defect; -1: none
     RepairMemory repairs;
 };
-void draw_problems(UiContext& context, ProblemsMemory& memory, ListKeys& keys);
+void draw_problems(UiContext& context, ProblemsMemory& memory, Dialogs& dialogs);
 
 void draw_display(UiContext& context);
 /// Draws a list of regions with switches that show, isolate and make glass, and one that explodes them as wholes;
@@ -194,13 +204,9 @@ void draw_solution(UiContext& context);
 /// Draws the comparison of two runs, and a button that asks where the shown one is to be saved.
 void draw_comparison(UiContext& context, SaveDialog& dialog);
 
-struct ParametersMemory {
-    Section section;
-    RunRequest options;      ///< the options as edited
-    std::string options_of;  ///< key_of() the document that they were taken from
-    std::string wrong;       ///< the error in these options; empty: none
-};
-void draw_parameters(UiContext& context, ParametersMemory& memory, SaveDialog& dialog);
+void draw_parameters(UiContext& context, Dialogs& dialogs);
+/// Starts a run with the options of the Parameters panel, or says what is wrong with these.
+void start_edited_run(UiContext& context, ParametersMemory& memory, bool volume);
 
 struct TimelineMemory {
     int chosen = -1;        ///< index of the place of a refused try that was flown to last; -1: none
