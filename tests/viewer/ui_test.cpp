@@ -371,6 +371,35 @@ TEST(Ui, HasEveryOptionUnderTheHeadingsOfTheHelp) {
     }
 }
 
+// Lengths and counts are written as on the command line; what is no number stays in sight, with the reason, and no run
+// starts.
+TEST(Ui, ReadsNumbersAsTheCommandLineDoes) {
+    Driver::Options options;
+    options.auto_run = false;
+    options.volume = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    driver.state().panels.parameters = true;
+    driver.frame();
+    const auto put = [&](const std::string& field, const std::string& text) {
+        driver.click(field);
+        driver.key(key_of('A'), true);
+        driver.type(text);
+        driver.key(key_enter);
+    };
+    put("cells", "5k");
+    EXPECT_TRUE(driver.offers("Only cut"));
+    put("cells", "0");
+    put("size", "30%");
+    put("parts", "2x");
+    EXPECT_FALSE(driver.offers("Only cut"));
+    put("parts", "2");
+    driver.click("Only cut");
+    driver.await("the run", [&] { return driver.document().trace && !driver.app().session().busy(); });
+    EXPECT_EQ(driver.document().options.sizes.size.text(), "30%");
+    EXPECT_EQ(driver.document().options.parts, 2);
+}
+
 TEST(Ui, ChangesOptionsRunsAgainAndCompares) {
     Driver driver;
     driver.open(asset_path("cylinder"));

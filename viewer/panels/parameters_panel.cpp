@@ -1,11 +1,10 @@
 // The options of the next run, and the comparison of the last two. There is a field for each row of the kernel's table
 // of options (option_fields()), under the headings of the help, so that a new option needs no code here: Editor has one
-// way to edit each type of value. The panel edits a copy, which is taken anew when key_of() the document changes,
-// because options arrive after the document was opened and change with a run. The copy is held against ranges and files
-// only when a value changes, as that reads files. A bar marks a value that differs from the document's, and the heading
-// above it.
+// way to edit each type of value, and numbers are texts that the table itself reads. The panel edits a copy, which is
+// taken anew when key_of() the document changes, because options arrive after the document was opened and change with a
+// run. The copy is held against ranges and files only when a value changes, as that reads files. A bar marks a value
+// that differs from the document's, and the heading above it.
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -20,32 +19,14 @@ namespace {
 // Whether an option names a file that a run writes besides its result, which is no business of the viewer.
 bool is_file(const OptionField& field) { return names_output(field.name); }
 
-// Draws the field of a value of each type, and returns whether the value has changed.
+// Draws the field of a value of each type but numbers, and returns whether the value has changed.
 struct Editor {
     Widgets& widgets;
     const char* label;
 
-    bool operator()(std::int32_t* value) const {
-        std::int64_t wide = *value;
-        constexpr std::int64_t limit = std::numeric_limits<std::int32_t>::max();
-        const bool changed = widgets.input_number(label, &wide);
-        if (changed) *value = static_cast<std::int32_t>(std::clamp(wide, -limit, limit));
-        return changed;
-    }
-    bool operator()(const OptionField::Memory& memory) const { return widgets.input_number(label, memory.megabytes); }
-    bool operator()(const OptionField::Count& count) const { return widgets.input_number(label, count.number); }
-    bool operator()(double* value) const { return widgets.input_number(label, value); }
-    bool operator()(Length* value) const {
-        if (value->is_percent()) {
-            std::string text = value->text();
-            const bool changed = widgets.input_text(label, &text);
-            if (changed) *value = length_in(text).value_or(*value);
-            return changed;
-        }
-        double number = value->number();
-        const bool changed = widgets.input_number(label, &number);
-        if (changed) *value = number;
-        return changed;
+    template <class Number>
+    bool operator()(const Number& /*place*/) const {
+        return false;
     }
     bool operator()(std::string* value) const { return widgets.input_text(label, value); }
     bool operator()(OptionField::List items) const {
@@ -76,11 +57,35 @@ void mark(const ImVec2& at, const Palette& colors) {
                                               packed(colors.accent));
 }
 
-bool draw_field(Widgets& widgets, const OptionField& field, bool changed, const Palette& colors) {
+// Sets the option, or notes why the text is none.
+void take_text(const OptionField& field, const std::string& text, ParametersMemory& memory) {
+    try {
+        memory.refused.erase(field.name);
+        field.set_text(text);
+    } catch (const Error& error) {
+        memory.refused[field.name] = {text, error.what()};
+    }
+}
+
+// Draws the field of a number, which is written as on the command line, "2%" or "50k". A text that is none stays in the
+// field with the error below it.
+bool draw_number(Widgets& widgets, const OptionField& field, ParametersMemory& memory, const Palette& colors) {
+    const auto known = memory.refused.find(field.name);
+    std::string text = known == memory.refused.end() ? field.text() : known->second.text;
+    const bool edited = widgets.input_text(field.name.c_str(), &text);
+    if (edited) take_text(field, text, memory);
+    if (const auto refused = memory.refused.find(field.name); refused != memory.refused.end())
+        show_wrapped(refused->second.error, colors.bad);
+    return edited;
+}
+
+bool draw_field(Widgets& widgets, const OptionField& field, bool changed, ParametersMemory& memory,
+                const Palette& colors) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float room = ImGui::GetContentRegionAvail().x;
     ImGui::BeginGroup();
-    const bool edited = std::visit(Editor{widgets, field.name.c_str()}, field.value);
+    const bool edited = field.is_number() ? draw_number(widgets, field, memory, colors)
+                                          : std::visit(Editor{widgets, field.name.c_str()}, field.value);
     ImGui::EndGroup();
     explain(field.help);
     if (changed) mark({at.x + value_place * room - 0.35f * em(), at.y}, colors);
@@ -94,8 +99,8 @@ bool is_common(const std::string& heading) { return heading == option_group::cut
 // frame.
 void check_options(ParametersMemory& memory) {
     try {
-        memory.wrong.clear();
-        choices_of(memory.options);
+        memory.wrong = memory.refused.empty() ? "" : memory.refused.begin()->second.error;
+        if (memory.wrong.empty()) choices_of(memory.options);
     } catch (const Error& error) {
         memory.wrong = error.what();
     }
@@ -116,13 +121,15 @@ void draw_fields(UiContext& context, ParametersMemory& memory) {
         const bool open = context.widgets.header(heading, is_common(heading));
         if (std::any_of(fields.begin(), fields.end(), is_changed)) mark(at, colors);
         if (!open) continue;
-        for (const OptionField& field : fields) edited |= draw_field(context.widgets, field, is_changed(field), colors);
+        for (const OptionField& field : fields)
+            edited |= draw_field(context.widgets, field, is_changed(field), memory, colors);
     }
     if (edited) check_options(memory);
 }
 
 void put_options(ParametersMemory& memory, const RunRequest& options) {
     memory.options = options;
+    memory.refused.clear();
     check_options(memory);
 }
 

@@ -94,6 +94,11 @@ struct ParametersMemory {
     RunRequest given;            ///< the options of the document that they were taken from
     std::string path, given_of;  ///< path of that document, and key_of() it
     std::string wrong;           ///< the error in these options; empty: none
+    /// A text in the field of a number that is no such number, so that the option keeps its value.
+    struct Refused {
+        std::string text, error;
+    };
+    std::map<std::string, Refused> refused;  ///< by the names of options
 };
 
 /// The dialogs that commands open, the options of the runs that they start, and the list in which they go on.

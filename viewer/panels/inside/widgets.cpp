@@ -167,11 +167,4 @@ bool Widgets::input_number(const char* label, double* value) {
     return changed;
 }
 
-bool Widgets::input_number(const char* label, std::int64_t* value) {
-    const std::string id = label_left(label);
-    const bool changed = ImGui::InputScalar(id.c_str(), ImGuiDataType_S64, value);
-    record(label);
-    return changed;
-}
-
 }  // namespace kerf::view

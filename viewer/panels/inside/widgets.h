@@ -36,7 +36,6 @@ class Widgets {
     bool header(const char* label, bool open_at_first);  ///< draws the head of a collapsing section
     bool input_text(const char* label, std::string* text);
     bool input_number(const char* label, double* value);
-    bool input_number(const char* label, std::int64_t* value);
     /// Records the last item, which was drawn by ImGui directly, or a rectangle.
     void record(const std::string& label);
     void record(const std::string& label, const ImVec2& from, const ImVec2& to);
