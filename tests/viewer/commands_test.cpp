@@ -116,6 +116,20 @@ TEST(SearchBox, DoesWhatIsTyped) {
     EXPECT_FALSE(driver.state().look.edges);
 }
 
+// A field of text keeps its letters, and Ctrl+A, but not the other keys with Ctrl.
+TEST(SearchBox, OpensWhileAFieldHasTheKeyboard) {
+    Driver driver;
+    driver.open(asset_path("cube"));
+    driver.state().panels.parameters = true;
+    driver.click("parts");
+    driver.key(key_of('A'), true);
+    driver.key(key_of('H'));
+    EXPECT_FALSE(driver.state().panels.keys);
+    EXPECT_FALSE(driver.offers("search commands"));
+    driver.key(key_of('K'), true);
+    EXPECT_TRUE(driver.offers("search commands"));
+}
+
 TEST(SearchBox, DoesNothingThatCannotBeDone) {
     Driver driver(shown_alone());
     driver.open(asset_path("cube"));

@@ -234,7 +234,8 @@ class Ui {
     /// Draws legend, gizmo, caption and labels into the rectangle of the shown document, or the start page where
     /// nothing is open. They are part of every picture, also without panels.
     void draw_overlays(UiContext& context, const Rectangle& scene);
-    /// Runs the command of a key, "Ctrl+Shift+Z", unless a dialog or a text field has the keyboard. `repeat`: the key
+    /// Runs the command of a key, "Ctrl+Shift+Z", unless a dialog has the keyboard, or a text field that the
+    /// key belongs to. `repeat`: the key
     /// is held.
     void press(UiContext& context, const std::string& key, bool repeat);
     /// Returns whether a guided tour has the view.

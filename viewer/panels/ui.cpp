@@ -2,8 +2,8 @@
 // it comes first; splitters come before the panels, because the first of windows that stay where they are is in front;
 // overlays are drawn into ImGui's background list, which lies behind all windows; dialogs come last. Dear ImGui keeps
 // no state of Kerf's, so that each panel has its memory in Ui::Impl. Keys reach commands only here (Ui::press()), and
-// not while a popup, a dialog or a text field has the keyboard. Steps that keys have asked of a list which no panel has
-// drawn are forgotten at the end of the frame, and the list is left.
+// not while a popup or a dialog has the keyboard, or a text field that the key belongs to. Steps that keys have asked
+// of a list which no panel has drawn are forgotten at the end of the frame, and the list is left.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -147,6 +147,11 @@ bool close_menu() {
     return true;
 }
 
+// Whether a field of text has a use for a key: letters, and Ctrl with those that select, copy and undo.
+bool belongs_to_field(const std::string& key) {
+    return !key.starts_with("Ctrl+") || std::string_view("ACVXYZ").find(key.back()) != std::string_view::npos;
+}
+
 }  // namespace
 
 Rectangle rectangle_of(const ValueLabel& label) {
@@ -218,7 +223,8 @@ void Ui::press(UiContext& context, const std::string& key, bool repeat) {
     if (key.ends_with("Escape") && close_menu()) return;
     Dialogs& dialogs = impl_->dialogs;
     const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    if (ImGui::GetIO().WantTextInput || popup || dialogs.browser.open || dialogs.browser.requested) return;
+    const bool is_typed = ImGui::GetIO().WantTextInput && belongs_to_field(key);
+    if (is_typed || popup || dialogs.browser.open || dialogs.browser.requested) return;
     const Command* command = command_of_key(key);
     if (command && (command->repeats || !repeat) && is_enabled(*command, context)) command->run(context, dialogs);
 }
