@@ -313,14 +313,31 @@ TEST(Saving, HidesThePatchUnderTheMouse) {
     driver.settle();
     ASSERT_EQ(driver.state().visibility.hidden_patches.size(), 1u);
     EXPECT_LT(driver.drawn(LayerKind::part).triangles, all);
+    const std::vector<std::string> by_key = driver.state().visibility.hidden_patches;
     driver.key(key_of('P'), false, true);
     driver.settle();
     EXPECT_TRUE(driver.state().visibility.hidden_patches.empty());
+    // A command that is chosen in a list means the place where the mouse was before.
+    driver.key(key_of('K'), true);
+    driver.type("hide the patch");
+    driver.click("command Hide the patch under the mouse");
+    driver.settle();
+    EXPECT_EQ(driver.state().visibility.hidden_patches, by_key);
+    driver.key(key_of('P'), false, true);
+    driver.settle();
     EXPECT_EQ(driver.drawn(LayerKind::part).triangles, all);
     driver.click_at(body.x + 0.45f * body.width, body.y + body.height / 2, 1);
     driver.settle();
     driver.click("Hide this patch");
     EXPECT_EQ(driver.state().visibility.hidden_patches.size(), 1u);
+    driver.key(key_of('P'), false, true);
+    for (const std::string& patch : driver.document().patch_names)
+        if (patch != by_key.front()) driver.state().visibility.hidden_patches.push_back(patch);
+    driver.settle();
+    driver.move_to(body.x + 0.45f * body.width, body.y + body.height / 2);
+    driver.key(key_of('P'));
+    EXPECT_EQ(std::ssize(driver.state().visibility.hidden_patches), std::ssize(driver.document().patch_names) - 1);
+    EXPECT_NE(driver.app().facts().notice.find("Without this patch"), std::string::npos);
 }
 
 }  // namespace

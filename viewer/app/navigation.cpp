@@ -13,6 +13,7 @@
 
 #include "viewer/app/keys.h"
 #include "viewer/model/off_faces.h"
+#include "viewer/model/shown_parts.h"
 #include "viewer/scene/selection.h"
 
 namespace kerf::view {
@@ -160,9 +161,10 @@ const std::string* Navigation::patch_at(float x, float y) {
 }
 
 void Navigation::hide_patch() {
-    const ImVec2& mouse = ImGui::GetIO().MousePos;
-    const std::string* patch = view_.area.contains(mouse.x, mouse.y) ? patch_at(mouse.x, mouse.y) : nullptr;
+    const std::string* patch = mouse_ ? patch_at(mouse_->first, mouse_->second) : nullptr;
     if (!patch) return view_.notify("There is no patch with a name under the mouse.");
+    if (is_last_patch(view_.state, view_.session.document(), *patch))
+        return view_.notify("Without this patch nothing would be left to be seen.");
     set_member(view_.state.visibility.hidden_patches, *patch, true);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "viewer/app/view.h"
 
@@ -21,6 +22,8 @@ class Navigation : public CameraActions {
     void show_earlier() override { show_again(view_.history.go_back(view_.state)); }
     void show_later() override { show_again(view_.history.go_on(view_.state)); }
 
+    /// Notes where the mouse is in the scene, so that a command which is chosen elsewhere knows.
+    void note_mouse(float x, float y) { mouse_ = {x, y}; }
     /// Returns the name of the patch that is seen at a pixel; null: there is none.
     const std::string* patch_at(float x, float y);
     /// Zooms towards the point that is seen under the cursor, and not through it.
@@ -42,7 +45,8 @@ class Navigation : public CameraActions {
     Vec3 seen_point(const PickHit& hit) const;
 
     View& view_;
-    std::optional<Selection> turning_to_;  // a selected cell whose part is being read
+    std::optional<std::pair<float, float>> mouse_;  // where the mouse was in the scene last
+    std::optional<Selection> turning_to_;           // a selected cell whose part is being read
 };
 
 }  // namespace kerf::view

@@ -42,6 +42,9 @@ std::string words_of(const KeyEvent& event) {
 }  // namespace
 
 void SceneInput::take(UiContext& context) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!io.WantCaptureMouse && view_.area.contains(io.MousePos.x, io.MousePos.y))
+        navigation_.note_mouse(io.MousePos.x, io.MousePos.y);
     for (const KeyEvent& event : std::exchange(key_events_, {})) ui_.press(context, words_of(event), event.repeat);
     take_mouse();
 }

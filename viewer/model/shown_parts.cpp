@@ -65,6 +65,13 @@ bool is_glass(const ViewState& state, const Document& document, NodeId part) {
     return region && is_glass(state, *region);
 }
 
+bool is_last_patch(const ViewState& state, const Document& document, const std::string& patch) {
+    const std::vector<std::string>& hidden = state.visibility.hidden_patches;
+    return std::all_of(document.patch_names.begin(), document.patch_names.end(), [&](const std::string& name) {
+        return name == patch || std::find(hidden.begin(), hidden.end(), name) != hidden.end();
+    });
+}
+
 void reveal_region(ViewState& state, const std::string& region) {
     Visibility& visibility = state.visibility;
     set_member(visibility.hidden_regions, region, false);

@@ -28,6 +28,9 @@ bool is_glass(const ViewState& state, const Document& document, NodeId part);
 /// Returns 1 for each patch that is hidden by its name, and 0 for each other one; empty if none is.
 std::vector<char> hidden_patches(const ViewState& state, const Document& document);
 
+/// Returns whether nothing of the surface would be seen without a patch, as all others are hidden.
+bool is_last_patch(const ViewState& state, const Document& document, const std::string& patch);
+
 /// Shows a region again, whatever has hidden it.
 void reveal_region(ViewState& state, const std::string& region);
 

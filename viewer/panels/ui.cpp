@@ -127,7 +127,7 @@ void draw_patch_menu(UiContext& context, int& answered) {
     std::vector<std::string>& hidden = context.state.visibility.hidden_patches;
     const std::string& patch = context.facts.patch;
     show(patch.empty() ? "No patch with a name" : patch, palette(context.state.theme).dim);
-    ImGui::BeginDisabled(patch.empty());
+    ImGui::BeginDisabled(patch.empty() || is_last_patch(context.state, context.session.document(), patch));
     if (context.widgets.menu_item("Hide this patch", "P")) set_member(hidden, patch, true);
     ImGui::EndDisabled();
     ImGui::BeginDisabled(hidden.empty());
