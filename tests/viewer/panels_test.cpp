@@ -3,6 +3,7 @@
 
 #include "support/assets.h"
 #include "support/temporary_folder.h"
+#include "viewer/app/keys.h"
 #include "viewer/driver.h"
 
 namespace kerf::test {
@@ -104,6 +105,26 @@ TEST(ClipHandles, MoveAndTurnThePlaneAndNothingElse) {
     const Eigen::Vector2f back = arrow().normalized() * 60;
     drag_item(driver, "move clip plane", back.x(), back.y());
     EXPECT_LT(driver.state().clip.position, flipped_from) << "the arrow points to what is hidden";
+}
+
+// The cut face is seen as soon as there is one, unless somebody wants the other half.
+TEST(ClipPlane, ShowsTheHalfWhoseCutFaceIsSeen) {
+    Driver::Options options;
+    options.auto_run = false;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    driver.key(key_of('1'));
+    driver.click("Clip Y");
+    EXPECT_TRUE(driver.state().clip.flipped) << "the front looks along Y";
+    driver.key(key_of('9'));
+    driver.key(key_of('C'));
+    driver.key(key_of('C'));
+    EXPECT_TRUE(driver.state().clip.on);
+    EXPECT_FALSE(driver.state().clip.flipped);
+    driver.click("Flip");
+    driver.click("Clip plane");
+    driver.click("Clip plane");
+    EXPECT_TRUE(driver.state().clip.flipped) << "as was asked for";
 }
 
 // The cut is made where its plane was put, and the run before stays.

@@ -7,6 +7,10 @@ ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n) {
     return {middle - half, middle + half};
 }
 
+void face(Clip& clip, const Vec3& back) {
+    if (const double towards = clip.normal.dot(back); std::abs(towards) > 1e-9) clip.flipped = towards < 0;
+}
+
 void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box) {
     const ValueRange range = extent_along(box, plane.normal);
     clip.on = true;

@@ -44,6 +44,9 @@ ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n);
 /// Makes the clip plane coincide with a plane that meets the box.
 void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box);
 
+/// Shows the half of the body whose cut face looks towards the eye. `back`: the direction to the eye.
+void face(Clip& clip, const Vec3& back);
+
 /// The meaning of the colour of a cell or facet.
 enum class ColorBy {
     part,

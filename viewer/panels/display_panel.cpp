@@ -79,7 +79,7 @@ void draw_choice(Widgets& widgets, const char* title, const char* const (&labels
     }
 }
 
-void draw_axis_buttons(UiContext& context) {
+void draw_axis_buttons(UiContext& context, ClipMemory& memory) {
     Clip& clip = context.state.clip;
     for (int axis = 0; axis < 3; ++axis) {
         const std::string label = std::string("Clip ") + "XYZ"[axis];
@@ -95,7 +95,8 @@ void draw_axis_buttons(UiContext& context) {
         ImGui::SameLine();
     }
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.6f * em());
-    context.widgets.checkbox("Flip", &clip.flipped, "Show the other side");
+    if (context.widgets.checkbox("Flip", &clip.flipped, "Show the other side"))
+        memory.flipped_in = context.session.document().path;
 }
 
 void draw_snap_button(UiContext& context) {
@@ -171,8 +172,9 @@ void draw_display(UiContext& context) {
 void draw_clip(UiContext& context, ClipMemory& memory) {
     if (!context.widgets.header("Clip", true)) return;
     Clip& clip = context.state.clip;
+    const Clip before = clip;
     context.widgets.checkbox("Clip plane", &clip.on, "Shows one side of a plane (C)");
-    draw_axis_buttons(context);
+    draw_axis_buttons(context, memory);
     ImGui::BeginDisabled(!clip.on);
     context.widgets.slider("Position", &clip.position, 0, 1, "%.3f");
     draw_distance(context, memory);
@@ -181,7 +183,12 @@ void draw_clip(UiContext& context, ClipMemory& memory) {
     ImGui::EndDisabled();
     draw_snap_button(context);
     draw_selection_buttons(context);
+    if (clip.on && (!before.on || clip.normal != before.normal)) show_cut_face(context, memory);
     ImGui::Spacing();
+}
+
+void show_cut_face(UiContext& context, const ClipMemory& memory) {
+    if (memory.flipped_in != context.session.document().path) face(context.state.clip, context.camera.back());
 }
 
 }  // namespace kerf::view

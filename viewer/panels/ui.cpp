@@ -21,7 +21,6 @@ struct Ui::Impl {
     Dialogs dialogs;
     TreeMemory tree;
     ProblemsMemory problems;
-    ClipMemory clip;
     ColorMemory color;
     TimelineMemory timeline;
     CutHandleMemory cut_handle;
@@ -84,7 +83,7 @@ void Ui::Impl::draw_right(UiContext& context, const Layout& layout) {
     if (panels.display) {
         draw_display(context);
         draw_regions(context);
-        draw_clip(context, clip);
+        draw_clip(context, dialogs.clip);
     }
     if (panels.display || panels.quality) draw_color(context, color, dialogs.list);
     draw_parameters(context, dialogs);

@@ -105,7 +105,10 @@ void change_theme(UiContext& context, Dialogs& /*dialogs*/) {
 }
 bool is_dark(const UiContext& context) { return context.state.theme == Theme::dark; }
 
-void toggle_clip(UiContext& context, Dialogs& /*dialogs*/) { context.state.clip.on = !context.state.clip.on; }
+void toggle_clip(UiContext& context, Dialogs& dialogs) {
+    context.state.clip.on = !context.state.clip.on;
+    if (context.state.clip.on) show_cut_face(context, dialogs.clip);
+}
 void show_patches(UiContext& context, Dialogs& /*dialogs*/) { context.state.visibility.hidden_patches.clear(); }
 bool hides_patches(const UiContext& context) { return !context.state.visibility.hidden_patches.empty(); }
 

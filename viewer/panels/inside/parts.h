@@ -87,6 +87,13 @@ struct ListKeys {
     int take(List of) { return list == of ? std::exchange(steps, 0) : 0; }
 };
 
+/// Position and normal of the clip plane while they are typed, and the document in which somebody has flipped it.
+struct ClipMemory {
+    double at = 0;  ///< distance from the origin along the normal, in units of the file
+    std::array<double, 3> normal = {};
+    std::string flipped_in;  ///< path of that document; empty: none
+};
+
 /// The options of the next run, while they are edited.
 struct ParametersMemory {
     Section section;
@@ -101,7 +108,7 @@ struct ParametersMemory {
     std::map<std::string, Refused> refused;  ///< by the names of options
 };
 
-/// The dialogs that commands open, the options of the runs that they start, and the list in which they go on.
+/// The dialogs that commands open, the list in which they go on, and the panels whose content they use.
 struct Dialogs {
     FileBrowser browser;
     SearchBox search;
@@ -109,6 +116,7 @@ struct Dialogs {
     Tour tour;
     ListKeys list;
     ParametersMemory parameters;
+    ClipMemory clip;
 };
 
 void draw_menu(UiContext& context, Dialogs& dialogs);
@@ -163,12 +171,9 @@ void draw_display(UiContext& context);
 /// nothing for a body of one region.
 void draw_regions(UiContext& context);
 
-/// Position and normal of the clip plane while they are typed.
-struct ClipMemory {
-    double at = 0;  ///< distance from the origin along the normal, in units of the file
-    std::array<double, 3> normal = {};
-};
 void draw_clip(UiContext& context, ClipMemory& memory);
+/// Shows the side of the clip plane whose cut face looks to the camera, unless somebody has flipped it.
+void show_cut_face(UiContext& context, const ClipMemory& memory);
 
 struct ColorBarMemory {
     std::optional<ValueRange> colored;  ///< range of the values shown when there was no fixed range
