@@ -293,6 +293,13 @@ TEST(Saving, TwoRunsStandSideBySide) {
     const Pixels nearer = compare();
     EXPECT_LT(nearer.other, nearer.drawn / 200);
     EXPECT_GT(nearer.drawn, fitted.drawn);
+    // A click on the other run makes it the one of which the panels speak, where it is.
+    const std::string shown = driver.document().path;
+    driver.click_at(x, y);
+    driver.settle();
+    EXPECT_NE(driver.document().path, shown);
+    EXPECT_EQ(driver.app().scene_area().x, other.x);
+    EXPECT_EQ(driver.app().facts().notice, "The panels are about A now.");
     driver.key(key_of('B'), false, true);
     driver.settle();
     EXPECT_FALSE(driver.app().facts().beside);

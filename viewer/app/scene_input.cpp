@@ -46,10 +46,10 @@ void SceneInput::take(UiContext& context) {
     if (!io.WantCaptureMouse && view_.area.contains(io.MousePos.x, io.MousePos.y))
         navigation_.note_mouse(io.MousePos.x, io.MousePos.y);
     for (const KeyEvent& event : std::exchange(key_events_, {})) ui_.press(context, words_of(event), event.repeat);
-    take_mouse();
+    take_mouse(context);
 }
 
-void SceneInput::take_mouse() {
+void SceneInput::take_mouse(UiContext& context) {
     const ImGuiIO& io = ImGui::GetIO();
     const bool in_shown = view_.area.contains(io.MousePos.x, io.MousePos.y);
     const bool in_other = view_.beside && view_.beside->area.contains(io.MousePos.x, io.MousePos.y);
@@ -60,6 +60,7 @@ void SceneInput::take_mouse() {
         take_drag();
         const bool is_double = ImGui::IsMouseDoubleClicked(0);
         if (in_shown && (is_double || (ImGui::IsMouseReleased(0) && !dragging_))) take_click(is_double);
+        if (in_other && ImGui::IsMouseReleased(0) && !dragging_) take_other_run(context);
         if (in_shown && ImGui::IsMouseReleased(1) && !dragging_) take_right_click();
         if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
             dragging_ = pressed_in_scene_ = false;
@@ -105,6 +106,14 @@ void SceneInput::take_click(bool centers) {
         view_.state.selection.owner = found->owner;
         view_.state.selection.place = point;
     }
+}
+
+// Makes the other one of two runs the shown one, of which the panels speak.
+void SceneInput::take_other_run(UiContext& context) {
+    const bool shows_before = view_.session.shows_before();
+    context.actions.runs.swap_runs();
+    if (view_.session.shows_before() != shows_before)
+        view_.notify(shows_before ? "The panels are about B now." : "The panels are about A now.");
 }
 
 // The panels answer with a menu of what can be done with the patch.

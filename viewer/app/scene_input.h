@@ -19,10 +19,11 @@ class SceneInput {
     bool is_pressed() const { return pressed_in_scene_; }
 
  private:
-    void take_mouse();
+    void take_mouse(UiContext& context);
     void take_drag();
     void take_click(bool centers);
     void take_right_click();
+    void take_other_run(UiContext& context);
 
     View& view_;
     Ui& ui_;

@@ -1,7 +1,7 @@
-// The comparison of two runs, A before and B after a repetition with other options: of the cut of the node shown, where
-// it differs, and of the whole run. A value of B is green or red where more or less of it is better; a value that is
-// not known is negative and shown as "-". Whichever of the two is shown, A is the earlier one; the switch is drawn
-// first, because it may exchange the two documents that the tables refer to.
+// The comparison of two runs, A before and B after a repetition with other options: of these options, of the cut of the
+// node shown, where it differs, and of the whole run. A value of B is green or red where more or less of it is better;
+// a value that is not known is negative and shown as "-". Whichever of the two is shown, A is the earlier one; the
+// switch is drawn first, because it may exchange the two documents that the tables refer to.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -34,12 +34,13 @@ class Table {
     Table(const Table&) = delete;
     Table& operator=(const Table&) = delete;
 
-    void add(const char* what, const std::string& before, const std::string& now) {
+    void add(const std::string& what, const std::string& before, const std::string& now) {
         row(what, before, now, colors_.text);
     }
-    // Adds a row of numbers, the new one green or red if one of the two is better. Negative: not known.
+    // Adds a row of numbers, the new one green or red if one of the two is better and that can be read. Negative: not
+    // known.
     void add(const char* what, double before, double now, Better better = Better::neither) {
-        const bool same = before == now || better == Better::neither || before < 0 || now < 0;
+        const bool same = number(before) == number(now) || better == Better::neither || before < 0 || now < 0;
         const bool gain = better == Better::more ? now > before : now < before;
         row(what, number(before), number(now), same ? colors_.text : gain ? colors_.good : colors_.bad);
     }
@@ -47,15 +48,15 @@ class Table {
  private:
     static std::string number(double value) { return value < 0 ? "-" : fmt::format("{:.5g}", value); }
 
-    void row(const char* what, const std::string& before, const std::string& now, const ImVec4& color) {
+    void row(const std::string& what, const std::string& before, const std::string& now, const ImVec4& color) {
         if (!open_) return;
         ImGui::TableNextRow();
         ImGui::TableSetColumnIndex(0);
         show(what, colors_.dim);
         ImGui::TableSetColumnIndex(1);
-        show_right(before, colors_.dim);
+        show_right(shortened(before, ImGui::GetContentRegionAvail().x), colors_.dim);
         ImGui::TableSetColumnIndex(2);
-        show_right(now, color);
+        show_right(shortened(now, ImGui::GetContentRegionAvail().x), color);
     }
 
     const Palette& colors_;
@@ -131,6 +132,18 @@ void compare_runs(const Document& before, const Document& now, const Palette& co
     if (a.failed > 0 || b.failed > 0) table.add("failed parts", a.failed, b.failed, Better::less);
 }
 
+// The options by which the runs differ explain the differences of all that follows.
+void compare_options(const Document& before, const Document& now, const Palette& colors) {
+    const std::vector<OptionText> old_texts = option_texts(before.options, true),
+                                  new_texts = option_texts(now.options, true);
+    if (std::equal(old_texts.begin(), old_texts.end(), new_texts.begin(), new_texts.end(),
+                   [](const OptionText& a, const OptionText& b) { return a.text == b.text; }))
+        return;
+    Table table("Options", colors);
+    for (std::size_t i = 0; i < old_texts.size(); ++i)
+        if (old_texts[i].text != new_texts[i].text) table.add(old_texts[i].name, old_texts[i].text, new_texts[i].text);
+}
+
 // Draws the switch between the two runs.
 void draw_switch(UiContext& context) {
     const bool shows_before = context.session.shows_before();
@@ -166,6 +179,7 @@ void draw_comparison(UiContext& context, SaveDialog& dialog) {
         draw_switch(context);  // first: it may exchange the two
         const Document &before = session.shows_before() ? *shown : *other,
                        &now = session.shows_before() ? *other : *shown;
+        compare_options(before, now, colors);
         const NodeId node = context.state.node;
         const TreeRow *old_row = before.tree.find(node), *new_row = now.tree.find(node);
         if (old_row && new_row && old_row->cut && new_row->cut && !is_same(*old_row->cut, *new_row->cut))

@@ -22,7 +22,8 @@ double round_length(double longest) {
 
 void draw_scale_bar(UiContext& context, const Rectangle& scene) {
     const float e = em(), longest = std::min(0.25f * scene.width, 10 * e);
-    if (!context.state.look.scale_bar || scene.width < 32 * e || !(context.camera.height > 0)) return;
+    const float least_width = (context.facts.beside ? 16 : 32) * e;
+    if (!context.state.look.scale_bar || scene.width < least_width || !(context.camera.height > 0)) return;
     const double unit = scene.height / context.camera.height, length = round_length(longest / unit);
     if (!std::isfinite(length * unit)) return;
     const auto pixels = static_cast<float>(length * unit);
