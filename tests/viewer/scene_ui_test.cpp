@@ -498,5 +498,30 @@ TEST(SceneUi, KeysGoThroughTheWorstCells) {
     EXPECT_EQ(state.node, NodeId(2)) << "the keys are the tree's";
 }
 
+// One sees the cell that was chosen, whatever its size and wherever the clip plane is.
+TEST(WorstCells, AreSeenFromNearby) {
+    Driver::Options options;
+    options.parts = 2;
+    Driver driver(options);
+    driver.open(asset_path("cube"));
+    ViewState& state = driver.state();
+    state.coloring.by = ColorBy::min_dihedral;
+    state.panels.quality = true;
+    state.clip = {true, ClipStyle::cells, Vec3::UnitX(), 0.01, false};
+    driver.await("the list", [&] { return driver.app().widgets().find("worst 1").has_value(); });
+    driver.click("worst 1");
+    driver.settle();
+    ASSERT_EQ(state.selection.kind, Selection::Kind::cell);
+    const auto cells = driver.app().session().fetched().cells(state.selection.owner);
+    ASSERT_TRUE(cells);
+    const Eigen::AlignedBox3d& body = driver.document().box;
+    Eigen::AlignedBox3d cell;
+    for (const std::int32_t v : cells->tets[static_cast<std::size_t>(state.selection.index)])
+        cell.extend(cells->vertices[static_cast<std::size_t>(v)]);
+    EXPECT_GT(driver.app().camera().height, 2 * cell.sizes().maxCoeff());
+    EXPECT_LT(driver.app().camera().height, 4 * cell.diagonal().norm());
+    EXPECT_GE(body.min().x() + state.clip.position * body.sizes().x(), cell.max().x() - 1e-5 * body.sizes().x());
+}
+
 }  // namespace
 }  // namespace kerf::test

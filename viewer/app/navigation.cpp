@@ -77,12 +77,32 @@ void Navigation::resolve_turn() {
                shown = surface_of(view_.session, view_.state.node);
     const bool is_known = cells && part && shown;
     if (!is_known && view_.session.pending()) return;
-    if (is_known && view_.state.selection == s && view_.state.camera)
+    if (is_known && view_.state.selection == s && view_.state.camera) {
+        come_to(*cells, s.index);
         if (const auto back = direction_to_cell(*cells, *part, *shown, s.index, view_.camera.back())) {
             if (!back->isApprox(view_.state.camera->back())) look_from(*view_.state.camera, *back, view_.up());
             view_.wake();
         }
+    }
     turning_to_.reset();
+}
+
+// Makes the cell a third as high as the scene, and moves the clip plane so that it and its neighbours are seen.
+void Navigation::come_to(const PartCells& cells, std::int32_t cell) {
+    const std::array<std::int32_t, 4>& corners = cells.tets[cell];
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t v : corners) middle += cells.vertices[v] / 4;
+    double radius = 0;
+    for (const std::int32_t v : corners) radius = std::max(radius, (cells.vertices[v] - middle).norm());
+    view_.state.camera->target = middle;
+    view_.state.camera->height = std::max(6 * radius, 1e-4 * view_.diagonal());
+    if (!view_.state.clip.on) return;
+    std::vector<Vec3> around;
+    for (const std::array<std::int32_t, 4>& tet : cells.tets)
+        if (std::any_of(tet.begin(), tet.end(),
+                        [&](std::int32_t v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); }))
+            for (const std::int32_t v : tet) around.push_back(cells.vertices[v]);
+    keep(view_.state.clip, around, view_.session.document().box);
 }
 
 void Navigation::resolve_clip() {

@@ -30,7 +30,7 @@ class Navigation : public CameraActions {
     void zoom(float x, float y, float notches);
     /// Makes the camera turn about the point that was hit from now on.
     void center(const PickHit& hit);
-    void resolve_turn();  ///< turns to the selection once its cells have arrived
+    void resolve_turn();  ///< turns, and comes close, to the selection once its cells have arrived
     void resolve_clip();  ///< moves a plane that was asked for off faces of the body, once these are known
     /// Sets the camera and its projection for the scene as it was built.
     void project_scene();
@@ -39,6 +39,7 @@ class Navigation : public CameraActions {
 
  private:
     void update_camera();
+    void come_to(const PartCells& cells, std::int32_t cell);
     void show_again(const std::optional<ViewState>& view);
     template <class Body>
     void fit_body(Camera& camera, const Body& body) const;

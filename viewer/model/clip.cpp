@@ -19,4 +19,23 @@ void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box) {
         clip.position = std::clamp((plane.normal.dot(plane.origin) - range.low) / (range.high - range.low), 0., 1.);
 }
 
+void keep(Clip& clip, const std::vector<Vec3>& points, const Eigen::AlignedBox3d& box) {
+    const ValueRange range = extent_along(box, clip.normal);
+    const double length = range.high - range.low;
+    if (points.empty() || !(length > 0)) return;
+    ValueRange kept = {1, 0};
+    for (const Vec3& p : points) {
+        const double place = (clip.normal.dot(p) - range.low) / length;
+        kept = {std::min(kept.low, place), std::max(kept.high, place)};
+    }
+    constexpr double margin = 1e-6;  // more than rounding
+    double& position = clip.position;
+    if (clip.style == ClipStyle::layer)
+        position = std::clamp((kept.low + kept.high) / 2, 0., 1.);
+    else if (clip.flipped)
+        position = std::clamp(kept.low - margin, 0., position);
+    else
+        position = std::clamp(kept.high + margin, position, 1.);
+}
+
 }  // namespace kerf::view

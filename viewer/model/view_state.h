@@ -47,6 +47,9 @@ void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box);
 /// Shows the half of the body whose cut face looks towards the eye. `back`: the direction to the eye.
 void face(Clip& clip, const Vec3& back);
 
+/// Moves the plane, along its normal and if need be, so that none of these points of the body is cut away.
+void keep(Clip& clip, const std::vector<Vec3>& points, const Eigen::AlignedBox3d& box);
+
 /// The meaning of the colour of a cell or facet.
 enum class ColorBy {
     part,
