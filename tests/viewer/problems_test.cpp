@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "files/io/cad_body.h"
@@ -86,6 +87,23 @@ TEST_F(ProblemButtons, FillAHole) {
     EXPECT_TRUE(driver_->offers("Run with --weld 1e-05")) << "the cube is 1 long";
     run_by("Run with --fill-holes 3");
     EXPECT_EQ(driver_->document().input_facets, 4660);
+}
+
+// The selection takes room below the list, but not all of it.
+TEST_F(ProblemButtons, LeaveRoomForTheList) {
+    Soup soup = read_surface(asset_path("cube"));
+    for (std::size_t i = 1; i <= 20; ++i) soup.facets.erase(soup.facets.begin() + static_cast<std::ptrdiff_t>(200 * i));
+    open(soup);
+    driver_->click("defect 3");
+    driver_->settle();
+    ASSERT_EQ(driver_->state().selection.kind, Selection::Kind::defect);
+    int seen = 0;
+    for (int i = 1; i <= 20; ++i) {
+        const auto entry = driver_->app().widgets().find(fmt::format("defect {}", i));
+        seen += entry && entry->visible;
+    }
+    EXPECT_GE(seen, 5);
+    EXPECT_TRUE(driver_->app().widgets().find("defect 3")->visible);
 }
 
 // Every facet has corners of its own, a little off.

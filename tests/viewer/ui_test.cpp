@@ -514,6 +514,7 @@ TEST(Ui, AFileThatIsNoSurfaceSaysSo) {
     }
     driver.open(folder.file("missing.stl"));
     EXPECT_NE(driver.document().error.find("missing.stl"), std::string::npos);
+    EXPECT_TRUE(driver.app().settings().recent.empty()) << "only what could be opened is offered again";
 }
 
 void browse(Driver& driver, const std::string& folder) {
@@ -551,6 +552,12 @@ TEST(Ui, ListsWhatItCanOpen) {
     for (const char* name : {"a.stl.gz", "a.STEP", "a.igs", "a.brep", "a.kerftrace", "solved"})
         EXPECT_TRUE(driver.app().widgets().find(std::string("entry ") + name)) << name;
     EXPECT_FALSE(driver.app().widgets().find("entry letter.txt"));
+    EXPECT_FALSE(driver.offers("Open this folder")) << "it is no run";
+    EXPECT_FALSE(driver.offers("Open"));
+    driver.click("folder path");
+    driver.key(key_of('A'), true);
+    driver.type(folder.file("a.stl.gz"));
+    EXPECT_TRUE(driver.offers("Open")) << "what is typed is there";
     driver.click("entry solved");
     driver.click("Open");
     driver.await("what is wrong with it: it was opened, not entered", [&] { return !driver.document().error.empty(); });

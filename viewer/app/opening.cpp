@@ -24,8 +24,7 @@ void Opening::open_files(const std::vector<std::string>& paths) {
     RunRequest run = view_.options.run;
     run.input_options.more_files.assign(paths.begin() + 1, paths.end());
     view_.session.open(paths.front(), run);
-    for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(view_.settings, *path, today());
-    save_settings(view_.options.config_folder, view_.settings);
+    to_remember_ = paths;
     const ViewState before = view_.state;
     // The next step of an analysis is seen in the same colours.
     kept_scale_ = {before.coloring.by, is_of_solution(before.coloring.by) ? before.coloring.range : std::nullopt};
@@ -50,6 +49,16 @@ void Opening::await_document() {
     is_running_ = false;  // a run that is left has no end here
     view_.session_changed = true;
     view_.wake();
+}
+
+// Only what could be opened is offered again.
+void Opening::remember_opened() {
+    const Document& document = view_.session.document();
+    if (to_remember_.empty() || document.is_opening()) return;
+    const std::vector<std::string> paths = std::exchange(to_remember_, {});
+    if (!document.error.empty()) return;
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path) remember(view_.settings, *path, today());
+    save_settings(view_.options.config_folder, view_.settings);
 }
 
 void Opening::reload() {
@@ -187,6 +196,7 @@ void Opening::follow_run(bool leads_tour) {
 }
 
 void Opening::follow(bool leads_tour) {
+    remember_opened();
     begin_auto_run();
     follow_run(leads_tour);
     choose_view();

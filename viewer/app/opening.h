@@ -33,6 +33,7 @@ class Opening : public FileActions, public RunActions, public RepairActions {
 
  private:
     void await_document();
+    void remember_opened();
     void begin_auto_run();
     void choose_view();
     void show_cells();
@@ -41,6 +42,7 @@ class Opening : public FileActions, public RunActions, public RepairActions {
 
     View& view_;
     Unsaved& unsaved_;
+    std::vector<std::string> to_remember_;        // files that are being opened, for the list of recent ones
     std::string opened_;                          // path for which the automatic run was decided
     std::shared_ptr<const CheckedSoup> checked_;  // checked surface of the document when it was last looked at
     struct KeptScale {

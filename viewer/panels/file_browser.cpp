@@ -129,7 +129,7 @@ class Dialog {
         const float left = ImGui::GetCursorPosX();
         if (ImGui::Selectable(("##" + entry.name).c_str(), browser_.chosen == index,
                               ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups))
-            browser_.chosen = index;
+            choose(index);
         context_.widgets.record("entry " + entry.name);
         const bool activated = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0);
         ImGui::SameLine(left, 0);
@@ -179,16 +179,28 @@ class Dialog {
     }
 
     void draw_buttons() {
-        const bool any = browser_.chosen >= 0;
-        ImGui::BeginDisabled(!any);
-        if (context_.widgets.button("Open") && any) activate(browser_.chosen);
+        std::error_code ignored;  // a path that cannot be looked at cannot be opened
+        const bool is_typed = browser_.typed != browser_.folder && fs::exists(browser_.typed, ignored);
+        ImGui::BeginDisabled(!is_typed && browser_.chosen < 0);
+        if (context_.widgets.button("Open")) is_typed ? try_typed() : activate(browser_.chosen);
         ImGui::EndDisabled();
         ImGui::SameLine();
-        if (context_.widgets.button("Open this folder", "As the folder of a run")) open(browser_.folder);
+        draw_button_of_folder();
         ImGui::SameLine();
         const bool cancelled = ImGui::Button("Cancel");
         context_.widgets.record("Cancel opening");
         if (cancelled) close();
+    }
+
+    void draw_button_of_folder() {
+        const std::string name = fs::path(browser_.folder).filename().string();
+        ImGui::BeginDisabled(!browser_.is_run);
+        const bool pressed = ImGui::Button(("Open " + shortened(name, 10 * em()) + "/###this folder").c_str());
+        context_.widgets.record("Open this folder");
+        explain(browser_.is_run ? "The folder whose content is listed, as a run: " + browser_.folder
+                                : "The folder whose content is listed is not that of a run.");
+        ImGui::EndDisabled();
+        if (pressed) open(browser_.folder);
     }
 
     void take_keys() {
@@ -202,7 +214,13 @@ class Dialog {
         if (listed_.empty()) return;
         const auto at = std::find(listed_.begin(), listed_.end(), browser_.chosen);
         const std::int64_t next = at == listed_.end() ? 0 : at - listed_.begin() + direction;
-        browser_.chosen = listed_[std::clamp<std::int64_t>(next, 0, std::ssize(listed_) - 1)];
+        choose(listed_[std::clamp<std::int64_t>(next, 0, std::ssize(listed_) - 1)]);
+    }
+
+    // An entry that is chosen after something was typed takes its place.
+    void choose(int index) {
+        browser_.chosen = index;
+        browser_.typed = browser_.folder;
     }
 
     void activate(int index) {
@@ -261,6 +279,7 @@ void FileBrowser::go_to(const fs::path& new_folder) {
     std::error_code unresolved;  // then the path is shown as it was given
     const fs::path clean = fs::canonical(new_folder, unresolved);
     folder = typed = (unresolved ? new_folder : clean).string();
+    is_run = kind_of_folder(folder) == Kind::run;
 }
 
 void draw_browser(UiContext& context, FileBrowser& browser) {

@@ -164,7 +164,7 @@ class ProblemList {
     }
 
     void draw_entries() {
-        constexpr float least_entries = 4;  // the list has at least so many, even where the groups take all the room
+        constexpr float least_entries = 5;  // the list has at least so many, even where the groups take all the room
         ImGui::BeginChild("##defects", {0, std::max(ImGui::GetContentRegionAvail().y, least_entries * entry_height())},
                           true);
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0)) keys_.list = ListKeys::List::defects;
@@ -173,7 +173,19 @@ class ProblemList {
         clipper.Begin(count_of(listed_), entry_height() + ImGui::GetStyle().ItemSpacing.y);
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_entry(listed_[i]);
+        const bool scrolls = memory_.frames_to_scroll > 0;
+        if (scrolls) show_chosen();
         ImGui::EndChild();
+        if (!scrolls) return;
+        --memory_.frames_to_scroll;
+        ImGui::SetScrollHereY(1);
+    }
+
+    // The selection below takes room of the list when it opens.
+    void show_chosen() {
+        const auto at = std::find(listed_.begin(), listed_.end(), memory_.chosen);
+        const float height = entry_height() + ImGui::GetStyle().ItemSpacing.y;
+        if (at != listed_.end()) scroll_to_row(static_cast<float>(at - listed_.begin()) * height, 2 * height);
     }
 
     // Goes on in the list as far as keys have asked for, and brings the entry into sight.
@@ -185,8 +197,6 @@ class ProblemList {
         const std::int64_t next =
             at == listed_.end() ? 0 : std::clamp<std::int64_t>(at - listed_.begin() + steps, 0, last);
         fly_to(listed_[next]);
-        const float height = entry_height() + ImGui::GetStyle().ItemSpacing.y;
-        scroll_to_row(next * height, 2 * height);
     }
 
     static float entry_height() { return 2 * ImGui::GetTextLineHeight() + 0.2f * em(); }
@@ -215,6 +225,7 @@ class ProblemList {
     void fly_to(int index) {
         const Defect& defect = checked_.diagnosis.defects[index];
         memory_.chosen = index;
+        memory_.frames_to_scroll = 3;  // two until the selection has its room, and one more
         if (!defect.where.allFinite()) return;
         const Soup& soup = checked_.soup;
         const double radius =

@@ -55,10 +55,12 @@ void Ui::Impl::draw_problems_or_tree(UiContext& context) {
 
 namespace {
 
-// The height of the selection's text, about: lines may wrap.
+// The height of the selection's text, about: lines may wrap. A list above keeps room for some entries.
 float selection_height(const std::string& text) {
+    const float line = ImGui::GetTextLineHeightWithSpacing(), head = ImGui::GetFrameHeight();
     const float lines = 1 + std::count(text.begin(), text.end(), '\n');
-    return std::min(lines + 3, 16.f) * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeight();
+    const float most = std::max(ImGui::GetContentRegionAvail().y - 12 * line, 5 * line);
+    return std::min(std::min(lines + 3, 16.f) * line + head, most);
 }
 
 }  // namespace

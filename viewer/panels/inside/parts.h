@@ -33,6 +33,7 @@ struct FileBrowser {
     int frames_to_focus = 0;  ///< frames until the path has the keyboard
     bool all_files = false;
     std::string folder, typed, filter, error;
+    bool is_run = false;  ///< whether the folder is that of a run
     std::vector<Entry> entries;
     int chosen = -1;  ///< index in `entries`
 
@@ -162,6 +163,7 @@ struct ProblemsMemory {
     const CheckedSoup* of = nullptr;            ///< the surface in whose lists the following numbers are
     int group = -1;                             ///< number of the kind and severity of the only defects listed; -1: all
     int chosen = -1;                            ///< index of the chosen defect; -1: none
+    int frames_to_scroll = 0;                   ///< frames in which the chosen defect is brought into sight
     RepairMemory repairs;
 };
 void draw_problems(UiContext& context, ProblemsMemory& memory, Dialogs& dialogs);
