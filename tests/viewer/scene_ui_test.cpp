@@ -161,6 +161,8 @@ TEST(SceneUi, EscapeClosesMenus) {
     driver.key(key_escape);
     EXPECT_FALSE(is_visible(driver, "Quit"));
     driver.click("Colour by");
+    EXPECT_FALSE(driver.offers("Colour by: von Mises stress")) << "there is no solution";
+    EXPECT_FALSE(driver.offers("Colour by: Region"));
     ASSERT_TRUE(driver.app().widgets().find("Colour by: Patch"));
     driver.key(key_escape);
     EXPECT_FALSE(driver.app().widgets().find("Colour by: Patch"));

@@ -84,6 +84,7 @@ const char* why_without_values(const Document& document, ColorBy color) {
         return "The surface was neither remeshed nor repaired, so that it deviates nowhere. --surface remesh and "
                "--repair "
                "do that.";
+    if (color == ColorBy::region && document.region_names.size() < 2) return "The body has no regions to tell apart.";
     if (color == ColorBy::size && !sizes.depends_on_place() && sizes.max_volume == 0 && sizes.size.number() == 0)
         return "No size is asked for: --size and its like do that.";
     if (is_of_solution(color) && !document.solution)

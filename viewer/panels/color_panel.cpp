@@ -26,8 +26,11 @@ void draw_choice(UiContext& context) {
         for (int i = 0; i < color_by_count; ++i) all.emplace_back(title(static_cast<ColorBy>(i)));
         return all;
     }();
+    std::vector<const char*> why_not;
+    for (int i = 0; i < color_by_count; ++i)
+        why_not.push_back(why_without_values(context.session.document(), static_cast<ColorBy>(i)));
     int index = static_cast<int>(context.state.coloring.by);
-    if (!context.widgets.combo("Colour by", &index, titles)) return;
+    if (!context.widgets.combo("Colour by", &index, titles, why_not)) return;
     context.state.coloring.by = static_cast<ColorBy>(index);
     context.state.coloring.filter.reset();  // these limits were for other values
     context.state.coloring.range.reset();

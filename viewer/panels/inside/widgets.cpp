@@ -110,7 +110,8 @@ bool Widgets::slider(const char* label, double* value, double low, double high, 
     return changed;
 }
 
-bool Widgets::combo(const char* label, int* index, const std::vector<std::string>& names) {
+bool Widgets::combo(const char* label, int* index, const std::vector<std::string>& names,
+                    const std::vector<const char*>& why_not) {
     // Words that would be cut beside the label get a line of their own.
     float widest = 0;
     for (const std::string& name : names) widest = std::max(widest, ImGui::CalcTextSize(name.c_str()).x);
@@ -128,11 +129,15 @@ bool Widgets::combo(const char* label, int* index, const std::vector<std::string
     bool changed = false;
     for (int i = 0; i < count_of(names); ++i) {
         const std::string& name = names[i];
+        const char* reason = why_not.empty() ? nullptr : why_not[i];
+        ImGui::BeginDisabled(reason != nullptr);
         if (ImGui::Selectable(name.c_str(), i == *index)) {
             changed = i != *index;
             *index = i;
         }
         record(name_of(label) + ": " + name);
+        explain(reason);
+        ImGui::EndDisabled();
     }
     ImGui::EndCombo();
     return changed;

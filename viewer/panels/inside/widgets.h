@@ -31,7 +31,9 @@ class Widgets {
     bool checkbox(const char* label, bool* value, const char* tip = nullptr);
     bool radio(const char* label, bool active);
     bool slider(const char* label, double* value, double low, double high, const char* format = "%.2f");
-    bool combo(const char* label, int* index, const std::vector<std::string>& names);
+    /// `why_not`: for each entry the reason why it cannot be chosen, null if it can; or nothing.
+    bool combo(const char* label, int* index, const std::vector<std::string>& names,
+               const std::vector<const char*>& why_not = {});
     bool menu_item(const char* label, const char* shortcut = nullptr, bool* value = nullptr);
     bool header(const char* label, bool open_at_first);  ///< draws the head of a collapsing section
     bool input_text(const char* label, std::string* text);
