@@ -188,9 +188,11 @@ void Opening::show_cells() {
 void Opening::follow_run(bool leads_tour) {
     const Document& document = view_.session.document();
     const bool was_running = std::exchange(is_running_, document.progress.running);
+    if (is_running_ && !was_running) camera_at_start_ = view_.state.camera;
     if (!was_running || is_running_ || !document.progress.message.empty()) return;
     if (!has_cells(document, root_node)) return;
     view_.notify("meshed: " + outcome_of(document, true));
+    if (view_.state.camera == camera_at_start_) view_.state.camera.reset();  // nobody has moved it: all fits again
     const ViewState& state = view_.state;
     if (!leads_tour && state.node == root_node && state.step.stage <= Stage::input) show_cells();
 }

@@ -49,9 +49,10 @@ class Opening : public FileActions, public RunActions, public RepairActions {
         ColorBy color = ColorBy::part;
         std::optional<ValueRange> range = {};  // range of colours that somebody has given to values of a solution
     };
-    KeptScale kept_scale_;           // scale of the document before
-    bool is_view_complete_ = false;  // the choices that nobody has made are made
-    bool is_running_ = false;        // a run was under way when the document was last looked at
+    KeptScale kept_scale_;                   // scale of the document before
+    bool is_view_complete_ = false;          // the choices that nobody has made are made
+    bool is_running_ = false;                // a run was under way when the document was last looked at
+    std::optional<Camera> camera_at_start_;  // camera that somebody had chosen before that run began
 };
 
 }  // namespace kerf::view

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "viewer/model/view_state.h"
 
 namespace kerf::view {
@@ -5,6 +8,14 @@ namespace kerf::view {
 ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n) {
     const double middle = n.dot(box.center()), half = n.cwiseAbs().dot(box.sizes()) / 2;
     return {middle - half, middle + half};
+}
+
+double position_of(const Clip& clip, const Eigen::AlignedBox3d& box) {
+    const ValueRange range = extent_along(box, clip.normal);
+    const double length = range.high - range.low, place = range.low + clip.position * length;
+    if (!(length > 0)) return place;
+    const double step = std::pow(10, std::ceil(std::log10(1e-6 * length)));
+    return std::abs(place) < 10 * step ? 0 : std::round(place / step) * step;
 }
 
 void face(Clip& clip, const Vec3& back) {

@@ -41,6 +41,9 @@ struct ValueRange {
 
 /// Returns the range of n.p over the points p of a box; Clip::position is a fraction of it.
 ValueRange extent_along(const Eigen::AlignedBox3d& box, const Vec3& n);
+/// Returns the place of the clip plane along its normal, in units of the file, without digits that are rounding of the
+/// body's coordinates.
+double position_of(const Clip& clip, const Eigen::AlignedBox3d& box);
 /// Makes the clip plane coincide with a plane that meets the box.
 void snap_to(Clip& clip, const Plane& plane, const Eigen::AlignedBox3d& box);
 

@@ -101,8 +101,7 @@ std::string repairs_of(const Document& document) {
 
 // The place of the clip plane, with its coordinate in units of the file if an axis is its normal.
 std::string clip_text(const Clip& clip, const Eigen::AlignedBox3d& box) {
-    const ValueRange range = extent_along(box, clip.normal);
-    const double place = range.low + clip.position * (range.high - range.low);
+    const double place = position_of(clip, box);
     std::string plane = "a plane";
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(std::abs(clip.normal[axis]) - 1) < 1e-9)

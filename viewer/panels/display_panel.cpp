@@ -137,7 +137,7 @@ void draw_distance(UiContext& context, ClipMemory& memory) {
     show("At, in units of the file");
     ImGui::SameLine(left + value_place * room + 6 * em(), 0);
     const bool changed = input_on_leaving(context.widgets, "Clip at", ImGui::GetContentRegionAvail().x,
-                                          range.low + clip.position * length, memory.at);
+                                          position_of(clip, box), memory.at);
     explain("The distance of the plane from the origin along its normal");
     if (changed && length > 0) clip.position = std::clamp((memory.at - range.low) / length, 0., 1.);
 }

@@ -82,13 +82,12 @@ bool draw_number(Widgets& widgets, const OptionField& field, ParametersMemory& m
 bool draw_field(Widgets& widgets, const OptionField& field, bool changed, ParametersMemory& memory,
                 const Palette& colors) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float room = ImGui::GetContentRegionAvail().x;
     ImGui::BeginGroup();
     const bool edited = field.is_number() ? draw_number(widgets, field, memory, colors)
                                           : std::visit(Editor{widgets, field.name.c_str()}, field.value);
     ImGui::EndGroup();
     explain(field.help);
-    if (changed) mark({at.x + value_place * room - 0.35f * em(), at.y}, colors);
+    if (const auto item = widgets.find(field.name); changed && item) mark({item->left - 0.35f * em(), at.y}, colors);
     return edited;
 }
 

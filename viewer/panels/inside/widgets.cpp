@@ -24,8 +24,8 @@ std::string name_of(const std::string& label) {
     return end == 0 || end == std::string::npos ? label : label.substr(0, end);
 }
 
-// Draws the label to the left and makes the item beside it as wide as there is room, so that items of a panel line up.
-// Returns the item's id.
+// Draws the label to the left and makes the item beside it as wide as there is room, so that items of a panel line up,
+// but for those with long labels. Returns the item's id.
 std::string label_left(const char* label) {
     const std::string name = name_of(label);
     if (name.starts_with("##")) return name;
@@ -33,8 +33,10 @@ std::string label_left(const char* label) {
     const float room = ImGui::GetContentRegionAvail().x;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(name.c_str());
-    ImGui::SameLine(left + value_place * room, 0);
-    ImGui::SetNextItemWidth((1 - value_place) * room);
+    const float words = ImGui::CalcTextSize(name.c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x;
+    const float place = std::max(value_place * room, words);
+    ImGui::SameLine(left + place, 0);
+    ImGui::SetNextItemWidth(room - place);
     return std::string("##") + label;
 }
 
