@@ -86,7 +86,7 @@ bool draw_field(Widgets& widgets, const OptionField& field, bool changed, Parame
     const bool edited = field.is_number() ? draw_number(widgets, field, memory, colors)
                                           : std::visit(Editor{widgets, field.name.c_str()}, field.value);
     ImGui::EndGroup();
-    explain(field.help);
+    if (!memory.refused.contains(field.name)) explain(field.help);  // it would hide the error
     if (const auto item = widgets.find(field.name); changed && item) mark({item->left - 0.35f * em(), at.y}, colors);
     return edited;
 }
