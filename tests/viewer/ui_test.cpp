@@ -410,12 +410,15 @@ TEST(Ui, ChangesOptionsRunsAgainAndCompares) {
     driver.key(key_of('A'), true);
     driver.type("6");
     driver.key(key_enter);
+    driver.app().state().camera = driver.app().camera();
     driver.click("Run all");
     driver.await("six parts", [&] {
         return driver.document().tree.parts_below(root_node).size() == 6 && !driver.app().session().busy();
     });
     ASSERT_TRUE(driver.app().session().other_document());
     EXPECT_EQ(driver.app().session().other_document()->tree.parts_below(root_node).size(), 4u);
+    driver.settle();
+    EXPECT_FALSE(driver.state().camera) << "nobody has moved it since the run began: the body fits again";
 }
 
 // The button of a problem does what its text says, and then both surfaces can be seen.
