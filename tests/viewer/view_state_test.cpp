@@ -477,5 +477,21 @@ TEST(ViewCommandLine, RefusesNonsenseWithCodeTwo) {
     EXPECT_EQ(good.state.coloring.by, ColorBy::min_dihedral);
 }
 
+// Coordinates of a body that should lie about the origin are off by rounding.
+TEST(Clip, IsWhereItIsWithoutTheDigitsOfRounding) {
+    Clip clip;
+    const Eigen::AlignedBox3d body(Vec3(-2.2201678, -1, -1), Vec3(2.22, 1, 1));
+    EXPECT_EQ(position_of(clip, body), 0);
+    clip.position = 0.75;
+    EXPECT_NEAR(position_of(clip, body), 1.10996, 1e-5);
+    keep(clip, {{1.5, 0, 0}}, body);
+    EXPECT_GE(position_of(clip, body), 1.5 - 1e-5);
+    keep(clip, {{-1, 0, 0}}, body);
+    EXPECT_GE(position_of(clip, body), 1.5 - 1e-5) << "it is shown already";
+    clip.flipped = true;
+    keep(clip, {{-1, 0, 0}}, body);
+    EXPECT_LE(position_of(clip, body), -1 + 1e-5);
+}
+
 }  // namespace
 }  // namespace kerf::view
