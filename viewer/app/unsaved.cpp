@@ -58,7 +58,8 @@ void Unsaved::follow() {
     if (!then_ || !awaited_ || view_.facts.asks_to_save) return;
     if (!view_.session.failures().empty()) then_ = nullptr;  // it could not be saved
     if (!then_ || is_unsaved(*awaited_)) return;
-    std::exchange(then_, nullptr)();
+    const auto then = std::exchange(then_, nullptr);
+    then();
 }
 
 }  // namespace kerf::view

@@ -16,7 +16,7 @@ class Unsaved {
     /// Asks, if work would be lost when all is closed, and returns whether it does: `then` is done when the answer
     /// allows it.
     bool asks_before(std::function<void()> then) { return asks_for(of_all(), std::move(then)); }
-    /// The same for a change after which the shown run is the other one, whose place it takes.
+    /// Does the same for a change after which the shown run is the other one, whose place it takes.
     bool asks_before_change(std::function<void()> then) { return asks_for(of_change(), std::move(then)); }
     void answer(UnsavedFate answer);
     /// Goes on with what waits for work to be saved, once it is; it asks again if there is more.

@@ -79,7 +79,7 @@ class RepairActions {
 
 /// Work that nobody has saved: the shown run, the other one, or a repaired surface.
 enum class UnsavedWork { run, other_run, surface };
-/// What is to become of it; only the first is saved at once.
+/// The fate of unsaved work; only the first of it is saved at once.
 enum class UnsavedFate { save, lose, stay };
 
 class WindowActions {
