@@ -1,3 +1,6 @@
+// A file is read, repaired and measured against what it was, then written. A surface that nothing was done to is copied
+// where the ending is the same, with all its bytes. An .stl holds 7 digits: a surface that they spoil is rounded and
+// repaired again, before its measures are taken, so that the report is about what lies in the file.
 #include "run/prepare/repaired_file.h"
 
 #include <algorithm>
