@@ -70,12 +70,14 @@ void require_order(const Format& format, int order) {
 
 std::string tell_values_left_out(const Format& format, const MeshOutline& outline) {
     if (outline.values.empty() || format.has_values) return "";
-    std::string names, others;
-    for (const PartValues& values : outline.values)
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", values.name);
+    std::vector<std::string> names;
+    for (const PartValues& values : outline.values)  // at nodes and in cells by the same names
+        if (std::find(names.begin(), names.end(), values.name) == names.end()) names.push_back(values.name);
+    std::string others;
     for (const Format* other : table)
         if (other->has_values) others += fmt::format("{}{}", others.empty() ? "" : ", ", other->name);
-    return fmt::format("{} has the mesh alone, without {}. {} have these, too.", format.name, names, others);
+    return fmt::format("{} has the mesh alone, without {}. {} have these, too.", format.name, fmt::join(names, ", "),
+                       others);
 }
 
 void write_format(const Format& format, const PartSource& parts, ExportFiles& files) {

@@ -1,12 +1,9 @@
 // A file is read, repaired and measured against what it was, then written. A surface that nothing was done to is copied
-// where the ending is the same, with all its bytes. An .stl holds 7 digits: a surface that they spoil is rounded and
-// repaired again, before its measures are taken, so that the report is about what lies in the file.
+// where the ending is the same, with all its bytes.
 #include "run/prepare/repaired_file.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -25,38 +22,28 @@ bool is_unchanged(const CheckedSoup& checked, const OrientationReport& turned) {
            turned.facets_flipped + turned.shells_flipped == 0;
 }
 
-void append(std::vector<StepReport>& to, std::vector<StepReport> more) {
-    to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
-// An .stl holds 32-bit floats, which may close a gap, or make facets cross: the rounded surface is repaired again then.
-// Throws Error(input) if it cannot be.
-void fit_into_stl(CheckedSoup& checked, const InputOptions& options, const std::string& output,
-                  const std::function<void()>& check_cancelled) {
-    constexpr int most_rounds = 3;
-    for (int round = 0;; ++round) {
-        Soup rounded = checked.soup;
-        for (Vec3& p : rounded.vertices) p = p.cast<float>().cast<double>();
-        if (rounded.vertices == checked.soup.vertices) return;
-        InputOptions as_read;
-        as_read.voids = options.voids;
-        const CheckedSoup of_file = check_soup(rounded, as_read, 0, check_cancelled);
-        const bool shares_walls = checked.soup.sides.empty() && !of_file.soup.sides.empty();
-        if (of_file.diagnosis.clean() && !shares_walls) return;
-        CheckedSoup again;
-        if (round < most_rounds && !shares_walls) again = check_soup(std::move(rounded), options, 0, check_cancelled);
-        if (again.soup.facets.empty() || !again.diagnosis.clean())
-            throw Error(ErrorCode::input,
-                        fmt::format("{}: The repaired surface can be meshed, but not with the 7 digits of an .stl: {} "
-                                    "Write an .obj, .ply or .off, which have all digits{}.",
-                                    output,
-                                    shares_walls ? "gaps between bodies would close, so that they share walls."
-                                                 : of_file.diagnosis.summary(of_file.soup),
-                                    shares_walls ? "" : ", or take kerf wrap"));
-        apply_repairs(again);
-        append(checked.ladder.steps, std::move(again.ladder.steps));
-        checked.soup = std::move(again.soup);
-    }
+// An .stl holds 32-bit floats, which may close a gap, or make facets cross. Throws Error(input) if they do.
+void require_good_as_stl(const std::string& output, const Soup& soup, const InputOptions& options) {
+    Soup rounded = soup;
+    for (Vec3& p : rounded.vertices) p = p.cast<float>().cast<double>();
+    if (rounded.vertices == soup.vertices) return;
+    InputOptions as_read;
+    as_read.voids = options.voids;
+    const CheckedSoup of_file = check_soup(std::move(rounded), as_read, 0);
+    const std::vector<Defect>& defects = of_file.diagnosis.defects;
+    const auto error = std::find_if(defects.begin(), defects.end(),
+                                    [](const Defect& defect) { return defect.severity == Severity::error; });
+    std::string why;
+    if (error != defects.end())
+        why = "it would have " + counted(of_file.diagnosis.count(error->kind), error->kind);
+    else if (soup.sides.empty() && !of_file.soup.sides.empty())
+        why = "gaps between bodies would close, so that they share walls";
+    if (!why.empty())
+        throw Error(ErrorCode::input,
+                    fmt::format("{}: The repaired surface can be meshed, but not with the 7 digits of an .stl: {}. "
+                                "Write an .obj, .ply or .off, which have all digits; kerf wrap makes a surface that "
+                                "fits an .stl.",
+                                output, why));
 }
 
 void write_result(const RepairedFile& repaired) {
@@ -100,15 +87,14 @@ RepairedFile repair_file(const std::string& input, const InputOptions& options, 
     else
         repaired.remedy = find_remedy(input, options, checked, listener);
     repaired.is_unchanged = is_unchanged(checked, repaired.turned);
-    const bool is_same_kind = fs::path(input).extension() == fs::path(output).extension();
-    if (repaired.can_be_meshed && fs::path(output).extension() == ".stl" && !(repaired.is_unchanged && is_same_kind))
-        fit_into_stl(checked, options, output, cancellation_check(listener));
     repaired.measures = measure_repair(before, checked.soup, cancellation_check(listener));
-    repaired.is_copy = repaired.is_unchanged && is_alone && is_same_kind;
+    repaired.is_copy = repaired.is_unchanged && is_alone && fs::path(input).extension() == fs::path(output).extension();
     if (repaired.is_copy) {
         write_output_file(output, read_file(input));
         return repaired;
     }
+    if (repaired.can_be_meshed && fs::path(output).extension() == ".stl")
+        require_good_as_stl(output, checked.soup, options);
     write_result(repaired);
     return repaired;
 }
