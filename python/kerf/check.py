@@ -82,7 +82,7 @@ def check(surface: Union[Surface, Path, ArrayLike], triangles: Optional[ArrayLik
             return Check(_kerf.check_path(encoded(surface), float(needle_angle), **options))
         if not isinstance(surface, Surface):
             raise UsageError("A path, a Surface, or points with triangles is wanted.")
-        of_regions = surface.regions or None
+        of_regions = surface.regions if len(surface.regions) > 1 else None
         arrays: tuple[Any, ...] = (surface.points, surface.triangles, surface.patches,
                                    encoded_names("names", surface.names), surface.sides if of_regions else None,
                                    encoded_names("regions", of_regions))

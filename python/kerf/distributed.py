@@ -14,14 +14,14 @@ import shutil
 import tempfile
 from dataclasses import dataclass
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, List, Optional, Union
+from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _kerf, programs
 from .errors import FileError, UsageError
 from .ghost_cells import GhostCells, ghost_cells_of
-from .paths import Path
+from .paths import Path, with_others
 from .progress import Progress, caller
 from .ranks import check_communicator, swap, together
 from .records import Neighbour
@@ -161,12 +161,13 @@ def distributed(folder: Path, comm: Comm) -> DistributedMesh:
     return DistributedMesh(comm, together(comm, lambda: _kerf.mesh_of_rank(path, comm.rank, comm.size)))
 
 
-def mesh_on_ranks(surface: Union[Surface, Path], comm: Comm, /, parts: int = 0, size: Size = None,
+def mesh_on_ranks(surface: Union[Surface, Path, Sequence[Path]], comm: Comm, /, parts: int = 0, size: Size = None,
                   progress: Progress = None, workers: int = 0, output: Optional[Path] = None,
                   **options: object) -> DistributedMesh:
     """kerf.mesh() with a communicator; DistributedMesh tells of it."""
     check_communicator(comm)
-    given, others = together(comm, lambda: surface_and_options(surface, options))
+    given, others = together(comm, lambda: surface_and_options(
+        *((surface, options) if isinstance(surface, Surface) else with_others(surface, options))))
     sizes, length = together(comm, lambda: split_size(size, given))
     _require_same(comm, {"parts": parts, "size": length, **others},
                   {"surface.points": len(given.points), "surface.volume": given.volume})

@@ -62,10 +62,10 @@ def mesh(surface: Union[Surface, Path, Sequence[Path]], /, parts: int = 0, size:
     this computer: give parts=N for the same mesh elsewhere. Raises UsageError, InputError, MeshingError, OutOfMemory,
     FileError, Cancelled; KeyboardInterrupt ends the workers.
     """
-    if not isinstance(surface, Surface):
-        surface, options = with_others(surface, options)
     if comm is not None:
         return mesh_on_ranks(surface, comm, parts, size, progress, workers, output, **options)
+    if not isinstance(surface, Surface):
+        surface, options = with_others(surface, options)
     if output is not None:
         return _run(surface, os.fspath(output), parts, size, workers, progress, options)
     refuse_in_memory(options)

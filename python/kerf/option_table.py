@@ -68,7 +68,7 @@ def in_python(text: str) -> str:
     -n 3 is parts=3. Of what is written, Python has the path."""
     text = re.sub(r"(?<!\S)-n\b(?: (\d+))?", lambda found: f"parts={found[1]}" if found[1] else "parts", text)
     text = text.replace("--output is ", "The path is ").replace("--output", "path")
-    text = re.sub(r"--repair ([a-z]+(?:,[a-z]+)*)", r'repair="\1"', text)
+    text = re.sub(r"--repair ([a-z]+(?:=[\w%]+)?(?:,[a-z]+(?:=[\w%]+)?)*)", r'repair="\1"', text)
     text = re.sub(r"--([a-z]+(?:-[a-z]+)*)(?: ([a-z]+(?:-[a-z]+)*|\d+))?", _name_in_python, text)
     return re.sub(r"\b(facets|vertices|patch)\[", lambda found: _ARRAYS[found[1]] + "[", text)
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _kerf, interchange
+from .errors import Error
 from .mesh import Mesh
 from .notebook import html_of
 from .notes import notes_of, notes_text
@@ -156,15 +157,22 @@ class Run(_kerf.Run):
             first += len(part.tetrahedra)
         return values
 
+    def _known_notes(self) -> list[str]:
+        """The notes; none where the folder is gone by now."""
+        try:
+            return self.notes
+        except (OSError, ValueError, Error):
+            return []
+
     def __repr__(self) -> str:
         kind = "solution" if self._solution else "run"
         return (f"<kerf.Run: {kind} in {self.folder}, {len(self)} parts, {self.points_count} points, "
-                f"{self.tetrahedra_count} tetrahedra{notes_text(self.notes)}>")
+                f"{self.tetrahedra_count} tetrahedra{notes_text(self._known_notes())}>")
 
     def _repr_html_(self) -> str:
         rows = {"points": self.points_count, "tetrahedra": self.tetrahedra_count, "parts": len(self),
                 "regions": max(1, len(self.region_names)), "patches": len(self.patch_names),
-                "notes": len(self.notes)}
+                "notes": len(self._known_notes())}
         return html_of(self.folder, f"kerf.Run {self.folder}", rows, self.tetrahedra_count)
 
 

@@ -134,9 +134,11 @@ class Surface(_kerf.Surface):
         What is broken cannot be a Surface: give the options where it is made, as Surface(points, triangles,
         fill_holes=10) or read(path, weld="0.01%"), or use kerf.repair(). Raises as Surface() does.
         """
-        of_regions = self.regions or None
-        return Surface(self.points, self.triangles, self.patches, self.names, self.sides if of_regions else None,
-                       of_regions, **options)
+        of_regions = self.regions if len(self.regions) > 1 else None
+        repaired = Surface(self.points, self.triangles, self.patches, self.names, self.sides if of_regions else None,
+                           of_regions, **options)
+        repaired._body = self._body
+        return repaired
 
     def remesh(self, size: Union[float, str] = 0, deviation: Union[float, str] = 0, progress: Progress = None,
                **options: object) -> Surface:

@@ -8,19 +8,28 @@
 
 namespace kerf::view {
 
+namespace {
+
+// A solution stands on the parts of a run, which are in another folder.
+std::string place_of(const Document& run) { return run.solution ? run.path : run.folder; }
+
+}  // namespace
+
+// Runs whose files are the same, as after a cut was made again, are not told apart by their place.
 void Beside::follow() {
-    const Document* other = view_.session.other_document();
-    if (!view_.state.look.beside || !other || !has_mesh(*other) || !has_mesh(view_.session.document())) {
+    const Document *shown = &view_.session.document(), *other = view_.session.other_document();
+    const bool are_two = other && has_mesh(*other) && has_mesh(*shown) && place_of(*other) != place_of(*shown);
+    if (!view_.state.look.beside || !are_two) {
         session_.reset();
-        folder_.clear();
+        place_.clear();
         view_.beside.reset();
         view_.facts.beside.reset();
         return;
     }
-    if (folder_ != other->folder) {
-        folder_ = other->folder;
+    if (place_ != place_of(*other)) {
+        place_ = place_of(*other);
         session_.emplace(view_.options.kerf_program);
-        session_->open(folder_);
+        session_->open(place_);
         view_.beside.emplace();
         has_new_data_ = true;
     }

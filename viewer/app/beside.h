@@ -30,7 +30,7 @@ class Beside {
     std::optional<Session> session_;
     SceneBuilder builder_;
     ViewState built_for_;
-    std::string folder_;
+    std::string place_;  // of the open run
     std::int64_t scenes_built_ = 0;
     bool has_new_data_ = false;
 };

@@ -94,7 +94,8 @@ void Navigation::come_to(const PartCells& cells, std::int32_t cell) {
     for (const std::int32_t v : corners) middle += cells.vertices[v] / 4;
     double radius = 0;
     for (const std::int32_t v : corners) radius = std::max(radius, (cells.vertices[v] - middle).norm());
-    view_.state.camera->target = middle;
+    view_.state.camera->target = middle + explosion_offset(view_.session.document().tree, cells.part, view_.state.node,
+                                                           view_.state.explosion.amount, view_.diagonal());
     view_.state.camera->height = std::max(6 * radius, 1e-4 * view_.diagonal());
     if (!view_.state.clip.on) return;
     std::vector<Vec3> around;

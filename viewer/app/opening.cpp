@@ -156,7 +156,10 @@ void Opening::choose_view() {
     const Document& document = view_.session.document();
     if (is_view_complete_ || document.kind == Document::Kind::none) return;
     is_view_complete_ = true;
-    if (view_.session.other_document()) view_.state.panels.parameters = view_.state.look.beside = true;  // two runs
+    if (view_.session.other_document()) {
+        view_.state.panels.parameters = true;  // which compares the two
+        if (!view_.chosen.beside) view_.state.look.beside = true;
+    }
     if (document.solution && !view_.chosen.color && !view_.chosen.stage) {
         const auto& cases = document.solution->cases;
         view_.state.coloring.by =
@@ -192,7 +195,8 @@ void Opening::follow_run(bool leads_tour) {
     if (!was_running || is_running_ || !document.progress.message.empty()) return;
     if (!has_cells(document, root_node)) return;
     view_.notify("meshed: " + outcome_of(document, true));
-    if (view_.state.camera == camera_at_start_) view_.state.camera.reset();  // nobody has moved it: all fits again
+    if (view_.state.camera == camera_at_start_)
+        view_.state.camera.reset();  // the same as before the run: all fits again
     const ViewState& state = view_.state;
     if (!leads_tour && state.node == root_node && state.step.stage <= Stage::input) show_cells();
 }

@@ -289,6 +289,7 @@ void apply(const SceneOptions& options, ViewCommand& command) {
     const bool is_whole = !options.side.state_file.empty();
     command.chosen.color = is_whole || !options.colors.by.empty();
     command.chosen.stage = is_whole || !options.side.stage.empty();
+    command.chosen.beside = is_whole;
     command.chosen.explode = is_whole || options.clip.explode >= 0;
     command.chosen.faces_clip = !command.clip.empty();
     command.chosen.clip_fraction = !command.clip.empty() && !command.clip.starts_with("node=");

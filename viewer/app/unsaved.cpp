@@ -26,12 +26,16 @@ std::vector<UnsavedWork> Unsaved::of_all() const {
     return work;
 }
 
-// A surface that has no run yet, or whose run is under way, takes no place.
+// A surface that has no run yet, or whose run is under way, takes no place. A cut that waits to be made again will find
+// the shown run in the place of the other one.
 std::vector<UnsavedWork> Unsaved::of_change() const {
     const Document& document = view_.session.document();
     const bool takes_place = !document.progress.running && (document.trace || !document.folder.empty());
-    if (!takes_place || !is_unsaved(UnsavedWork::other_run)) return {};
-    return {UnsavedWork::other_run};
+    std::vector<UnsavedWork> work;
+    if (takes_place && is_unsaved(UnsavedWork::other_run)) work.push_back(UnsavedWork::other_run);
+    if (takes_place && view_.session.pair().is_redoing() && is_unsaved(UnsavedWork::run))
+        work.push_back(UnsavedWork::run);
+    return work;
 }
 
 bool Unsaved::asks_for(std::vector<UnsavedWork> work, std::function<void()> then) {
@@ -47,6 +51,7 @@ bool Unsaved::asks_for(std::vector<UnsavedWork> work, std::function<void()> then
 void Unsaved::answer(UnsavedFate answer) {
     view_.facts.asks_to_save = false;
     if (answer == UnsavedFate::save) awaited_ = view_.facts.at_stake.front();
+    has_old_failures_ = !view_.session.failures().empty();
     if (answer == UnsavedFate::stay) then_ = nullptr;
     if (answer != UnsavedFate::lose) return;
     is_answered_ = true;
@@ -56,7 +61,9 @@ void Unsaved::answer(UnsavedFate answer) {
 
 void Unsaved::follow() {
     if (!then_ || !awaited_ || view_.facts.asks_to_save) return;
-    if (!view_.session.failures().empty()) then_ = nullptr;  // it could not be saved
+    const bool has_failed = !view_.session.failures().empty();
+    has_old_failures_ &= has_failed;
+    if (has_failed && !has_old_failures_) then_ = nullptr;  // it could not be saved
     if (!then_ || is_unsaved(*awaited_)) return;
     const auto then = std::exchange(then_, nullptr);
     then();

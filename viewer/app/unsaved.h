@@ -32,6 +32,7 @@ class Unsaved {
     std::function<void()> then_;          // what waits for the answer; empty: nothing
     std::optional<UnsavedWork> awaited_;  // work that is being saved before that
     bool is_answered_ = false;            // all may go
+    bool has_old_failures_ = false;       // failures that are told are from before the answer
 };
 
 }  // namespace kerf::view

@@ -41,6 +41,7 @@ struct ChosenView {
     bool clip_fraction = false;  ///< the clip plane was asked for by a fraction, so that it may keep off faces
     std::optional<Direction> from = {};  ///< side that a camera looks from, whose place is where all fits
     std::optional<int> up = {};          ///< axis that points up
+    bool beside = false;                 ///< whether two runs stand side by side
 };
 
 /// Returns the state without the members that a scene does not depend on.

@@ -2,11 +2,13 @@
 // folder. The table of formats is the exporter's own, so that a new format is here, too.
 #include "viewer/model/saving.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/core/shell_word.h"
+#include "files/io/run_folder.h"
 #include "viewer/model/file_kind.h"
 #include "viewer/model/inside/run_process.h"
 #include "viewer/model/timeline.h"
@@ -31,7 +33,10 @@ std::string unused_run_folder(const Document& document) {
     const std::string name = (fs::current_path(ignored) / fs::path(input).stem()).string() + "_run";
     for (int number = 1;; ++number) {
         const std::string path = number == 1 ? name : fmt::format("{}_{}", name, number);
-        if (!fs::exists(path, ignored) && !fs::exists(path + ".trace", ignored)) return path;
+        std::vector<std::string> places = RunFolder::folders_of(path);
+        places.push_back(path + ".trace");
+        const auto is_there = [&](const std::string& place) { return fs::exists(place, ignored); };
+        if (std::none_of(places.begin(), places.end(), is_there)) return path;
     }
 }
 

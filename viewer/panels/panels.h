@@ -128,7 +128,7 @@ struct ValueLabel {
 /// The other of two runs, Session::other_document(), which is drawn beside the shown one.
 struct RunBeside {
     Rectangle area;     ///< its part of the scene
-    std::string error;  ///< reason why it is not drawn; empty: it is
+    std::string error;  ///< reason why it, or something of it, is not drawn; empty: all is
 };
 
 /// The facts about the scene that panels show.

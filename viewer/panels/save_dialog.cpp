@@ -139,6 +139,7 @@ class Saving {
         const RunPair& runs = context_.session.pair();
         if (dialog_.kind == SaveKind::run) return runs.can_save();
         if (dialog_.kind == SaveKind::other_run) return runs.can_save_other();
+        if (dialog_.kind == SaveKind::surface) return context_.session.repairs().can_repair();
         return !context_.session.writer().is_writing();
     }
 

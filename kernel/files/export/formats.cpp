@@ -35,7 +35,7 @@ const Format& find_format(std::string_view name) {
     for (const Format* format : table) {
         if (format->name == name) return *format;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", format->name);
-        if (!name.empty() && reader.empty() && is_in_any_case(name, format->help)) reader = format->name;
+        if (name.size() > 2 && reader.empty() && is_in_any_case(name, format->help)) reader = format->name;
     }
     throw Error(ErrorCode::usage, fmt::format("'{}' is no format. There are {}.{}", name, names,
                                               reader.empty() ? "" : fmt::format(" Did you mean {}?", reader)));

@@ -229,7 +229,7 @@ void finish_section(TextScanner& text, std::string_view name) {
 // Reads the names of groups that stand behind the elements, as Neper writes them: facets get their patch as they come.
 void read_names_ahead(std::string_view bytes, const std::string& path, Model& model) {
     constexpr std::string_view section = "\n$PhysicalNames";
-    const std::size_t found = bytes.find(section);
+    const std::size_t found = bytes.rfind(section);  // not in comments before
     if (found == std::string_view::npos) return;
     Source ahead(bytes.substr(found + section.size()), path);
     read_physical_names(ahead, model);

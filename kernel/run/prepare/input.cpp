@@ -115,7 +115,7 @@ Input to_input(CheckedSoup checked, const std::string& path, const InputOptions&
     input.path = path;
     Soup& soup = checked.soup;
     if (!checked.diagnosis.clean()) {
-        const bool is_open = checked.diagnosis.count(DefectKind::open_edge) > 0;
+        const bool is_open = checked.diagnosis.count(DefectKind::open_edge) > 0 && !options.repairs.cap;
         const std::string message =
             fmt::format("{}: {}{}{}", path, checked.diagnosis.summary(soup),
                         is_open ? " Ends of a vessel get patches of their own by --cap." : "", advice);
@@ -285,7 +285,8 @@ Input input_of_arrays(Soup soup, const InputChoices& choices, const std::functio
 std::optional<CheckedSoup> bodies_that_fit(const InputFiles& files, const InputChoices& choices,
                                            double needle_angle_deg, const std::function<void()>& check_cancelled) {
     const RepairPlan& plan = choices.repairs;
-    const bool are_bodies = files.soup.patch_names.size() > 1 && files.soup.sides.empty() && files.walls.empty();
+    const bool are_bodies = files.soup.patch_names.size() > 1 && files.soup.sides.empty() && files.walls.empty() &&
+                            choices.options.holes.empty();
     const bool may_lose_some =
         plan.find(RepairKind::intersections) != nullptr && plan.bodies == BodyRepair::as_found && choices.seeds.empty();
     if (!are_bodies || !may_lose_some || choices.options.wraps() || is_preparation(plan.steps.front().kind)) return {};

@@ -53,7 +53,7 @@ std::string to_text(const std::vector<PatchSummary>& patches) {
         text += fmt::format("{:>9} {:>12.6g}  {:<36}  {:<24}  {}{}\n", patch.triangles, patch.area,
                             fmt::format("({:.6g}, {:.6g}, {:.6g})", c.x(), c.y(), c.z()),
                             fmt::format("({:.3f}, {:.3f}, {:.3f})", n.x(), n.y(), n.z()), face_text(patch.face),
-                            patch.name);
+                            patch.name + (patch.triangles == 0 ? " (inside of the body)" : ""));
     }
     return text;
 }

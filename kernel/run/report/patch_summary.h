@@ -29,7 +29,7 @@ struct PatchSummary {
 /// Returns all patches in the order of their numbers. O(#F).
 std::vector<PatchSummary> summarize_patches(const Soup& soup);
 
-/// Returns a table with a line for each patch; the name is last.
+/// Returns a table with a line for each patch; the name is last. A patch without triangles is said to lie inside.
 std::string to_text(const std::vector<PatchSummary>& patches);
 
 /// Returns how formats spell patches that they cannot call by their names, as in "solid 1/face 1: solid_1_face_1 in

@@ -375,6 +375,9 @@ std::string mean_size_text(const RunReport& report) {
         return fmt::format("{:.2g} % of the edges are longer than the bounds", 100 * longer);
     std::string text = fmt::format("edges have {:.2f} of the wanted length on average", mean);
     if (!misses_sizes(report)) return text;
+    if (const double size = sizes.size.number(); size > report.input.diagonal)
+        return text + fmt::format("; {:.4g} is longer than the whole body ({:.4g}): is its unit another one?", size,
+                                  report.input.diagonal);
     const bool is_remeshed = report.input.remeshed && !report.input.remeshed->only_divided;
     return text + (is_remeshed ? "; the shape needs shorter ones (fewer with a larger --deviation)"
                                : "; facets of the file are finer (--surface remesh makes them as wanted)");
@@ -392,6 +395,14 @@ std::string cells_in_solids_text(const RunReport& report) {
     return text;
 }
 
+// Tells shapes with sizes of their own that have no cell.
+void add_empty_solids(ReportLines& lines, const RunReport& report) {
+    const std::vector<std::string> solids = report.size.solids();
+    const std::vector<std::int64_t>& cells = report.mesh.sizes.cells_in_solids;
+    for (std::size_t i = 0; i < std::min(solids.size(), cells.size()); ++i)
+        if (cells[i] == 0) lines.add_note("note", fmt::format("No cell lies in {} of --size-in.", solids[i]));
+}
+
 void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     const std::string parts =
         all ? "" : fmt::format(", {} part{}", report.parts.size(), report.parts.size() == 1 ? "" : "s");
@@ -400,7 +411,11 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     lines.add("mesh", fmt::format("{} tetrahedra, {} vertices{}{}", grouped(report.mesh.tets),
                                   grouped(report.mesh.vertices), nodes, parts));
     lines.add("regions", regions_text(report));
-    if (report.found_size) lines.add_note("cells", found_size_text(*report.found_size) + missed_text(report));
+    if (report.found_size) {
+        const std::string missed = missed_text(report);
+        const std::string text = found_size_text(*report.found_size) + missed;
+        missed.empty() ? lines.add("cells", text) : lines.add_note("cells", text);
+    }
     if (all) lines.add("filled", ways_text(report));
     if (all) lines.add("recovered", recovery_text(report.mesh.recovery));
     if (all && !report.mesh.improvement.is_empty()) lines.add("improved", improvement_text(report));
@@ -411,6 +426,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
     if (all && !report.mesh.sizes.empty())
         lines.add("", size_text(report.mesh.sizes, report.input.patch_names, !report.size.is_constant()));
     if (all) lines.add("", cells_in_solids_text(report));
+    add_empty_solids(lines, report);
     const Distribution& dihedral = report.mesh.quality.all.measures[0];
     const Distribution& ratio = report.mesh.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",

@@ -95,7 +95,7 @@ void put_walls_of_flow(const Input& input, std::vector<std::string>& patch_types
     const bool is_capped = input.ladder.done_by(RepairKind::caps) > 0;
     if (!input.enclosure && !is_capped) return;
     const auto is_wall = [&](const std::string& patch) {
-        if (!input.enclosure) return !patch.starts_with(cap_name);
+        if (!input.enclosure) return !is_cap(patch);
         return !input.enclosure->has_face(patch) || patch == Enclosure::ground;
     };
     std::vector<std::string> types;

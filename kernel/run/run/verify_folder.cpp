@@ -51,8 +51,13 @@ namespace {
 std::string read_report(const std::string& folder) {
     const std::string path = folder + "/report.json";
     std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored))
-        throw Error(ErrorCode::io, fmt::format("{} is not a finished run: it holds no report.json.", folder));
+    if (!std::filesystem::exists(path, ignored)) {
+        const bool is_interrupted = std::filesystem::exists(RunFolder::saved_run_file(folder), ignored);
+        throw Error(ErrorCode::io, fmt::format("{} is not a finished run: {}.", folder,
+                                               is_interrupted ? "it was interrupted, and kerf mesh --resume " + folder +
+                                                                    " goes on with it"
+                                                              : "it holds no report.json"));
+    }
     return read_file(path);
 }
 

@@ -135,7 +135,7 @@ std::int32_t choose_air(const std::vector<CellPlace>& places, const std::vector<
     if (body_in_box == 0) refuse_box("There is no body in the box of air", enclosure);
     if (air < 0) refuse_box("There is no air in the box", enclosure);
     if (body_beyond > 0)
-        notes.push_back(fmt::format("{:.2g} % of the body lie beyond the box of air, and are cut off at {}.",
+        notes.push_back(fmt::format("{:.3g} % of the body lie beyond the box of air, and are cut off at {}.",
                                     100 * body_beyond / (body_in_box + body_beyond),
                                     fmt::join(faces_crossed(enclosure), ", ")));
     if (spaces > 1)

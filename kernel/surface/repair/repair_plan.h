@@ -30,7 +30,12 @@ enum class RepairKind {
 };
 
 /// The name of the patch of a cap, before its number.
-inline constexpr const char* cap_name = "cap_";
+inline constexpr std::string_view cap_name = "cap_";
+/// Returns whether a patch has the name of a cap: "cap_1".
+inline bool is_cap(std::string_view patch) {
+    return patch.starts_with(cap_name) && patch.size() > cap_name.size() &&
+           patch.find_first_not_of("0123456789", cap_name.size()) == std::string_view::npos;
+}
 
 /// Returns whether a step prepares the surface for the others: it has an option of its own in place of a word, it takes
 /// surfaces whose facets say what they bound, too, and percentages of the steps behind it are of what it leaves.

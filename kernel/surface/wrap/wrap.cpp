@@ -106,7 +106,7 @@ std::string volume_text(const WrapReport& report) {
     text += fmt::format(", where the facets bound about {:.6g}", report.volume_of_input);
     return text + (ratio < 1 ? ": bodies that overlap count once, and where an opening is wider than the gap, only "
                                "the wall around it is filled (a larger --gap, --fill-holes or --cap closes it)"
-                             : ": hollows that nothing leads into are filled, too");
+                             : ": hollows that nothing leads into may be filled, and thin walls be thicker");
 }
 
 // Puts the wrap into the soup, in the place of its surface.

@@ -29,6 +29,8 @@ class RunPair {
     bool is_unsaved() const { return is_unsaved(now_); }
     bool is_other_unsaved() const { return pair_.other && is_unsaved(*pair_.other); }
     /// Return whether it can be saved now: nothing is being read or saved.
+    /// Returns whether cuts are being made again, or wait for it.
+    bool is_redoing() const { return background_.redo.jobs > 0 || !now_.cuts_again.empty(); }
     bool can_save() const { return is_unsaved() && is_idle(); }
     bool can_save_other() const { return is_other_unsaved() && is_idle(); }
     /// Copies that run, in the background, to a place where it stays, as kerf mesh would have written it there: only a

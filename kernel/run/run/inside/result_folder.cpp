@@ -108,7 +108,8 @@ std::vector<RunFile> list_run_files(const RunContext& run, const RunFolder& fold
 void refuse_to_lose_parts(const RunRequest& request, const Input& input, const RunFolder& folder) {
     const std::size_t finished = folder.finished_parts();
     if (finished == 0) return;
-    const std::string others = differences_of_runs(folder.saved_run_file(), request, input.file_hash);
+    const std::string others =
+        request.volume ? differences_of_runs(folder.saved_run_file(), request, input.file_hash) : "having cells";
     if (others.empty()) return;
     throw Error(
         ErrorCode::usage,
