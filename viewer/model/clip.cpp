@@ -39,14 +39,14 @@ void keep(Clip& clip, const std::vector<Vec3>& points, const Eigen::AlignedBox3d
         const double place = (clip.normal.dot(p) - range.low) / length;
         kept = {std::min(kept.low, place), std::max(kept.high, place)};
     }
-    constexpr double margin = 1e-6;  // more than rounding
+    constexpr double beyond_rounding = 1e-6;
     double& position = clip.position;
     if (clip.style == ClipStyle::layer)
         position = std::clamp((kept.low + kept.high) / 2, 0., 1.);
     else if (clip.flipped)
-        position = std::clamp(kept.low - margin, 0., position);
+        position = std::clamp(kept.low - beyond_rounding, 0., position);
     else
-        position = std::clamp(kept.high + margin, position, 1.);
+        position = std::clamp(kept.high + beyond_rounding, position, 1.);
 }
 
 }  // namespace kerf::view
