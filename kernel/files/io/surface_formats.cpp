@@ -9,7 +9,7 @@ namespace kerf {
 
 namespace {
 
-constexpr std::array table = {
+constexpr std::array rows_of_formats = {
     SurfaceFormat{"STL", ".stl"},
     SurfaceFormat{"OBJ", ".obj"},
     SurfaceFormat{"PLY", ".ply"},
@@ -32,7 +32,7 @@ bool has_word(std::string_view words, std::string_view word) {
 
 }  // namespace
 
-std::span<const SurfaceFormat> surface_formats() { return table; }
+std::span<const SurfaceFormat> surface_formats() { return rows_of_formats; }
 
 bool has_surface_ending(std::string_view name) {
     std::string lower;
@@ -42,14 +42,14 @@ bool has_surface_ending(std::string_view name) {
         if (lower.ends_with(packed)) lower.resize(lower.size() - packed.size());
     const std::size_t dot = lower.rfind('.');
     if (dot == lower.npos || dot + 1 == lower.size()) return false;
-    return std::any_of(table.begin(), table.end(),
+    return std::any_of(rows_of_formats.begin(), rows_of_formats.end(),
                        [&](const SurfaceFormat& format) { return has_word(format.endings, lower.substr(dot)); });
 }
 
 std::string words_of_surface_formats() {
     std::string text;
-    for (const SurfaceFormat& format : table)
-        text += std::string(text.empty() ? "" : &format == &table.back() ? " or " : ", ") + format.words;
+    for (const SurfaceFormat& format : rows_of_formats)
+        text += std::string(text.empty() ? "" : &format == &rows_of_formats.back() ? " or " : ", ") + format.words;
     return text;
 }
 
