@@ -253,6 +253,7 @@ TEST_F(Resume, ARunWithOtherOptionsIsRefusedUntilTheInterruptedOneIsGone) {
     const ChildResult resumed = test::run_kerf({"mesh", "--resume", folder_.file("out")});
     EXPECT_EQ(resumed.exit_code, 0) << resumed.log;
     EXPECT_GT(resumed_parts(), 0u);
+    fs::remove_all(folder_.file("out"));
     interrupt(SIGKILL);
     fs::remove_all(folder_.file("out.kerf-partial"));
     const ChildResult result = test::run_kerf(coarse("out"));
