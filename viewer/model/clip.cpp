@@ -15,7 +15,7 @@ double position_of(const Clip& clip, const Eigen::AlignedBox3d& box) {
     const double length = range.high - range.low, place = range.low + clip.position * length;
     if (!(length > 0)) return place;
     const double step = std::pow(10, std::ceil(std::log10(1e-6 * length)));
-    return std::round(place / step) * step + 0.0;  // without -0
+    return std::abs(place) < 10 * step ? 0 : std::round(place / step) * step;
 }
 
 void face(Clip& clip, const Vec3& back) {
