@@ -427,6 +427,7 @@ void add_mesh(ReportLines& lines, const RunReport& report, bool all) {
         lines.add("", size_text(report.mesh.sizes, report.input.patch_names, !report.size.is_constant()));
     if (all) lines.add("", cells_in_solids_text(report));
     add_empty_solids(lines, report);
+    if (report.mesh.quality.all.measures.empty()) return;  // nothing was measured
     const Distribution& dihedral = report.mesh.quality.all.measures[0];
     const Distribution& ratio = report.mesh.quality.all.measures[2];
     lines.add("quality", fmt::format("dihedral min {:.1f}, 1 % {:.1f}, median {:.1f} deg; radius-edge max {:.2f}",
