@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,12 +43,19 @@ RunRequest load_saved_run(const std::string& file) {
     return options;
 }
 
-bool is_readable(const std::string& saved_run_file) {
+// As differences_of_runs(); nothing for a file that cannot be read.
+std::optional<std::string> find_differences(const std::string& saved_run_file, const RunRequest& options,
+                                            const std::string& input_hash) {
     try {
-        load_saved_run(saved_run_file);
-        return true;
+        const RunRequest saved = load_saved_run(saved_run_file);
+        if (saved.input_hash != input_hash) return "the input";
+        const std::vector<OptionText> one = option_texts(saved, true), other = option_texts(options, true);
+        std::string names;
+        for (std::size_t i = 0; i < one.size(); ++i)
+            if (one[i].text != other[i].text) names += (names.empty() ? "" : ", ") + one[i].name;
+        return names;
     } catch (const Error&) {
-        return false;
+        return {};
     }
 }
 
@@ -93,24 +101,13 @@ void refuse_changed_input(const RunRequest& options, const std::string& input_ha
 }
 
 bool is_same_run(const std::string& saved_run_file, const RunRequest& options, const std::string& input_hash) {
-    std::error_code ignored;
-    return std::filesystem::exists(saved_run_file, ignored) && is_readable(saved_run_file) &&
-           differences_of_runs(saved_run_file, options, input_hash).empty();
+    const std::optional<std::string> differences = find_differences(saved_run_file, options, input_hash);
+    return differences && differences->empty();
 }
 
 std::string differences_of_runs(const std::string& saved_run_file, const RunRequest& options,
                                 const std::string& input_hash) {
-    try {
-        const RunRequest saved = load_saved_run(saved_run_file);
-        if (saved.input_hash != input_hash) return "the input";
-        const std::vector<OptionText> one = option_texts(saved, true), other = option_texts(options, true);
-        std::string names;
-        for (std::size_t i = 0; i < one.size(); ++i)
-            if (one[i].text != other[i].text) names += (names.empty() ? "" : ", ") + one[i].name;
-        return names;
-    } catch (const Error&) {
-        return "";
-    }
+    return find_differences(saved_run_file, options, input_hash).value_or("");
 }
 
 std::int32_t interrupted_part_count(const std::string& output, const std::string& input_hash) {
